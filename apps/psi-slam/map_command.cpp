@@ -124,6 +124,7 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0 && !session.broken_off())
     warn(skipped.sentence());
   for (const std::string& assumption : session.assumptions()) warn(assumption);
+  for (const std::string& fault : session.faults_of_log()) warn(fault);
   for (const std::string& unmet : session.unmet_edits()) warn("an edit was not made: " + unmet);
   if (const auto coarser = coarser_cells_text(summary.map)) warn(*coarser);
   if (const auto unmatched = unmatched_scans_text(session.result())) warn(*unmatched);

@@ -69,14 +69,6 @@ LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions 
   return options;
 }
 
-bool is_sound(const OdometryAgreement& odometry) {
-  const bool length_is_right =
-      odometry.length_ratio == 0 || (odometry.length_ratio > 0.6 && odometry.length_ratio < 1.6);
-  const bool heading_is_right =
-      odometry.heading == HeadingRelation::kAgrees || odometry.heading == HeadingRelation::kUnknown;
-  return length_is_right && heading_is_right;
-}
-
 /// Returns the field of view for make_bearings_rad(): the option, the usual value for the number of beams, or
 /// the span of the bearings.
 double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {

@@ -169,6 +169,14 @@ void compare_turns(const std::vector<Track>& tracks, OdometryAgreement& agreemen
 
 }  // namespace
 
+bool is_sound(const OdometryAgreement& odometry) {
+  const bool length_is_right =
+      odometry.length_ratio == 0 || (odometry.length_ratio > 0.6 && odometry.length_ratio < 1.6);
+  const bool heading_is_right =
+      odometry.heading == HeadingRelation::kAgrees || odometry.heading == HeadingRelation::kUnknown;
+  return length_is_right && heading_is_right;
+}
+
 std::vector<std::vector<std::size_t>> tracks_from(const std::vector<std::size_t>& starts,
                                                   std::size_t frames_in_log) {
   std::vector<std::vector<std::size_t>> tracks;

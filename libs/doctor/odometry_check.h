@@ -42,6 +42,9 @@ struct OdometryAgreement {
   double odometry_slip_rad = 0;
 };
 
+/// Returns whether units and signs of odometry are right, as far as the scans tell.
+bool is_sound(const OdometryAgreement& odometry);
+
 /// Returns a track for each start: the indices of up to 15 consecutive frames. The library that is passed to
 /// check_odometry() must hold these frames.
 std::vector<std::vector<std::size_t>> tracks_from(const std::vector<std::size_t>& starts,

@@ -205,4 +205,8 @@ void ScanLibrary::fetch(const std::filesystem::path& path, const LogOptions& opt
   }
 }
 
+void ScanLibrary::take(const std::vector<const LaserScan*>& scans) {
+  for (auto& [index, scan] : scans_) scan = *scans.at(index);
+}
+
 }  // namespace psi_slam

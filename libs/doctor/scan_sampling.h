@@ -60,6 +60,9 @@ class ScanLibrary {
   /// Reads the log once and keeps the wanted scans.
   void fetch(const std::filesystem::path& path, const LogOptions& options);
 
+  /// Keeps the wanted ones of all scans of a log.
+  void take(const std::vector<const LaserScan*>& scans);
+
   const LaserScan& at(std::size_t index) const { return scans_.at(index); }
 
  private:

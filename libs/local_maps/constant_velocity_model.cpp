@@ -78,6 +78,7 @@ PredictedMotion ConstantVelocityModel::predict(TimeUs time_us) const {
   if (!last_) return predicted;
   const double passed_s = this->passed_s(time_us);
   const double unmatched_s = this->unmatched_s(time_us);
+  predicted.duration_s = passed_s;
   if (!speed_ || unmatched_s > options_.longest_s) {
     predicted.sigma_m = options_.unknown_speed_mps * passed_s;
     predicted.sigma_rad = options_.unknown_turn_radps * passed_s;

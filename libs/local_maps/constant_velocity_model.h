@@ -22,6 +22,7 @@ struct ConstantVelocityOptions {
 
 struct PredictedMotion {
   mrpt::math::TPose2D motion;  ///< motion along an arc, in the frame of the last pose
+  double duration_s = 0;       ///< time since the last pose
   double sigma_m = 0;          ///< standard deviations of the motion since the last pose
   double sigma_rad = 0;
   double sigma_since_match_m = 0;  ///< standard deviations of the motion since the last matched pose

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "frames/straightened_frame.h"
 #include "local_maps/correction_support.h"
 
 namespace psi_slam {
@@ -72,7 +73,8 @@ ScanPoints coarse_scan(const ScanPoints& scan) {
 FrontEnd::FrontEnd(const FrontEndOptions& options)
     : options_(options), matcher_(matcher_options(options)), constant_velocity_(options.constant_velocity) {}
 
-FrontEndStep FrontEnd::add(const Frame& frame, bool may_be_lost) {
+FrontEndStep FrontEnd::add(const Frame& recorded, bool may_be_lost) {
+  const Frame frame = straightened(recorded);
   FrontEndStep step;
   step.points = std::make_shared<const ScanPoints>(matching_points(frame, options_.scan));
   const Motion motion = motion_to(frame);
@@ -98,6 +100,13 @@ FrontEndStep FrontEnd::add(const Frame& frame, bool may_be_lost) {
   last_local_T_robot_ = step.local_T_robot;
   misses_ = step.matched ? 0 : misses_ + 1;
   return step;
+}
+
+Frame FrontEnd::straightened(Frame frame) const {
+  if (frame.has_odometry) return frame;
+  const PredictedMotion predicted = constant_velocity_.predict(frame.time_us);
+  straighten(frame, predicted.motion, predicted.duration_s);
+  return frame;
 }
 
 FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {

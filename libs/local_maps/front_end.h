@@ -165,6 +165,9 @@ class FrontEnd {
     bool after_gap = false;      ///< scans are missing before this scan
     bool was_restarted = false;  ///< odometry began again at zero, so the motion is not measured
   };
+  /// Removes the motion during the sweep, as the constant-velocity model predicts it, from the scans of a
+  /// frame without odometry.
+  Frame straightened(Frame frame) const;
   Motion motion_to(const Frame& frame) const;
   /// Predicts the motion by the constant-velocity model, for scans without odometry.
   Motion constant_velocity_motion(TimeUs time_us) const;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "frames/pose_operations.h"
+#include "frames/straightened_frame.h"
 #include "mapping/carried_frames.h"
 #include "mapping/unplaced_runs.h"
 #include "pose_graph/information_matrix.h"
@@ -79,6 +80,7 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   record.node = step.node;
   record_factor(record, step);
 
+  if (has_map) straighten_last_scan(frame, step.local_T_robot);
   result_.log.push_back(std::move(frame));
   if (step.node) {
     add_node(step, result_.frames.size());
@@ -90,6 +92,15 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   result_.frames.push_back(record);
   if (step.node) serve_waiting_edits();
   return result_.frames.back();
+}
+
+// Removes the motion during the sweep from the last scan if it has no odometry, now that the motion to the
+// next scan is known.
+void Mapper::Implementation::straighten_last_scan(const Frame& next, const TPose2D& local_T_next) {
+  Frame& last = result_.log.back();
+  if (last.has_odometry) return;
+  straighten(last, local_T_next - result_.frames.back().front_end_T_robot,
+             seconds(next.time_us - last.time_us));
 }
 
 void Mapper::Implementation::begin_run(const RunStart& start) {
@@ -252,8 +263,10 @@ void Mapper::Implementation::refine_poses(FinalProgress& progress) {
   scans.node_frames = result_.node_frames;
   scans.points = [&](std::size_t frame) {
     const std::optional<std::size_t>& node = result_.frames[frame].node;
-    return node ? *keyframes_.nodes[*node].points
-                : matching_points(result_.log[frame], options_.front_end.scan);
+    // Without odometry, the log holds scans that were straightened with the motion after them.
+    return node && result_.log[frame].has_odometry
+               ? *keyframes_.nodes[*node].points
+               : matching_points(result_.log[frame], options_.front_end.scan);
   };
   back_end_.refine(scans, graph_, progress);
   for (std::size_t i = 0; i < result_.frames.size(); ++i)

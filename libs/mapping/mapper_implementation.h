@@ -42,6 +42,7 @@ class Mapper::Implementation {
   };
 
   void rebase_odometry(FrameRecord& record);
+  void straighten_last_scan(const Frame& next, const mrpt::math::TPose2D& local_T_next);
   void record_factor(FrameRecord& record, const FrontEndStep& step);
   void add_node(const FrontEndStep& step, std::size_t frame);
   void join_run();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/file_checksum.h"
+#include "doctor/quick_check.h"
 #include "exports/interruptions.h"
 #include "exports/unmatched_scans.h"
 #include "frames/log_reader.h"
@@ -126,6 +127,8 @@ struct MappingSession::Members {
   State state = State::kReading;
   MappingResult result;
   std::optional<std::string> broken_off;
+  std::vector<std::string> faults;  ///< see faults_of_log()
+  std::size_t scans_checked = 0;    ///< number of scans for which `faults` was determined
   StageClock reading_clock{"read log"};
   SessionProgress::Phase phase = SessionProgress::Phase::kMapping;
   double phase_began_s = 0;  ///< value of work_s when the phase began
@@ -225,6 +228,8 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
     return goes_on;
   };
   m.result = m.mapper->finish(progress, m.after_finish);
+  if (std::exchange(m.scans_checked, m.result.log.size()) != m.result.log.size())
+    m.faults = quick_check(m.result.log, log_options(m.settings));
   m.enter(Members::State::kFinished);
   if (m.after_finish == Mapper::AfterFinish::kNothing) m.mapper.reset();
   m.result.stages.insert(m.result.stages.begin(), m.reading_clock.timing());
@@ -477,12 +482,17 @@ std::vector<std::string> MappingSession::assumptions() const {
   return assumptions;
 }
 
+const std::vector<std::string>& MappingSession::faults_of_log() const {
+  return m_->faults;
+}
+
 std::vector<std::string> MappingSession::warnings() const {
   std::vector<std::string> warnings = m_->settings_warnings;
   for (const std::string& warning : warnings_of_logs_before()) warnings.push_back(warning);
   if (m_->broken_off) warnings.push_back(*m_->broken_off);
   if (const SkippedLines skipped = skipped_lines(); skipped.count > 0) warnings.push_back(skipped.sentence());
   for (const std::string& assumption : assumptions()) warnings.push_back(assumption);
+  for (const std::string& fault : faults_of_log()) warnings.push_back(fault);
   for (const std::string& complaint : unmet_edits()) warnings.push_back("an edit was not made: " + complaint);
   if (const auto unmatched = unmatched_scans_text(m_->result)) warnings.push_back(*unmatched);
   for (const std::string& interruption : interruption_texts(m_->result)) warnings.push_back(interruption);

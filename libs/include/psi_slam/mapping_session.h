@@ -115,8 +115,13 @@ class MappingSession {
   /// without odometry; one sentence each.
   std::vector<std::string> assumptions() const;
 
+  /// Faults of odometry, laser and time stamps that a quick check of the log found, one sentence each with
+  /// its remedy. Found by finish().
+  const std::vector<std::string>& faults_of_log() const;
+
   /// All warnings about this run, one sentence each: renamed settings, damaged logs, skipped messages,
-  /// assumptions() and edits that could not be made. After finish(), also scans that matched no local map.
+  /// assumptions(), faults_of_log() and edits that could not be made. After finish(), also scans that matched
+  /// no local map.
   std::vector<std::string> warnings() const;
 
   /// Number of runs through the building: this run and the runs merged before it.

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/quick_check.h"
+
+#include <utility>
+
+#include "doctor/input_doctor.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr std::size_t kTracks = 30;
+constexpr std::size_t kJumps = 30;
+constexpr std::size_t kRevisits = 60;
+
+/// Compares odometry with the alignment of a few scans. `scans` are in the order of the marks.
+void compare_odometry_with(const std::vector<const LaserScan*>& scans, LogDiagnosis& diagnosis) {
+  const std::vector<FrameMark>& marks = diagnosis.marks;
+  const auto tracks = tracks_from(frames_in_motion(marks, kTracks), marks.size());
+  const auto suspects = suspected_jumps(marks, diagnosis.facts.time.median_period_s, kJumps);
+  const auto revisits = revisiting_pairs(marks, 0.5, 0.5, 30, kRevisits);
+  ScanLibrary library;
+  for (const auto& track : tracks) library.want(track);
+  library.want(suspects);
+  library.want(revisits);
+  library.take(scans);
+  diagnosis.odometry = check_odometry(marks, tracks, library);
+  diagnosis.odometry_is_sound = is_sound(diagnosis.odometry);
+  if (!diagnosis.odometry_is_sound) return;
+  diagnosis.jumps = confirm_jumps(marks, suspects, library);
+  diagnosis.revisits = check_revisits(marks, revisits, library);
+}
+
+}  // namespace
+
+std::vector<std::string> quick_check(const std::vector<Frame>& log, const LogOptions& options) {
+  LogFactsCollector collector;
+  std::vector<const LaserScan*> scans;
+  for (const Frame& frame : log) {
+    if (frame.scan.laser != 0 || frame.scan.ranges_m.empty()) continue;
+    collector.add(frame, frame.scan.max_range_m);
+    scans.push_back(&frame.scan);
+  }
+  if (scans.empty()) return {};
+  LogDiagnosis diagnosis;
+  diagnosis.options = options;
+  diagnosis.facts = collector.facts();
+  diagnosis.marks = collector.marks();
+  if (diagnosis.facts.scans_without_odometry == 0) compare_odometry_with(scans, diagnosis);
+  std::vector<std::string> faults;
+  for (Finding& finding : judge(diagnosis)) {
+    if (finding.severity != Severity::kWarning) continue;
+    faults.push_back(finding.remedy.empty() ? std::move(finding.sentence)
+                                            : finding.sentence + ". Remedy: " + finding.remedy);
+  }
+  return faults;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/quick_check.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "psi_slam/open_log.h"
+#include "shared_logs.h"
+#include "simulated_run.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::vector<Frame> frames_of(const SimulatedRun& run) {
+  std::vector<Frame> frames;
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    Frame frame;
+    frame.index = i;
+    frame.time_us = 1'000'000'000 + 200'000 * static_cast<TimeUs>(i);
+    frame.odom_T_robot = run.odometry[i];
+    frame.scan = run.scan(i);
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+std::vector<std::string> faults_after(const std::function<void(Frame&)>& change) {
+  std::vector<Frame> frames = frames_of(round_trips(2));
+  for (Frame& frame : frames) change(frame);
+  return quick_check(frames, {});
+}
+
+TEST(QuickCheck, finds_nothing_in_a_sound_log) {
+  EXPECT_THAT(faults_after([](Frame&) {}), IsEmpty());
+}
+
+TEST(QuickCheck, finds_a_mirrored_laser) {
+  const auto faults = faults_after(
+      [](Frame& frame) { std::reverse(frame.scan.ranges_m.begin(), frame.scan.ranges_m.end()); });
+  EXPECT_THAT(faults, ElementsAre(HasSubstr("log.mirrored = true")));
+}
+
+TEST(QuickCheck, finds_wrong_units_of_odometry) {
+  EXPECT_THAT(faults_after([](Frame& frame) {
+                frame.odom_T_robot.x *= 1000;
+                frame.odom_T_robot.y *= 1000;
+              }),
+              ElementsAre(HasSubstr("millimetres")));
+}
+
+TEST(QuickCheck, finds_a_laser_that_looks_backwards) {
+  EXPECT_THAT(faults_after([](Frame& frame) { frame.scan.robot_T_laser.phi = M_PI; }),
+              ElementsAre(HasSubstr("log.laser_yaw_deg = ")));
+}
+
+TEST(QuickCheck, finds_a_maximum_range_that_is_too_small) {
+  EXPECT_THAT(faults_after([](Frame& frame) {
+                for (float& range : frame.scan.ranges_m)
+                  if (range > 1) range = std::numeric_limits<float>::infinity();
+              }),
+              testing::Contains(HasSubstr("log.max_range_m")));
+}
+
+TEST(QuickCheck, needs_no_odometry_and_no_scan) {
+  EXPECT_THAT(faults_after([](Frame& frame) { frame.has_odometry = false; }), IsEmpty());
+  EXPECT_THAT(quick_check({}, {}), IsEmpty());
+}
+
+class QuickCheckOfRealLogs : public testing::TestWithParam<const char*> {};
+
+TEST_P(QuickCheckOfRealLogs, finds_nothing) {
+  const auto path = shared_file(std::string(GetParam()) + ".clf.gz");
+  if (!path) GTEST_SKIP() << kNeedsData;
+  std::vector<Frame> frames;
+  const auto log = open_log(*path, {});
+  while (auto frame = log->next()) frames.push_back(*std::move(frame));
+  EXPECT_THAT(quick_check(frames, {}), IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Logs, QuickCheckOfRealLogs,
+                         testing::Values("aces", "fr079", "intel", "mit-csail", "mit-killian"),
+                         [](const auto& tested) {
+                           std::string name = tested.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace psi_slam

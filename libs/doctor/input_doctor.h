@@ -14,6 +14,7 @@
 #include "doctor/log_facts.h"
 #include "doctor/odometry_check.h"
 #include "doctor/pair_alignment.h"
+#include "frames/own_body.h"
 #include "psi_slam/log_options.h"
 
 namespace psi_slam {
@@ -37,6 +38,7 @@ struct LogDiagnosis {
   LogFacts facts;
   LogOptions options;                               ///< options used to read the log
   BeamAngles used_beam_angles = BeamAngles::kAuto;  ///< kAuto if the log states its angles
+  std::vector<BodySector> own_body;                 ///< beams that see the robot itself
   OdometryAgreement odometry;
   bool odometry_is_sound = false;  ///< units and signs are right; if not, the next five members are not set
   LostReversals reversals;

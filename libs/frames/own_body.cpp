@@ -22,9 +22,8 @@ constexpr std::size_t kReachCells = 100;  // ranges below kReach_m
 constexpr std::size_t kLeastFarCells = 30;
 constexpr double kMaskedTolerances = 2;  // the mask includes readings that scatter more than usual
 constexpr std::size_t kLeastFarReadings = 20;
-constexpr std::size_t kMostScans = 20'000;
 constexpr std::size_t kMostSectorsInText = 5;
-static_assert(OwnBodyFinder::kKeyScans <= std::numeric_limits<std::uint8_t>::max());
+static_assert(OwnBodyFinder::kMostKeyScans <= std::numeric_limits<std::uint8_t>::max());
 
 /// Largest difference between a reading of the body and its range.
 double tolerance_m(double range_m) {
@@ -58,15 +57,6 @@ bool scene_changed(const std::vector<float>& before_m, const std::vector<float>&
     if (std::abs(a - b) > 0.1 + 0.1 * std::min(a, b)) ++changed;
   }
   return far >= kLeastFarReadings && static_cast<double>(changed) >= least_share * static_cast<double>(far);
-}
-
-/// Turn of the robot between two frames; empty if neither odometry nor a gyroscope tells.
-std::optional<double> turn_rad(const Frame& from, const Frame& to) {
-  if (from.has_odometry && to.has_odometry)
-    return mrpt::math::wrapToPi(to.odom_T_robot.phi - from.odom_T_robot.phi);
-  if (from.imu_heading_rad && to.imu_heading_rad)
-    return mrpt::math::wrapToPi(*to.imu_heading_rad - *from.imu_heading_rad);
-  return std::nullopt;
 }
 
 /// Range of the body along a beam, metres; 0 if the beam does not see it. `counts` are the beam's readings in
@@ -176,45 +166,62 @@ void OwnBodyMask::apply(LaserScan& scan) const {
   }
 }
 
-OwnBodyFinder::Laser::Laser(const std::vector<float>& bearings_rad)
-    : bins(bearings_rad), counts(bins.size() * kCells) {}
+OwnBodyFinder::Laser::Laser(const LaserScan& scan)
+    : bins(*scan.bearings_rad), robot_T_laser(scan.robot_T_laser), counts(bins.size() * kCells) {}
 
-bool OwnBodyFinder::is_key_scan(const Laser& laser, const Frame& frame, const std::vector<float>& ranges_m) {
+/// Turn of the robot from one scan to another; empty if neither odometry nor a gyroscope tells.
+std::optional<double> OwnBodyFinder::turn_rad(const Motion& from, const Motion& to) {
+  if (from.has_odometry && to.has_odometry)
+    return mrpt::math::wrapToPi(to.odom_T_robot.phi - from.odom_T_robot.phi);
+  if (from.imu_heading_rad && to.imu_heading_rad)
+    return mrpt::math::wrapToPi(*to.imu_heading_rad - *from.imu_heading_rad);
+  return std::nullopt;
+}
+
+bool OwnBodyFinder::is_key_scan(const Laser& laser, const Motion& motion,
+                                const std::vector<float>& ranges_m) {
   if (laser.key_scans == 0) return true;
-  const std::optional<double> turn = turn_rad(laser.key, frame);
+  const std::optional<double> turn = turn_rad(laser.key, motion);
   if (turn && std::abs(*turn) < kKeyTurn_rad) return false;
   return scene_changed(laser.key_ranges_m, ranges_m, turn ? 0.5 : 0.75);
 }
 
-void OwnBodyFinder::take_key_scan(Laser& laser, const Frame& frame, std::vector<float> ranges_m) {
+void OwnBodyFinder::take_key_scan(Laser& laser, const Motion& motion, std::vector<float> ranges_m) {
   for (std::size_t bin = 0; bin < ranges_m.size(); ++bin) {
     const double cell = std::floor(static_cast<double>(ranges_m[bin]) / kCell_m);
     if (cell >= 0 && cell < static_cast<double>(kCells))
       ++laser.counts[bin * kCells + static_cast<std::size_t>(cell)];
   }
   if (laser.key_scans > 0) {
-    const mrpt::math::TPose2D motion = frame.odom_T_robot - laser.key.odom_T_robot;
-    laser.travelled_m += std::hypot(motion.x, motion.y);
-    laser.knows_travel = laser.knows_travel && frame.has_odometry && laser.key.has_odometry;
-    laser.knows_headings = laser.knows_headings && turn_rad(laser.key, frame).has_value();
+    const mrpt::math::TPose2D step = motion.odom_T_robot - laser.key.odom_T_robot;
+    laser.travelled_m += std::hypot(step.x, step.y);
+    laser.knows_travel = laser.knows_travel && motion.has_odometry && laser.key.has_odometry;
+    laser.knows_headings = laser.knows_headings && turn_rad(laser.key, motion).has_value();
   }
   ++laser.key_scans;
-  laser.key = frame;
+  laser.key = motion;
   laser.key_ranges_m = std::move(ranges_m);
 }
 
-void OwnBodyFinder::add(const Frame& frame) {
-  const LaserScan& scan = frame.scan;
+void OwnBodyFinder::add(const LaserScan& scan, const Motion& motion) {
   if (scan.ranges_m.empty()) return;
-  Laser& laser = lasers_.try_emplace(scan.laser, *scan.bearings_rad).first->second;
-  if (laser.key_scans == kKeyScans) return;
+  Laser& laser = lasers_.try_emplace(scan.laser, scan).first->second;
+  if (laser.key_scans == kMostKeyScans) return;
   std::vector<float> ranges_m = ranges_by_bin(scan, laser.bins);
-  if (is_key_scan(laser, frame, ranges_m)) take_key_scan(laser, frame, std::move(ranges_m));
+  if (is_key_scan(laser, motion, ranges_m)) take_key_scan(laser, motion, std::move(ranges_m));
+}
+
+void OwnBodyFinder::add(const Frame& frame) {
+  ++frames_;
+  for_each_scan(frame, frame.odom_T_robot, [&](const LaserScan& scan, const mrpt::math::TPose2D& pose) {
+    add(scan, {frame.has_odometry, pose, frame.imu_heading_rad});
+  });
 }
 
 bool OwnBodyFinder::settled() const {
+  if (frames_ >= kMostFrames) return true;
   return !lasers_.empty() && std::all_of(lasers_.begin(), lasers_.end(), [](const auto& laser) {
-    return laser.second.key_scans == kKeyScans;
+    return laser.second.key_scans == kMostKeyScans;
   });
 }
 
@@ -222,12 +229,12 @@ OwnBodyMask OwnBodyFinder::mask() const {
   OwnBodyMask mask;
   for (const auto& [number, laser] : lasers_) {
     if (laser.knows_travel && laser.travelled_m < kLeastTravel_m) continue;
-    const std::size_t least_seen = laser.knows_headings ? kLeastSeen : 2 * kLeastSeen;
+    const std::size_t least_seen = laser.knows_headings ? kLeastSeen : kLeastSeenWithoutHeading;
     std::vector<double> ranges_m;
     for (std::size_t bin = 0; bin < laser.bins.size(); ++bin)
       ranges_m.push_back(body_range_m(&laser.counts[bin * kCells], least_seen));
     const bool sees_body = std::any_of(ranges_m.begin(), ranges_m.end(), [](double r) { return r > 0; });
-    if (sees_body) mask.add_laser(number, laser.key.scan.robot_T_laser, laser.bins, ranges_m);
+    if (sees_body) mask.add_laser(number, laser.robot_T_laser, laser.bins, ranges_m);
   }
   return mask;
 }
@@ -235,13 +242,12 @@ OwnBodyMask OwnBodyFinder::mask() const {
 OwnBodyMask find_own_body(FrameSource& log) {
   OwnBodyFinder finder;
   try {
-    for (std::size_t scans = 0; scans < kMostScans; ++scans) {
+    while (!finder.settled()) {
       const std::optional<Frame> frame = log.next();
       if (!frame) break;
       finder.add(*frame);
-      if (finder.settled()) break;
     }
-  } catch (const UserError&) {  // whoever maps the log gets this error too
+  } catch (const UserError&) {  // damage is reported where the log is mapped or checked
   }
   return finder.mask();
 }

@@ -7,11 +7,11 @@
 // kKeyTurn_rad (by odometry or else by the gyroscope), and half of the readings beyond kFar_m changed. If the
 // heading is unknown, three quarters of these readings changed.
 //
-// A beam sees the body at range r if kLeastSeen key scans show r (twice as many if the heading is unknown),
-// and if these are kLeastShare of all key scans in which the beam measured less than 2 r. The second
-// condition excludes walls: a wall beside the robot has range r / cos(turn) after a turn, so a beam that
-// keeps a constant distance from walls measures all ranges from r to 2 r at each corner. The condition allows
-// for beams that see past the body at times, because it ignores long ranges.
+// A beam sees the body at range r if kLeastSeen key scans show r (kLeastSeenWithoutHeading if the heading is
+// unknown), and if these are kLeastShare of all key scans in which the beam measured less than 2 r. The
+// second condition excludes walls: a wall beside the robot has range r / cos(turn) after a turn, so a beam
+// that keeps a constant distance from walls measures all ranges from r to 2 r at each corner. The condition
+// allows for beams that see past the body at times, because it ignores long ranges.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -99,25 +99,36 @@ class OwnBodyFinder {
   static constexpr double kKeyTurn_rad = radians_from_degrees(20);
   static constexpr double kFar_m = 2.0;
   static constexpr double kReach_m = 1.0;  ///< the body is at most this far from the laser
-  static constexpr std::size_t kKeyScans = 60;
+  static constexpr std::size_t kMostFrames = 10'000;
+  static constexpr std::size_t kMostKeyScans = 60;
   static constexpr std::size_t kLeastSeen = 15;
+  static constexpr std::size_t kLeastSeenWithoutHeading = 40;
   static constexpr double kLeastShare = 0.8;
   static constexpr double kLeastTravel_m = 2.0;  ///< least path along the key scans, where there is odometry
 
-  /// Takes the scan of a frame, in the order of the log. Ignores companions.
+  /// Takes the scans of all lasers in a frame. Call it in the order of the log.
   void add(const Frame& frame);
 
-  /// Returns whether every laser so far has kKeyScans key scans. Further scans change nothing.
+  /// Returns whether further frames would change nothing: kMostFrames frames were added, or every laser so
+  /// far has kMostKeyScans key scans.
   bool settled() const;
 
   OwnBodyMask mask() const;
 
  private:
+  /// What is known of the robot's motion until a scan.
+  struct Motion {
+    bool has_odometry = false;
+    mrpt::math::TPose2D odom_T_robot;
+    std::optional<double> imu_heading_rad;
+  };
+
   struct Laser {
-    explicit Laser(const std::vector<float>& bearings_rad);
+    explicit Laser(const LaserScan& scan);
 
     BearingBins bins;
-    Frame key;                         ///< last key scan
+    mrpt::math::TPose2D robot_T_laser;
+    Motion key;                        ///< motion until the last key scan
     std::vector<float> key_ranges_m;   ///< ranges of the last key scan, by bin
     std::vector<std::uint8_t> counts;  ///< key scans by bin and range, see kCells
     std::size_t key_scans = 0;
@@ -126,14 +137,16 @@ class OwnBodyFinder {
     bool knows_travel = true;    ///< whether the path between all key scans is known
   };
 
-  static bool is_key_scan(const Laser& laser, const Frame& frame, const std::vector<float>& ranges_m);
-  static void take_key_scan(Laser& laser, const Frame& frame, std::vector<float> ranges_m);
+  static std::optional<double> turn_rad(const Motion& from, const Motion& to);
+  static bool is_key_scan(const Laser& laser, const Motion& motion, const std::vector<float>& ranges_m);
+  static void take_key_scan(Laser& laser, const Motion& motion, std::vector<float> ranges_m);
+  void add(const LaserScan& scan, const Motion& motion);
 
+  std::size_t frames_ = 0;
   std::map<std::size_t, Laser> lasers_;
 };
 
-/// Reads a log, whose frames hold one scan each, until the finder has settled, but at most 20,000 scans.
-/// Stops without an error where the log is damaged.
+/// Reads a log until the finder has settled. Stops without an error where the log is damaged.
 OwnBodyMask find_own_body(FrameSource& log);
 
 }  // namespace psi_slam

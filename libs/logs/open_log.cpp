@@ -56,12 +56,7 @@ std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const L
   const bool several_lasers = reads_several_lasers(options, format) || reader->contents().several_lasers;
   std::unique_ptr<FrameSource> source = std::move(reader);
   if (several_lasers) source = std::make_unique<SynchronizedSource>(std::move(source));
-  if (options.mask_own_body) {
-    auto open_again = [path, options]() -> std::unique_ptr<FrameSource> {
-      return open_log_reader(path, options);
-    };
-    source = std::make_unique<BodyMaskedSource>(std::move(source), std::move(open_again));
-  }
+  if (options.mask_own_body) source = std::make_unique<BodyMaskedSource>(std::move(source));
   // Only bags may state a sweep time.
   const bool may_be_skewed = options.sweep_time_s ? *options.sweep_time_s > 0 : is_bag(format);
   if (may_be_skewed) source = std::make_unique<DeskewedSource>(std::move(source), options.sweep_time_s);

@@ -78,7 +78,7 @@ TEST(RobotBodyInALog, leaves_no_ghosts_in_the_map) {
   };
   const Map clean = map_of(*open(false, false));
   const Map unmasked = map_of(*open(false, true));
-  BodyMaskedSource source(open(false, true), [&] { return open(false, true); });
+  BodyMaskedSource source(open(false, true));
   const Map masked = map_of(source);
 
   const OccupiedCells with_ghosts = compare(*unmasked.grid, *clean.grid);

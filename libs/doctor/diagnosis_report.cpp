@@ -70,6 +70,18 @@ Json facts_json(const LogFacts& facts) {
           {"scans_of_other_lasers", facts.contents.other_lasers}};
 }
 
+Json own_body_json(const std::vector<BodySector>& sectors) {
+  Json json = Json::array();
+  for (const BodySector& sector : sectors) {
+    json.push_back({{"beams", sector.beams},
+                    {"from_rad", sector.from_rad},
+                    {"to_rad", sector.to_rad},
+                    {"nearest_m", sector.nearest_m},
+                    {"farthest_m", sector.farthest_m}});
+  }
+  return json;
+}
+
 Json beam_angles_json(const BeamAngleStudy& study) {
   Json fits = Json::array();
   for (const BeamAngleFit& fit : study.fits) {
@@ -196,6 +208,7 @@ std::vector<std::string> describe(const LogDiagnosis& diagnosis) {
 
 Json to_json(const LogDiagnosis& diagnosis) {
   Json json{{"log", diagnosis.path.string()}, {"facts", facts_json(diagnosis.facts)}};
+  json["own_body"] = own_body_json(diagnosis.own_body);
   const OdometryAgreement& odometry = diagnosis.odometry;
   json["odometry_check"] = {{"sound", diagnosis.odometry_is_sound},
                             {"tracks", odometry.tracks},

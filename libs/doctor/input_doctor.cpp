@@ -9,7 +9,7 @@
 
 #include "frames/laser_choice.h"
 #include "frames/log_format.h"
-#include "psi_slam/open_log.h"
+#include "frames/log_reader.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_plan.h"
 
@@ -30,7 +30,8 @@ struct FirstPass {
 };
 
 FirstPass read_once(const std::filesystem::path& path, const LogOptions& options) {
-  const auto first = open_log(path, options)->next();
+  check_log_options(options);
+  const auto first = open_log_reader(path, options)->next();
   LogOptions unlimited = options;
   unlimited.max_range_m = kUnlimited_m;
   unlimited.min_range_m = 0;
@@ -131,6 +132,7 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
   diagnosis.options.sweep_time_s = 0;  // judge the log as recorded
   FirstPass pass = read_once(path, diagnosis.options);
   diagnosis.facts = pass.facts;
+  diagnosis.own_body = find_own_body(*open_log_reader(path, diagnosis.options)).sectors();
   if (!pass.facts.contents.states_beam_angles) {
     diagnosis.used_beam_angles =
         options.beam_angles == BeamAngles::kAuto ? usual_beam_angles(pass.facts.beams) : options.beam_angles;

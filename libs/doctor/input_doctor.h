@@ -14,6 +14,7 @@
 #include "doctor/log_facts.h"
 #include "doctor/odometry_check.h"
 #include "doctor/pair_alignment.h"
+#include "frames/own_body.h"
 #include "logs/sweep_direction_study.h"
 #include "psi_slam/log_options.h"
 
@@ -39,6 +40,7 @@ struct LogDiagnosis {
   SweepDirectionStudy sweep_direction;              ///< without scans if no sweep time is stated
   LogOptions options;                               ///< options used to read the log
   BeamAngles used_beam_angles = BeamAngles::kAuto;  ///< kAuto if the log states its angles
+  std::vector<BodySector> own_body;                 ///< beams that see the robot itself
   OdometryAgreement odometry;
   bool odometry_is_sound = false;  ///< units and signs are right; if not, the next five members are not set
   LostReversals reversals;

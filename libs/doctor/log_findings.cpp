@@ -41,6 +41,7 @@ class Judge {
     judge_time();
     judge_ranges();
     judge_sweep();
+    judge_own_body();
     judge_motion();
     if (diagnosis_.odometry_is_sound) {
       judge_reversals();
@@ -175,6 +176,17 @@ class Judge {
     } else {
       note("sweep_direction", sentence + "as used");
     }
+  }
+
+  void judge_own_body() {
+    const std::vector<BodySector>& sectors = diagnosis_.own_body;
+    if (sectors.empty()) return;
+    const bool one_beam = sectors.size() == 1 && sectors.front().beams == 1;
+    const std::string sentence = text_of(sectors) + (one_beam ? " sees" : " see") + " the robot itself";
+    if (diagnosis_.options.mask_own_body)
+      note("own_body", sentence + "; mapping ignores these readings unless log.mask_own_body = off");
+    else
+      warn("own_body", sentence, "log.mask_own_body = auto");
   }
 
   void judge_motion() {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "frames/body_masked_source.h"
 #include "frames/deskewed_source.h"
 #include "frames/laser_choice.h"
 #include "frames/log_reader.h"
@@ -92,6 +93,7 @@ std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const L
     source = std::move(beginning);
   }
   if (several_lasers) source = std::make_unique<SynchronizedSource>(std::move(source));
+  if (options.mask_own_body) source = std::make_unique<BodyMaskedSource>(std::move(source));
   if (may_be_bent) source = std::make_unique<DeskewedSource>(std::move(source), std::move(timing));
   if (options.every_nth_scan == 1) return source;
   return std::make_unique<ThinnedSource>(std::move(source), options.every_nth_scan);

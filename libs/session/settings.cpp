@@ -63,8 +63,8 @@ void describe_log(OptionTable& table, Settings& settings) {
               "Whether the first or the last beam of a scan is measured first. auto: as the scans show in "
               "turns, otherwise as the log states.")
       .choice("mask_own_body", log.mask_own_body, {{"auto", true}, {"off", false}},
-              "Ignores readings that stay the same while the robot moves, because the laser sees the robot "
-              "itself.")
+              "Ignores readings of the robot itself: short ranges that stay the same while the robot turns. "
+              "off: uses all readings.")
       .text(
           "scan_topic", log.scan_topic,
           "ROS bags: topic of the scans. Several with commas, or all. Empty: log.laser, or all topics whose "

@@ -64,6 +64,22 @@ class PsiSlamApp : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(PsiSlamApp, says_which_readings_of_the_robot_itself_it_ignores) {
+  std::vector<std::string> lines = room_log_lines(150);
+  for (std::string& line : lines) line = with_ranges(line, 20, 28, "0.35");
+  const std::string log = write_lines(folder_.path() / "mast.log", lines).string();
+  const std::string sentence =
+      "the laser at x 0.00 m, y 0.00 m sees the robot itself in 8.0 degrees (8 beams from -70.0 to -63.0 "
+      "degrees at 0.35 m), so these readings are ignored. Keep them with log.mask_own_body=off";
+  const AppRun run = map(log, "masked");
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(run.err, HasSubstr("psi-slam: " + sentence + "\n"));
+  EXPECT_THAT(bytes_of(output("masked") / "report.html"), HasSubstr(sentence));
+  EXPECT_THAT(Json::parse(bytes_of(output("masked") / "summary.json"))["warnings"],
+              testing::Contains(sentence));
+  EXPECT_THAT(map(log, "unmasked", {"--set", "log.mask_own_body=off"}).err, Not(HasSubstr("itself")));
+}
+
 TEST_F(PsiSlamApp, maps_the_quickstart_log) {
   if (!fs::exists(kQuickstartLog)) GTEST_SKIP() << kNeedsQuickstartLog;
   const AppRun run = map(kQuickstartLog, "out");

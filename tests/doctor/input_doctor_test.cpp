@@ -5,11 +5,13 @@
 #include <zlib.h>
 
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "bag_files.h"
 #include "log_files.h"
 #include "rawlog_files.h"
+#include "robot_body.h"
 #include "shared_logs.h"
 #include "simulated_run.h"
 #include "swinging_robot.h"
@@ -87,6 +89,27 @@ TEST_F(InputDoctorTest, finds_nothing_wrong_with_a_sound_log) {
   EXPECT_EQ(diagnosis.beam_angles.best, BeamAngles::kLeftOpen);
   EXPECT_EQ(finding_of(diagnosis, "beam_angles").sentence, "beam angles: left_open fits best, as used");
   EXPECT_EQ(diagnosis.findings.size(), 1U);
+}
+
+TEST_F(InputDoctorTest, finds_the_body_of_the_robot) {
+  SimulatedRun run = round_trips(2);
+  run.put_into = RobotBody::put_into;
+  const std::string sentence =
+      "8 beams from -45.0 to -38.0 degrees at 0.35 m, 2 beams from 45.0 to 46.0 degrees at 0.60 m see the "
+      "robot itself";
+  const LogDiagnosis diagnosis = diagnose_run(run);
+  EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
+  EXPECT_EQ(finding_of(diagnosis, "own_body").sentence,
+            sentence + "; mapping ignores these readings unless log.mask_own_body = off");
+  EXPECT_EQ(to_json(diagnosis)["own_body"].size(), 2U);
+  EXPECT_EQ(to_json(diagnosis)["own_body"][0]["beams"], 8);
+
+  LogOptions unmasked;
+  unmasked.mask_own_body = false;
+  const LogDiagnosis warned = diagnose_run(run, unmasked);
+  EXPECT_THAT(warnings_of(warned), testing::ElementsAre("own_body"));
+  EXPECT_EQ(finding_of(warned, "own_body").sentence, sentence);
+  EXPECT_EQ(finding_of(warned, "own_body").remedy, "log.mask_own_body = auto");
 }
 
 TEST_F(InputDoctorTest, ignores_topics_for_other_formats) {

@@ -73,6 +73,7 @@ struct SimulatedRun {
   mrpt::math::TPose2D robot_T_laser{0, 0, 0};
   double noise_m = 0.005;
   unsigned seed = 1;
+  void (*put_into)(std::vector<float>& ranges_m, std::size_t scan) = nullptr;  ///< changes each scan
 
   std::vector<float> ranges_m(std::size_t i) const {
     static const std::vector<Wall> walls = furnished_room();
@@ -83,6 +84,7 @@ struct SimulatedRun {
     for (const float bearing : bearings_rad)
       ranges.push_back(static_cast<float>(
           range_m(walls, laser + mrpt::math::TPose2D{0, 0, static_cast<double>(bearing)}) + noise(random)));
+    if (put_into != nullptr) put_into(ranges, i);
     return ranges;
   }
 

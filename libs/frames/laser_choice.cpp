@@ -10,6 +10,7 @@
 
 #include "base/number_text.h"
 #include "base/text_parts.h"
+#include "frames/height_slice.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -161,6 +162,7 @@ void check_log_options(const LogOptions& options) {
   stated_mounts(options);
   laser_choice("log.laser", options.laser);
   laser_choice("log.scan_topic", options.scan_topic);
+  height_slice(options);
 }
 
 }  // namespace psi_slam

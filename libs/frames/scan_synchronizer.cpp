@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frames/scan_synchronizer.h"
 
+#include <mrpt/math/wrap2pi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -124,6 +126,8 @@ std::optional<Frame> ScanSynchronizer::take() {
     CompanionScan companion{chosen.scan, chosen.time_us, {}};
     if (frame.has_odometry && chosen.has_odometry)
       companion.frame_T_robot = chosen.odom_T_robot - frame.odom_T_robot;
+    else if (frame.imu_heading_rad && chosen.imu_heading_rad)
+      companion.frame_T_robot.phi = mrpt::math::wrapToPi(*chosen.imu_heading_rad - *frame.imu_heading_rad);
     if (is_plausible(companion.frame_T_robot)) frame.companions.push_back(std::move(companion));
   }
   spare_scans_ += used.size() - 1 - frame.companions.size();

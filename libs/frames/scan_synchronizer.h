@@ -3,7 +3,8 @@
 //
 // Each scan of the first laser opens a frame. One scan of every other laser may join it if it is at most
 // `kMaxApart_s` away in time. Odometry at both times gives the robot's motion between the two scans. If the
-// motion exceeds `kMaxMotion_m` or `kMaxTurn_rad`, odometry has jumped, and the scan is dropped.
+// motion exceeds `kMaxMotion_m` or `kMaxTurn_rad`, odometry has jumped, and the scan is dropped. Without
+// odometry, the robot is taken to turn by the gyroscope between the two scans, or else to stand still.
 //
 // A scan belongs to the frame nearest in time. Several scans of one laser may belong to one frame; this is
 // usual if lasers scan half a period apart. Such scans that are about half-way to the next frame are passed

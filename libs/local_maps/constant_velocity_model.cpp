@@ -47,17 +47,36 @@ void ConstantVelocityModel::update_clock(TimeUs time_us) {
   last_time_us_ = time_us;
 }
 
-void ConstantVelocityModel::moved(TimeUs time_us, const TPose2D& local_T_robot, bool matched) {
+/// Returns the turn since the last pose by the gyroscope, with its bias. Empty if the gyroscope does not know
+/// it.
+std::optional<double> ConstantVelocityModel::turn_by_gyroscope_rad(
+    std::optional<double> imu_heading_rad) const {
+  if (!last_ || !last_->imu_heading_rad || !imu_heading_rad) return std::nullopt;
+  return *imu_heading_rad - *last_->imu_heading_rad;
+}
+
+void ConstantVelocityModel::learn_gyroscope(double passed_s, const Place& here) {
+  const std::optional<double> turn_rad = turn_by_gyroscope_rad(here.imu_heading_rad);
+  knows_turn_since_match_ = here.matched || (knows_turn_since_match_ && turn_rad);
+  if (!turn_rad || !here.matched || !last_->matched || passed_s < kShortest_s) return;
+  gyroscope_.learn(passed_s, *turn_rad, here.local_T_robot.phi - last_->local_T_robot.phi,
+                   speed_ ? speed_->turn_radps * passed_s : 0);
+}
+
+void ConstantVelocityModel::moved(TimeUs time_us, const TPose2D& local_T_robot, bool matched,
+                                  std::optional<double> imu_heading_rad) {
+  const double passed_s = this->passed_s(time_us);
   update_clock(time_us);
-  const Place here{clock_s_, local_T_robot};
-  if (matched || !last_) {
+  const Place here{clock_s_, local_T_robot, matched || !last_, imu_heading_rad};
+  learn_gyroscope(passed_s, here);
+  if (here.matched) {
     if (last_matched_) {
-      const double passed_s = clock_s_ - last_matched_->clock_s;
+      const double matched_s = clock_s_ - last_matched_->clock_s;
       TPose2D motion = local_T_robot - last_matched_->local_T_robot;
       motion.phi = mrpt::math::wrapToPi(motion.phi);
       const TPose2D straight = turned(motion, -motion.phi / 2);
-      if (passed_s >= kShortest_s)
-        speed_ = Speed{straight.x / passed_s, straight.y / passed_s, straight.phi / passed_s};
+      if (matched_s >= kShortest_s)
+        speed_ = Speed{straight.x / matched_s, straight.y / matched_s, straight.phi / matched_s};
     }
     last_matched_ = here;
   }
@@ -73,7 +92,22 @@ double ConstantVelocityModel::unmatched_s(TimeUs time_us) const {
   return last_matched_ ? clock_s_ + passed_s(time_us) - last_matched_->clock_s : 0;
 }
 
-PredictedMotion ConstantVelocityModel::predict(TimeUs time_us) const {
+PredictedMotion ConstantVelocityModel::predict(TimeUs time_us, std::optional<double> imu_heading_rad) const {
+  PredictedMotion predicted = predict_steady(time_us);
+  predicted.sigma_without_gyroscope_rad = predicted.sigma_since_match_rad;
+  const std::optional<double> measured_rad = turn_by_gyroscope_rad(imu_heading_rad);
+  if (!measured_rad || !gyroscope_.is_credible()) return predicted;
+  const double passed_s = this->passed_s(time_us);
+  TPose2D straight = turned(predicted.motion, -predicted.motion.phi / 2);
+  straight.phi = mrpt::math::wrapToPi(gyroscope_.turn_rad(*measured_rad, passed_s));
+  predicted.motion = turned(straight, straight.phi / 2);
+  predicted.sigma_rad = GyroscopeModel::kSigma_radps * passed_s;
+  if (knows_turn_since_match_)
+    predicted.sigma_since_match_rad = GyroscopeModel::kSigma_radps * unmatched_s(time_us);
+  return predicted;
+}
+
+PredictedMotion ConstantVelocityModel::predict_steady(TimeUs time_us) const {
   PredictedMotion predicted;
   if (!last_) return predicted;
   const double passed_s = this->passed_s(time_us);

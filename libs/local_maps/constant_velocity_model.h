@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Predicts the motion of a robot without odometry, from the velocity between the last two matched scans. If
-// time stamps have stepped back lately, they are unreliable, and scans are taken to be evenly spaced in time.
+// the scans have headings by a gyroscope, these predict the turn. If time stamps have stepped back lately,
+// they are unreliable, and scans are taken to be evenly spaced in time.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -8,6 +9,7 @@
 #include <optional>
 
 #include "base/degrees.h"
+#include "local_maps/gyroscope_model.h"
 #include "psi_slam/time_stamp.h"
 
 namespace psi_slam {
@@ -27,6 +29,7 @@ struct PredictedMotion {
   double sigma_rad = 0;
   double sigma_since_match_m = 0;  ///< standard deviations of the motion since the last matched pose
   double sigma_since_match_rad = 0;
+  double sigma_without_gyroscope_rad = 0;  ///< sigma_since_match_rad if the gyroscope is wrong
 };
 
 class ConstantVelocityModel {
@@ -34,8 +37,10 @@ class ConstantVelocityModel {
   explicit ConstantVelocityModel(const ConstantVelocityOptions& options = {}) : options_(options) {}
 
   /// Adds the pose of a scan, in any fixed frame. If `matched` is false, the pose is only a prediction and
-  /// does not change the speed. The first pose always counts as matched.
-  void moved(TimeUs time_us, const mrpt::math::TPose2D& local_T_robot, bool matched);
+  /// does not change the speed. The first pose always counts as matched. `imu_heading_rad` is the heading of
+  /// the scan by a gyroscope, see Frame::imu_heading_rad.
+  void moved(TimeUs time_us, const mrpt::math::TPose2D& local_T_robot, bool matched,
+             std::optional<double> imu_heading_rad = std::nullopt);
 
   /// Returns whether scans are missing before the scan at `time_us`: whether the time since the last pose is
   /// at least 2 s and ten times as long as usual. False if time stamps are unreliable.
@@ -45,8 +50,9 @@ class ConstantVelocityModel {
   double unmatched_s(TimeUs time_us) const;
 
   /// Predicts the motion from the last pose to `time_us`. Returns zero motion before the first pose and while
-  /// the speed is unknown. A time before the last pose counts as zero elapsed time.
-  PredictedMotion predict(TimeUs time_us) const;
+  /// the speed is unknown. A time before the last pose counts as zero elapsed time. If the gyroscope knows
+  /// the turn since the last pose and is credible, it replaces the turn at constant velocity.
+  PredictedMotion predict(TimeUs time_us, std::optional<double> imu_heading_rad = std::nullopt) const;
 
  private:
   struct Speed {  // velocity along the axes of the robot
@@ -57,8 +63,13 @@ class ConstantVelocityModel {
   struct Place {
     double clock_s = 0;
     mrpt::math::TPose2D local_T_robot;
+    bool matched = true;
+    std::optional<double> imu_heading_rad;
   };
 
+  PredictedMotion predict_steady(TimeUs time_us) const;
+  std::optional<double> turn_by_gyroscope_rad(std::optional<double> imu_heading_rad) const;
+  void learn_gyroscope(double passed_s, const Place& here);
   double passed_s(TimeUs time_us) const;
   void update_clock(TimeUs time_us);
 
@@ -66,6 +77,8 @@ class ConstantVelocityModel {
   std::optional<Place> last_;
   std::optional<Place> last_matched_;
   std::optional<Speed> speed_;
+  GyroscopeModel gyroscope_;
+  bool knows_turn_since_match_ = true;  ///< whether the gyroscope knows the turns since the last matched pose
   std::optional<TimeUs> last_time_us_;
   double clock_s_ = 0;         ///< sum of the times between scans
   double usual_step_s_ = 0;    ///< running estimate of the median time between scans; 0 if unknown

@@ -95,7 +95,7 @@ FrontEndStep FrontEnd::add(const Frame& recorded, bool may_be_lost) {
   propagate_covariances(step, motion);
   if (active_.empty() || moved_enough(step.local_T_robot)) insert(step, frame);
   last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}, frame.has_odometry};
-  constant_velocity_.moved(frame.time_us, step.local_T_robot, step.matched);
+  constant_velocity_.moved(frame.time_us, step.local_T_robot, step.matched, frame.imu_heading_rad);
   last_motion_ = step.local_T_robot - last_local_T_robot_;
   last_local_T_robot_ = step.local_T_robot;
   misses_ = step.matched ? 0 : misses_ + 1;
@@ -112,9 +112,9 @@ Frame FrontEnd::straightened(Frame frame) const {
 FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   Motion motion;
   if (!last_) return motion;
-  if (!frame.has_odometry || !last_->has_odometry) return constant_velocity_motion(frame.time_us);
+  if (!frame.has_odometry || !last_->has_odometry) return constant_velocity_motion(frame);
   if (was_restarted(last_->odom_T_robot, frame.odom_T_robot)) {
-    motion = constant_velocity_motion(frame.time_us);
+    motion = constant_velocity_motion(frame);
     motion.was_restarted = true;
     return motion;
   }
@@ -136,12 +136,13 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   motion.disagreement_m =
       weight * std::hypot(motion.predicted.x - last_motion_.x, motion.predicted.y - last_motion_.y);
   motion.disagreement_rad = weight * std::abs(mrpt::math::wrapToPi(motion.predicted.phi - last_motion_.phi));
+  motion.wide_disagreement_rad = motion.disagreement_rad;
   motion.after_gap = constant_velocity_.is_gap(frame.time_us);
   return motion;
 }
 
-FrontEnd::Motion FrontEnd::constant_velocity_motion(TimeUs time_us) const {
-  const PredictedMotion predicted = constant_velocity_.predict(time_us);
+FrontEnd::Motion FrontEnd::constant_velocity_motion(const Frame& frame) const {
+  const PredictedMotion predicted = constant_velocity_.predict(frame.time_us, frame.imu_heading_rad);
   Motion motion;
   motion.measured = false;
   motion.predicted = predicted.motion;
@@ -149,9 +150,10 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(TimeUs time_us) const {
   motion.turn_rad = std::abs(motion.predicted.phi);
   motion.disagreement_m = predicted.sigma_since_match_m;
   motion.disagreement_rad = predicted.sigma_since_match_rad;
+  motion.wide_disagreement_rad = predicted.sigma_without_gyroscope_rad;
   motion.sigma_m = predicted.sigma_m;
   motion.sigma_rad = predicted.sigma_rad;
-  motion.after_gap = constant_velocity_.is_gap(time_us);
+  motion.after_gap = constant_velocity_.is_gap(frame.time_us);
   return motion;
 }
 
@@ -185,7 +187,7 @@ SearchExtent FrontEnd::wide_extent(const Motion& motion) const {
                options_.window_m + options_.wide_window_per_motion * motion.length_m + motion.disagreement_m);
   const double half_rad =
       std::min(motion.measured ? options_.max_wide_window_rad : M_PI,
-               options_.window_rad + motion.disagreement_rad +
+               options_.window_rad + motion.wide_disagreement_rad +
                    options_.wide_window_per_motion *
                        (motion.turn_rad + options_.window_rad_per_metre * motion.length_m));
   return {half_m, half_m, half_rad};

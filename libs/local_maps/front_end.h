@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The front end predicts the pose of each scan and matches the scan with the active local map (equations 1
 // and 2). It inserts the scan if the robot moved enough. Odometry gives the prediction; without odometry, the
-// constant-velocity model does.
+// constant-velocity model does, with the turn by a gyroscope if there is one.
 //
 // The front end works in a continuous frame, "local", which loop closing never moves. The mapper knows the
 // pose of this frame in the map. At most two local maps are active at a time, and successive local maps
@@ -160,6 +160,9 @@ class FrontEnd {
     /// Without odometry, the values of sigma_m and sigma_rad.
     double disagreement_m = 0;
     double disagreement_rad = 0;
+    /// The value of disagreement_rad for the wide window. With a gyroscope, it is larger: the window finds
+    /// the robot although the gyroscope is wrong.
+    double wide_disagreement_rad = 0;
     double sigma_m = 0;  ///< standard deviations of the motion, for the covariance of the poses
     double sigma_rad = 0;
     bool after_gap = false;      ///< scans are missing before this scan
@@ -169,8 +172,8 @@ class FrontEnd {
   /// frame without odometry.
   Frame straightened(Frame frame) const;
   Motion motion_to(const Frame& frame) const;
-  /// Predicts the motion by the constant-velocity model, for scans without odometry.
-  Motion constant_velocity_motion(TimeUs time_us) const;
+  /// Predicts the motion by the constant-velocity model and the gyroscope, for scans without odometry.
+  Motion constant_velocity_motion(const Frame& frame) const;
   SearchExtent search_extent(const Motion& motion) const;
   PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const Motion& motion) const;
   SearchExtent wide_extent(const Motion& motion) const;

@@ -7,6 +7,8 @@
 
 #include "frames/body_masked_source.h"
 #include "frames/deskewed_source.h"
+#include "frames/gyroscope_choice.h"
+#include "frames/height_slice.h"
 #include "frames/laser_choice.h"
 #include "frames/log_reader.h"
 #include "frames/scan_synchronizer.h"
@@ -24,9 +26,12 @@ class ThinnedSource : public FrameSource {
       : source_(std::move(source)), every_nth_(every_nth) {}
 
   std::optional<Frame> next() override {
+    bool knows_turn = true;  // since the frame that was yielded last
     while (auto frame = source_->next()) {
+      knows_turn = knows_turn && frame->imu_heading_rad;
       if (frame->index % every_nth_ != 0) continue;
       frame->index /= every_nth_;
+      if (!knows_turn) frame->imu_heading_rad.reset();
       return frame;
     }
     return std::nullopt;
@@ -71,6 +76,12 @@ std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, co
   if (!is_bag(format) && !chooses_odometry(options) && !ignores_odometry(options))
     throw UserError("log.odometry is \"" + options.odometry + "\", expected auto or none for " +
                     path.string() + ", because topics apply to ROS bags only");
+  if (!is_bag(format) && height_slice(options))
+    throw UserError("log.slice_z_m is \"" + options.slice_z_m + "\", expected an empty text for " +
+                    path.string() + ", because only ROS bags hold point clouds");
+  if (format == LogFormat::kCarmen && names_gyroscope(options))
+    throw UserError("log.imu is \"" + options.imu + "\", expected auto or none for " + path.string() +
+                    ", because CARMEN logs hold no gyroscope");
   if (format == LogFormat::kCarmen) return open_carmen_log(path, options);
   if (format == LogFormat::kMrptRawlog) return open_rawlog(path, options);
   return open_bag_log(path, options);

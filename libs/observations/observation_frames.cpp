@@ -86,8 +86,13 @@ RawlogLasers::Laser& RawlogLasers::laser(std::size_t number, const mrpt::obs::CO
   return lasers_.emplace(number, added).first->second;
 }
 
-ObservationFrames::ObservationFrames(const LogOptions& options, Odometry odometry)
-    : lasers_(options), odometry_(odometry) {
+bool has_rate(const mrpt::obs::CObservationIMU& imu) {
+  return imu.has(mrpt::obs::IMU_WZ);
+}
+
+ObservationFrames::ObservationFrames(const LogOptions& options, Odometry odometry,
+                                     std::optional<std::string> gyroscope)
+    : lasers_(options), odometry_(odometry), gyroscope_(std::move(gyroscope)) {
   if (ignores_odometry(options) || odometry == Odometry::kNone) decide_for_none();
 }
 
@@ -123,6 +128,8 @@ void ObservationFrames::take(const mrpt::obs::CObservation& observation, const s
     take_scan(*scan, place);
   else if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation))
     take_odometry(*odometry, place);
+  else if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation))
+    take_imu(*imu);
 }
 
 void ObservationFrames::take_scan(const mrpt::obs::CObservation2DRangeScan& observation,
@@ -138,8 +145,11 @@ void ObservationFrames::take_scan(const mrpt::obs::CObservation2DRangeScan& obse
   if (odometry_ == Odometry::kUndecided && waiting_.waiting() == OdometryInterpolator::kMaxWaiting)
     decide_for_none();
   ++scans_;
+  if (uses_gyroscope()) frame.has_odometry = false;
   if (odometry_ == Odometry::kActions)
     ready_.push_back(std::move(frame));
+  else if (uses_gyroscope())
+    headings_.add_scan(std::move(frame));
   else
     waiting_.add_scan(std::move(frame));
 }
@@ -154,7 +164,19 @@ void ObservationFrames::take_odometry(const mrpt::obs::CObservationOdometry& obs
   waiting_.add_odometry(stamp_of(observation, "odometry", place), observation.odometry.asTPose());
 }
 
+void ObservationFrames::take_imu(const mrpt::obs::CObservationIMU& observation) {
+  using mrpt::obs::TIMUDataIndex;
+  if (!uses_gyroscope() || observation.sensorLabel != *gyroscope_ || !has_rate(observation)) return;
+  const auto rate = [&](TIMUDataIndex axis) { return observation.has(axis) ? observation.get(axis) : 0; };
+  const std::optional<TimeUs> stamp = time_us(observation);
+  if (stamp)
+    headings_.add_rate(
+        *stamp, vertical_rate_radps(observation.sensorPose, {rate(mrpt::obs::IMU_WX), rate(mrpt::obs::IMU_WY),
+                                                             rate(mrpt::obs::IMU_WZ)}));
+}
+
 std::optional<Frame> ObservationFrames::next() {
+  if (uses_gyroscope()) return headings_.take();
   if (ready_.empty()) return waiting_.take();
   Frame frame = std::move(ready_.front());
   ready_.pop_front();
@@ -164,6 +186,7 @@ std::optional<Frame> ObservationFrames::next() {
 void ObservationFrames::end_of_log() {
   if (odometry_ == Odometry::kUndecided) decide_for_none();
   waiting_.end_of_log();
+  headings_.end_of_log();
 }
 
 }  // namespace psi_slam

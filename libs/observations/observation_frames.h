@@ -4,6 +4,7 @@
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/poses/CPose3D.h>
 
@@ -15,6 +16,7 @@
 #include <tuple>
 #include <vector>
 
+#include "frames/gyroscope_headings.h"
 #include "frames/laser_choice.h"
 #include "frames/odometry_interpolator.h"
 #include "psi_slam/frame.h"
@@ -68,6 +70,9 @@ class RawlogLasers {
   std::map<std::size_t, Laser> lasers_;
 };
 
+/// Returns whether an observation of an IMU holds a rate of turn.
+bool has_rate(const mrpt::obs::CObservationIMU& imu);
+
 /// Makes frames from MRPT's actions and observations. Odometry is either the sum of the actions, or
 /// interpolated between the odometry observations of the first label. In the second case, a scan waits for
 /// the next odometry. Odometry that is not finite is skipped.
@@ -77,14 +82,16 @@ class ObservationFrames {
 
   /// Prepares to read the lasers that `options` choose. If `odometry` is kUndecided, uses the kind of
   /// odometry that comes first, or none if OdometryInterpolator::kMaxWaiting scans come before any. If
-  /// `options` ask for no odometry, kNone applies.
-  explicit ObservationFrames(const LogOptions& options, Odometry odometry = Odometry::kUndecided);
+  /// `options` ask for no odometry, kNone applies. Only with kNone, `gyroscope`, a sensor label, selects the
+  /// observations of IMUs that give the headings of the frames.
+  explicit ObservationFrames(const LogOptions& options, Odometry odometry = Odometry::kUndecided,
+                             std::optional<std::string> gyroscope = std::nullopt);
 
   /// Takes the movement of the robot, if there is one. `place` says where the action is in the log.
   void take(const mrpt::obs::CActionCollection& action, const std::string& place);
 
-  /// Takes a scan or odometry, and ignores other observations. Throws UserError, starting with `place`, if
-  /// the observation has no time stamp or a scan is invalid (see RawlogLasers).
+  /// Takes a scan, odometry or a rate of the gyroscope, and ignores other observations. Throws UserError,
+  /// starting with `place`, if the observation has no time stamp or a scan is invalid (see RawlogLasers).
   void take(const mrpt::obs::CObservation& observation, const std::string& place);
 
   /// Returns the next complete frame, with the scan of one laser, or nothing if there is none yet. Its index
@@ -103,14 +110,18 @@ class ObservationFrames {
  private:
   void take_scan(const mrpt::obs::CObservation2DRangeScan& observation, const std::string& place);
   void take_odometry(const mrpt::obs::CObservationOdometry& observation, const std::string& place);
+  void take_imu(const mrpt::obs::CObservationIMU& observation);
+  bool uses_gyroscope() const { return odometry_ == Odometry::kNone && gyroscope_; }
   void skip(const std::string& place);
   void decide_for_none();
 
   RawlogLasers lasers_;
   Odometry odometry_;
   std::optional<std::string> odometry_label_;
+  std::optional<std::string> gyroscope_;
   mrpt::math::TPose2D odom_T_robot_{0, 0, 0};  ///< the sum of the actions
   OdometryInterpolator waiting_;
+  GyroscopeHeadings headings_;  ///< instead of waiting_ if a gyroscope is used
   std::deque<Frame> ready_;
   std::size_t scans_ = 0;
   bool is_motion_unknown_ = false;  ///< whether an action since the last scan was skipped

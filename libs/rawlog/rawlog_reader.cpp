@@ -7,11 +7,12 @@
 //   interpolated at each scan's time.
 //
 // The kind of odometry that appears first is used; the other kind is ignored. A rawlog without odometry has
-// scans only. By default scans come from the
+// scans only, or scans with the heading by a gyroscope (CObservationIMU). By default scans come from the
 // first laser in the log. Time stamps, ticks of 100 ns since 1601, become Unix time rounded to the nearest
 // microsecond.
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
@@ -20,6 +21,7 @@
 #include <set>
 
 #include "base/text_parts.h"
+#include "frames/gyroscope_choice.h"
 #include "frames/log_reader.h"
 #include "observations/mrpt_objects.h"
 #include "observations/observation_frames.h"
@@ -32,6 +34,7 @@ namespace {
 using mrpt::obs::CActionCollection;
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationIMU;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CSensoryFrame;
 using Odometry = ObservationFrames::Odometry;
@@ -43,9 +46,10 @@ void for_each_observation(mrpt::serialization::CSerializable& object,
     for (const auto& observation : *frame) take(*observation);
 }
 
-struct LasersAndOdometry {
-  std::string labels;  // labels of the lasers to read, separated by commas
+struct Sensors {
+  std::string lasers;  // labels of the lasers to read, separated by commas
   Odometry odometry;
+  GyroscopeChoice gyroscope;
 };
 
 /// Labels of lasers that the user states, each with the name of the option that states it.
@@ -57,16 +61,22 @@ std::vector<std::pair<std::string, std::string>> named_labels(const LogOptions& 
   return named;
 }
 
-/// Finds the lasers to read and the kind of odometry. Reads the rawlog until a laser, all lasers that the
-/// user names, and odometry have appeared, or to its end. Throws UserError if a laser is missing.
-LasersAndOdometry find_lasers_and_odometry(const std::filesystem::path& path, const LogOptions& options) {
+/// Finds the lasers to read, the kind of odometry and the gyroscope. Reads the rawlog until a laser, all
+/// sensors that the user names, and odometry have appeared, or to its end. Throws UserError if a sensor is
+/// missing.
+Sensors find_sensors(const std::filesystem::path& path, const LogOptions& options) {
   RawlogArchive archive(path);
   const auto named = named_labels(options);
   ChosenLasers chosen(laser_choice("log.laser", options.laser));
   auto odometry = ignores_odometry(options) ? Odometry::kNone : Odometry::kUndecided;
   std::set<std::string> labels;
+  std::set<std::string> gyroscopes;
   const auto is_missing = [&](const auto& name) { return labels.count(name.first) == 0; };
-  while (odometry == Odometry::kUndecided || labels.empty() ||
+  const auto needs_gyroscopes = [&] {
+    if (names_gyroscope(options)) return gyroscopes.count(options.imu) == 0;
+    return odometry == Odometry::kNone && !ignores_gyroscope(options);
+  };
+  while (odometry == Odometry::kUndecided || labels.empty() || needs_gyroscopes() ||
          std::any_of(named.begin(), named.end(), is_missing)) {
     const auto object = archive.next();
     if (!object) break;
@@ -77,6 +87,8 @@ LasersAndOdometry find_lasers_and_odometry(const std::filesystem::path& path, co
       if (odometry == Odometry::kUndecided &&
           dynamic_cast<const CObservationOdometry*>(&observation) != nullptr)
         odometry = Odometry::kObservations;
+      const auto* imu = dynamic_cast<const CObservationIMU*>(&observation);
+      if (imu != nullptr && has_rate(*imu)) gyroscopes.insert(imu->sensorLabel);
       if (dynamic_cast<const CObservation2DRangeScan*>(&observation) == nullptr) return;
       labels.insert(observation.sensorLabel);
       chosen.number_of(observation.sensorLabel);
@@ -92,14 +104,19 @@ LasersAndOdometry find_lasers_and_odometry(const std::filesystem::path& path, co
                     path.string() + ": " + quoted_list({labels.begin(), labels.end()}));
   }
   if (odometry == Odometry::kUndecided) odometry = Odometry::kNone;
-  return {name_list(chosen.names()), odometry};
+  return {name_list(chosen.names()), odometry,
+          choose_gyroscope(options, {gyroscopes.begin(), gyroscopes.end()}, odometry != Odometry::kNone,
+                           "the label of a CObservationIMU with a rate of turn of " + path.string())};
 }
 
 class RawlogReader : public LogReader {
  public:
   RawlogReader(const std::filesystem::path& path, const LogOptions& options)
-      : archive_(path), found_(find_lasers_and_odometry(path, options)), frames_(options, found_.odometry) {
-    contents_.laser = found_.labels;
+      : archive_(path),
+        found_(find_sensors(path, options)),
+        frames_(options, found_.odometry, found_.gyroscope.name) {
+    contents_.laser = found_.lasers;
+    if (!found_.gyroscope.assumption.empty()) contents_.assumptions.push_back(found_.gyroscope.assumption);
   }
 
   double progress() const override { return archive_.progress(); }
@@ -132,7 +149,7 @@ class RawlogReader : public LogReader {
   }
 
   RawlogArchive archive_;
-  LasersAndOdometry found_;
+  Sensors found_;
   ObservationFrames frames_;
   bool at_end_ = false;
 };

@@ -11,6 +11,8 @@
 
 #include "base/byte_cursor.h"
 #include "base/text_parts.h"
+#include "frames/gyroscope_choice.h"
+#include "frames/height_slice.h"
 #include "frames/laser_choice.h"
 #include "frames/log_reader.h"
 #include "psi_slam/user_error.h"
@@ -51,7 +53,11 @@ bool is_named_like_odometry(std::string frame) {
 class Planner {
  public:
   Planner(const std::filesystem::path& path, const LogOptions& options)
-      : path_(path.string()), options_(options), bag_(open_bag(path)), topics_(bag_->topics()) {}
+      : path_(path.string()),
+        options_(options),
+        slices_clouds_(height_slice(options).has_value()),
+        bag_(open_bag(path)),
+        topics_(bag_->topics()) {}
 
   BagPlan plan() {
     choose_scan_topics();
@@ -59,6 +65,7 @@ class Planner {
       if (is_transforms(topic) && !contains(plan_.transform_topics, topic.name))
         plan_.transform_topics.push_back(topic.name);
     choose_odometry_topic();
+    find_imu_topics();
     plan_.odom_frame = options_.odom_frame;
     plan_.base_frame = options_.base_frame;
     read_until_complete();
@@ -70,37 +77,66 @@ class Planner {
     settle_base_frame();
     if (chooses_lasers_) keep_usable_lasers();
     settle_mounts();
+    settle_heights();
+    settle_gyroscope();
     return std::move(plan_);
   }
 
  private:
   void choose_scan_topics() {
-    Names all = topics_of_type(topics_, kRosLaserScan);
-    for (const std::string& topic : topics_of_type(topics_, kRosMultiEchoScan)) all.push_back(topic);
-    if (all.empty()) {
-      Names found;
-      for (const BagTopic& topic : topics_) found.push_back(topic.name + " (" + topic.type + ")");
-      throw UserError(path_ + " has no laser scans, expected a topic of type " + kRosLaserScan + "; found " +
-                      (found.empty() ? "no topics" : name_list(found)) + ". Record the scans with the bag");
-    }
+    const Names clouds = topics_of_type(topics_, kRosPointCloud);
+    Names lasers = topics_of_type(topics_, kRosLaserScan);
+    for (const std::string& topic : topics_of_type(topics_, kRosMultiEchoScan)) lasers.push_back(topic);
+    const Names& all = slices_clouds_ ? clouds : lasers;
+    const char* type = slices_clouds_ ? kRosPointCloud : kRosLaserScan;
+    if (all.empty()) report_missing_scans(clouds);
+    Names nameable = all;
+    if (slices_clouds_) nameable.insert(nameable.end(), lasers.begin(), lasers.end());
     const bool by_topic = !options_.scan_topic.empty();
     const char* option = by_topic ? "log.scan_topic" : "log.laser";
     const LaserChoice choice = laser_choice(option, by_topic ? options_.scan_topic : options_.laser);
     if (choice.all) plan_.scan_topics = all;
     for (const std::string& name : choice.names) {
-      const std::string topic = choose(option, name, all, kRosLaserScan);
+      if (!slices_clouds_ && contains(clouds, as_in_bag(name, clouds)))
+        throw UserError(std::string(option) + " names the point clouds on " + name + " of " + path_ +
+                        ". Map a slice of them with log.slice_z_m, such as \"0.1 1.0\" (heights above the "
+                        "floor in metres)");
+      const std::string topic = choose(option, name, nameable, type);
       if (contains(plan_.scan_topics, topic))
         throw UserError(std::string(option) + " names the topic " + topic + " twice. Name each topic once");
       plan_.scan_topics.push_back(topic);
     }
     if (plan_.scan_topics.empty() && options_.robot_T_laser)
-      plan_.scan_topics = {choose("log.scan_topic", "", all, kRosLaserScan)};
+      plan_.scan_topics = {choose("log.scan_topic", "", all, type)};
     if (plan_.scan_topics.empty()) {
       plan_.scan_topics = all;
       chooses_lasers_ = all.size() > 1;
     }
     for (const StatedMount& mount : stated_mounts(options_))
-      choose("log.laser_mounts", mount.name, all, kRosLaserScan);
+      choose("log.laser_mounts", mount.name, nameable, type);
+  }
+
+  /// Throws UserError for a bag without scans, or without point clouds if the user asks for them.
+  [[noreturn]] void report_missing_scans(const Names& clouds) const {
+    if (!clouds.empty())
+      throw UserError(path_ + " has no laser scans, but point clouds on " + name_list(clouds) +
+                      ". Map a slice of them with log.slice_z_m, such as \"0.1 1.0\" (heights above the "
+                      "floor in metres)");
+    Names found;
+    for (const BagTopic& topic : topics_) found.push_back(topic.name + " (" + topic.type + ")");
+    throw UserError(path_ + " has no " +
+                    (slices_clouds_ ? std::string("point clouds, expected a topic of type ") + kRosPointCloud
+                                    : std::string("laser scans, expected a topic of type ") + kRosLaserScan) +
+                    "; found " + (found.empty() ? "no topics" : name_list(found)) +
+                    (slices_clouds_ ? ". Map laser scans with an empty log.slice_z_m"
+                                    : ". Record the scans with the bag"));
+  }
+
+  void find_imu_topics() {
+    imu_topics_ = ignores_gyroscope(options_) ? Names() : topics_of_type(topics_, kRosImu);
+    if (!names_gyroscope(options_)) return;
+    options_.imu = choose("log.imu", options_.imu, imu_topics_, kRosImu);
+    imu_topics_ = {options_.imu};
   }
 
   void choose_odometry_topic() {
@@ -131,7 +167,9 @@ class Planner {
   }
 
   void read_until_complete() {
-    bag_->want(plan_.topics());
+    Names wanted = plan_.topics();
+    wanted.insert(wanted.end(), imu_topics_.begin(), imu_topics_.end());
+    bag_->want(wanted);
     for (BagMessage message; !is_complete();) {
       try {
         if (!bag_->next(message)) return;
@@ -152,6 +190,10 @@ class Planner {
       for (const RosTransform& transform : read_ros_transforms(message)) plan_.transforms.add(transform);
     } else if (message.topic->type == kRosOdometry) {
       take_odometry(message);
+    } else if (message.topic->type == kRosImu) {
+      take_imu(message);
+    } else if (message.topic->type == kRosPointCloud) {
+      scan_frames_.emplace(message.topic->name, read_ros_header(message).frame);
     } else {
       scan_frames_.emplace(message.topic->name, read_ros_laser_scan(message).header.frame);
     }
@@ -166,6 +208,12 @@ class Planner {
     plan_.has_odometry = true;
     if (plan_.odom_frame.empty()) plan_.odom_frame = odometry->header.frame;
     if (plan_.base_frame.empty()) plan_.base_frame = odometry->child_frame;
+  }
+
+  void take_imu(const BagMessage& message) {
+    if (!seen_imus_.insert(message.topic->name).second) return;
+    const RosImu imu = read_ros_imu(message);
+    if (imu.rate_radps) gyroscope_frames_.emplace(message.topic->name, imu.header.frame);
   }
 
   /// Searches the frames above the lasers, and above the robot's frame if the user states it, for the frame
@@ -202,7 +250,9 @@ class Planner {
   /// stated mount, because they show whether the laser is upside down.
   bool is_complete() const {
     const bool has_transforms = !plan_.transform_topics.empty();
-    return (plan_.has_odometry || !expects_odometry_) && has_scans() &&
+    const bool has_motion =
+        plan_.has_odometry || (!expects_odometry_ && seen_imus_.size() == imu_topics_.size());
+    return has_motion && has_scans() &&
            std::all_of(scan_frames_.begin(), scan_frames_.end(),
                        [&](const auto& scan) { return !has_transforms || knows_mount(scan.second); });
   }
@@ -342,16 +392,57 @@ class Planner {
     }
   }
 
+  /// Tells where heights are measured from if no transform leads from the robot's frame to a sensor.
+  void settle_heights() {
+    for (const std::string& topic : plan_.scan_topics) {
+      const std::string& frame = scan_frames_.at(topic);
+      const bool is_alone = frame == plan_.base_frame && options_.base_frame.empty();
+      if (!is_cloud(topic) || (knows_mount(frame) && !is_alone)) continue;
+      plan_.assumptions.push_back("the heights of log.slice_z_m are measured from the sensor of " + topic +
+                                  ", because no transform leads from the robot's frame to \"" + frame +
+                                  "\". Subtract the sensor's height above the floor from log.slice_z_m, or "
+                                  "name the robot's frame with log.base_frame");
+    }
+  }
+
+  bool is_cloud(const std::string& topic) const {
+    return std::any_of(topics_.begin(), topics_.end(),
+                       [&](const BagTopic& one) { return one.name == topic && one.type == kRosPointCloud; });
+  }
+
+  /// Chooses the gyroscope for a bag without odometry.
+  void settle_gyroscope() {
+    Names gyroscopes;
+    for (const std::string& topic : imu_topics_)
+      if (plan_.has_odometry || gyroscope_frames_.count(topic) > 0) gyroscopes.push_back(topic);
+    const GyroscopeChoice choice =
+        choose_gyroscope(options_, gyroscopes, plan_.has_odometry,
+                         std::string("a topic of type ") + kRosImu + " with angular velocities of " + path_);
+    if (!choice.assumption.empty()) plan_.assumptions.push_back(choice.assumption);
+    if (!choice.name) return;
+    plan_.imu_topic = *choice.name;
+    const std::string& frame = gyroscope_frames_.at(plan_.imu_topic);
+    if (!knows_mount(frame))
+      plan_.assumptions.push_back("the z axis of the gyroscope of " + plan_.imu_topic +
+                                  " is assumed to point up, because no transform leads from \"" +
+                                  plan_.base_frame + "\" to \"" + frame +
+                                  "\". Ignore the gyroscope with log.imu=none");
+  }
+
   std::string path_;
   LogOptions options_;
+  bool slices_clouds_;  // whether scans are slices of point clouds
   std::unique_ptr<BagFile> bag_;
   std::vector<BagTopic> topics_;
   BagPlan plan_;
   std::map<std::string, std::string> scan_frames_;  // key: topic of the scans; value: frame of the laser
   std::string invalid_pose_;                        // message about the first odometry with an invalid pose
   bool expects_odometry_ = true;                    // whether the user wants odometry and the bag may hold it
-  std::string choice_of_odometry_;  // assumption about the topic of odometry; empty if there is one topic
-  bool chooses_lasers_ = false;     // whether the user selects none of several topics of scans
+  std::string choice_of_odometry_;   // assumption about the topic of odometry; empty if there is one topic
+  bool chooses_lasers_ = false;      // whether the user selects none of several topics of scans
+  Names imu_topics_;                 // topics of gyroscopes to choose from
+  std::set<std::string> seen_imus_;  // topics of gyroscopes with a message
+  std::map<std::string, std::string> gyroscope_frames_;  // key: topic with angular velocities; value: frame
 };
 
 }  // namespace
@@ -417,6 +508,7 @@ std::string TransformTree::text() const {
 Names BagPlan::topics() const {
   Names all = scan_topics;
   if (!odometry_topic.empty()) all.push_back(odometry_topic);
+  if (!imu_topic.empty()) all.push_back(imu_topic);
   all.insert(all.end(), transform_topics.begin(), transform_topics.end());
   return all;
 }

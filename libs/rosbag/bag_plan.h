@@ -53,6 +53,7 @@ struct BagPlan {
   std::vector<std::string> scan_topics;  ///< index: LaserScan::laser
   bool has_odometry = false;             ///< false: scans have no odometry
   std::string odometry_topic;            ///< empty: odometry is the transform from odom_frame to base_frame
+  std::string imu_topic;                 ///< topic of the gyroscope; empty: none is used
   std::vector<std::string> transform_topics;
   std::string odom_frame;
   std::string base_frame;                ///< the robot's frame, which odometry moves
@@ -72,10 +73,11 @@ bool is_transforms(const BagTopic& topic);
 /// Returns the options for the laser of a topic, with its stated mount.
 LogOptions options_of_topic(const LogOptions& options, const std::string& topic);
 
-/// Plans how to read a bag. Finds the topics by their types, or by the names that the user states. Then reads
-/// until all frames are known, or to the end. If the user names no topic, plans to read all lasers whose
-/// mounts are known. Assumes that the only laser is at the robot's centre if its mount is unknown. Throws
-/// UserError if there are no scans, or if something that the user names is missing.
+/// Plans how to read a bag. Scans are laser scans, or point clouds if `options.slice_z_m` is set. Finds the
+/// topics by their types, or by the names that the user states. Then reads until all frames are known, or to
+/// the end. If the user names no topic, plans to read all lasers whose mounts are known. Assumes that the
+/// only laser is at the robot's centre if its mount is unknown. Throws UserError if there are no scans, or if
+/// something that the user names is missing.
 BagPlan plan_bag(const std::filesystem::path& path, const LogOptions& options);
 
 }  // namespace psi_slam

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -34,6 +35,9 @@ class RosFields {
     if (cdr_ && !text.empty() && text.back() == '\0') text.pop_back();
     return text;
   }
+
+  /// Takes an array of bytes, which stay in the message.
+  std::string_view bytes() { return cursor_.take(number<std::uint32_t>()); }
 
   std::vector<float> floats() {
     const auto count = number<std::uint32_t>();
@@ -125,6 +129,61 @@ std::vector<float> first_echoes(RosFields& fields) {
   return ranges_m;
 }
 
+/// Where a coordinate is in the bytes of a point.
+struct PointField {
+  std::uint32_t offset = 0;
+  std::uint8_t type = 0;
+};
+
+constexpr std::uint8_t kFloat32 = 7;
+constexpr std::uint8_t kFloat64 = 8;
+
+/// Layout of the points of a cloud. The data hold `height` rows of `width` points.
+struct PointLayout {
+  std::uint64_t height = 0;
+  std::uint64_t width = 0;
+  std::uint64_t point_bytes = 0;
+  std::uint64_t row_bytes = 0;
+  PointField coordinates[3];
+};
+
+/// Parses the list of a point's fields. Returns each field by its name.
+std::map<std::string, PointField> point_fields(RosFields& fields) {
+  std::map<std::string, PointField> found;
+  for (auto left = fields.number<std::uint32_t>(); left > 0; --left) {
+    PointField& field = found[fields.text()];
+    field.offset = fields.number<std::uint32_t>();
+    field.type = fields.number<std::uint8_t>();
+    fields.number<std::uint32_t>();  // number of values, 1 for a coordinate
+  }
+  return found;
+}
+
+void check_field(const std::string& name, const PointField& field, std::uint64_t point_bytes) {
+  if (field.type != kFloat32 && field.type != kFloat64)
+    throw MalformedBytes("the field " + name + " of its points has type " + std::to_string(field.type) +
+                         ", expected 7 (float32) or 8 (float64)");
+  if (field.offset + std::uint64_t{field.type == kFloat32 ? 4U : 8U} > point_bytes)
+    throw MalformedBytes("the field " + name + " ends behind its points, which have " +
+                         std::to_string(point_bytes) + " bytes");
+}
+
+/// Throws MalformedBytes if the data are shorter than the points.
+void check_size(const PointLayout& layout, std::size_t data_bytes) {
+  const std::uint64_t row_bytes = layout.width * layout.point_bytes;
+  const bool rows_overlap = layout.height > 1 && layout.row_bytes < row_bytes;
+  if (row_bytes > data_bytes || rows_overlap ||
+      (layout.height - 1) * layout.row_bytes > data_bytes - row_bytes)
+    throw MalformedBytes("it states " + std::to_string(layout.height) + " rows of " +
+                         std::to_string(layout.width) + " points, but has only " +
+                         std::to_string(data_bytes) + " bytes of points");
+}
+
+float coordinate(std::string_view point, const PointField& field, ByteOrder order) {
+  ByteCursor cursor(point.substr(field.offset), order);
+  return field.type == kFloat32 ? cursor.number<float>() : static_cast<float>(cursor.number<double>());
+}
+
 }  // namespace
 
 RosLaserScan read_ros_laser_scan(const BagMessage& message) {
@@ -140,6 +199,59 @@ RosLaserScan read_ros_laser_scan(const BagMessage& message) {
   scan.range_max_m = fields.number<float>();
   scan.ranges_m = message.topic->type == kRosMultiEchoScan ? first_echoes(fields) : fields.floats();
   return scan;
+}
+
+RosPointCloud read_ros_point_cloud(const BagMessage& message) {
+  RosFields fields(message);
+  RosPointCloud cloud;
+  cloud.header = header(fields, message.recorded_us);
+  PointLayout layout;
+  layout.height = fields.number<std::uint32_t>();
+  layout.width = fields.number<std::uint32_t>();
+  const auto found = point_fields(fields);
+  const bool is_big_endian = fields.number<std::uint8_t>() != 0;
+  layout.point_bytes = fields.number<std::uint32_t>();
+  layout.row_bytes = fields.number<std::uint32_t>();
+  const std::string_view data = fields.bytes();
+  if (layout.height == 0 || layout.width == 0) return cloud;
+  constexpr const char* kNames[3] = {"x", "y", "z"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto field = found.find(kNames[axis]);
+    if (field == found.end()) throw MalformedBytes(std::string("its points have no field ") + kNames[axis]);
+    check_field(kNames[axis], field->second, layout.point_bytes);
+    layout.coordinates[axis] = field->second;
+  }
+  check_size(layout, data.size());
+  const ByteOrder order = is_big_endian ? ByteOrder::kBigEndian : ByteOrder::kLittleEndian;
+  cloud.points.reserve(layout.height * layout.width);
+  for (std::uint64_t row = 0; row < layout.height; ++row) {
+    for (std::uint64_t column = 0; column < layout.width; ++column) {
+      const std::string_view point =
+          data.substr(row * layout.row_bytes + column * layout.point_bytes, layout.point_bytes);
+      cloud.points.emplace_back(coordinate(point, layout.coordinates[0], order),
+                                coordinate(point, layout.coordinates[1], order),
+                                coordinate(point, layout.coordinates[2], order));
+    }
+  }
+  return cloud;
+}
+
+RosImu read_ros_imu(const BagMessage& message) {
+  constexpr int kOrientationNumbers = 4 + 9;  // a quaternion and its covariance
+  constexpr double kNoData = -1;              // first number of the covariance
+  RosFields fields(message);
+  RosImu imu;
+  imu.header = header(fields, message.recorded_us);
+  for (int i = 0; i < kOrientationNumbers; ++i) fields.number<double>();
+  mrpt::math::TVector3D rate_radps;
+  for (double* const value : {&rate_radps.x, &rate_radps.y, &rate_radps.z}) *value = fields.number<double>();
+  if (fields.number<double>() != kNoData) imu.rate_radps = rate_radps;
+  return imu;
+}
+
+RosHeader read_ros_header(const BagMessage& message) {
+  RosFields fields(message);
+  return header(fields, message.recorded_us);
 }
 
 std::optional<RosTransform> read_ros_odometry(const BagMessage& message) {

@@ -3,6 +3,7 @@
 // (CDR of either byte order, numbers aligned to their size).
 #pragma once
 
+#include <mrpt/math/TPoint3D.h>
 #include <mrpt/math/TPose3D.h>
 
 #include <optional>
@@ -16,6 +17,8 @@ namespace psi_slam {
 
 inline constexpr const char* kRosLaserScan = "sensor_msgs/LaserScan";
 inline constexpr const char* kRosMultiEchoScan = "sensor_msgs/MultiEchoLaserScan";
+inline constexpr const char* kRosPointCloud = "sensor_msgs/PointCloud2";
+inline constexpr const char* kRosImu = "sensor_msgs/Imu";
 inline constexpr const char* kRosOdometry = "nav_msgs/Odometry";
 inline constexpr const char* kRosTransforms = "tf2_msgs/TFMessage";
 inline constexpr const char* kRosOldTransforms = "tf/tfMessage";  ///< older type with the same bytes
@@ -43,9 +46,30 @@ struct RosTransform {
   mrpt::math::TPose3D pose;
 };
 
+struct RosImu {
+  RosHeader header;
+  /// Angular velocity along the axes of the header's frame, radians per second. Empty if the message states
+  /// that it has none.
+  std::optional<mrpt::math::TVector3D> rate_radps;
+};
+
+struct RosPointCloud {
+  RosHeader header;
+  std::vector<mrpt::math::TPoint3Df> points;  ///< metres in the header's frame; may be NaN
+};
+
 // Each function throws MalformedBytes if the message is shorter than it states or has an unknown encoding.
 /// Reads a scan of either type. Of several echoes of a beam, reads the first; a beam without echo has NaN.
 RosLaserScan read_ros_laser_scan(const BagMessage& message);
+
+/// Reads the points of a cloud, row by row. Throws MalformedBytes also if the fields x, y or z are missing or
+/// have another type than float32 or float64.
+RosPointCloud read_ros_point_cloud(const BagMessage& message);
+
+RosImu read_ros_imu(const BagMessage& message);
+
+/// Returns the header of any message that begins with one, such as a scan, a cloud or an IMU's message.
+RosHeader read_ros_header(const BagMessage& message);
 
 /// Returns the pose of the robot in the odometry's frame. Empty if the pose is invalid: not finite, or a
 /// quaternion whose length is not 1.

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads ROS bags of any kind (see bag_file.h). Scans are sensor_msgs/LaserScan messages. Odometry comes from
-// nav_msgs/Odometry, or from the transform odom -> base_link, and is interpolated at the header stamp of each
-// scan. A bag without odometry has scans only. The laser's mount comes from the transforms. A message without
-// a stamp has the time at which it was recorded.
+// Reads ROS bags of any kind (see bag_file.h). Scans are sensor_msgs/LaserScan messages, or slices of
+// sensor_msgs/PointCloud2 messages. Odometry comes from nav_msgs/Odometry, or from the transform odom ->
+// base_link, and is interpolated at the header stamp of each scan. A bag without odometry has scans only, or
+// scans with the heading by a gyroscope (sensor_msgs/Imu). The laser's mount comes from the transforms. A
+// message without a stamp has the time at which it was recorded.
 //
 // A damaged or truncated bag yields all frames before the damage, then a UserError. Odometry with an invalid
 // pose is skipped.
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <optional>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "base/byte_cursor.h"
 #include "base/text_parts.h"
+#include "frames/gyroscope_headings.h"
+#include "frames/height_slice.h"
 #include "frames/laser_readings.h"
 #include "frames/log_reader.h"
 #include "frames/odometry_interpolator.h"
@@ -103,13 +109,16 @@ class RosLaser {
 class RosbagReader : public LogReader {
  public:
   RosbagReader(const std::filesystem::path& path, const LogOptions& options)
-      : plan_(plan_bag(path, options)), bag_(open_bag(path)) {
+      : plan_(plan_bag(path, options)), bag_(open_bag(path)), slice_(height_slice(options)) {
     bag_->want(plan_.topics());
     if (!plan_.has_odometry) interpolator_.expect_no_odometry();
     contents_.laser = name_list(plan_.scan_topics);
     contents_.several_lasers = plan_.scan_topics.size() > 1;
     contents_.assumptions = plan_.assumptions;
-    for (const std::string& topic : plan_.scan_topics) lasers_.emplace_back(options_of_topic(options, topic));
+    for (const std::string& topic : plan_.scan_topics) {
+      sensor_options_.push_back(options_of_topic(options, topic));
+      lasers_.emplace_back(sensor_options_.back());
+    }
   }
 
   double progress() const override { return at_end_ ? 1 : bag_->progress(); }
@@ -117,7 +126,7 @@ class RosbagReader : public LogReader {
  protected:
   std::optional<Frame> read_frame() override {
     while (true) {
-      if (auto frame = interpolator_.take()) return frame;
+      if (auto frame = uses_gyroscope() ? headings_.take() : interpolator_.take()) return frame;
       if (at_end_) {
         if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
         return std::nullopt;
@@ -133,16 +142,23 @@ class RosbagReader : public LogReader {
       }
       at_end_ = true;
       interpolator_.end_of_log();
+      headings_.end_of_log();
     }
   }
 
  private:
+  bool uses_gyroscope() const { return !plan_.imu_topic.empty(); }
+
   void take(const BagMessage& message) {
     try {
       if (is_transforms(*message.topic)) {
         for (const RosTransform& transform : read_ros_transforms(message)) take_transform(transform);
       } else if (message.topic->name == plan_.odometry_topic) {
         take_odometry(message);
+      } else if (message.topic->name == plan_.imu_topic) {
+        take_imu(read_ros_imu(message));
+      } else if (message.topic->type == kRosPointCloud) {
+        take_cloud(read_ros_point_cloud(message), laser_of(message.topic->name));
       } else {
         take_scan(read_ros_laser_scan(message), laser_of(message.topic->name));
       }
@@ -172,6 +188,13 @@ class RosbagReader : public LogReader {
       contents_.skipped.first = bag_->place() + ": " + invalid_pose_text(message.topic->name);
   }
 
+  void take_imu(const RosImu& imu) {
+    if (!imu.rate_radps) return;
+    const auto robot_T_imu = plan_.transforms.base_T_frame(plan_.base_frame, imu.header.frame);
+    headings_.add_rate(imu.header.time_us,
+                       vertical_rate_radps(robot_T_imu.value_or(mrpt::poses::CPose3D()), *imu.rate_radps));
+  }
+
   std::size_t laser_of(const std::string& topic) const {
     const auto& topics = plan_.scan_topics;
     return static_cast<std::size_t>(std::find(topics.begin(), topics.end(), topic) - topics.begin());
@@ -181,17 +204,34 @@ class RosbagReader : public LogReader {
     if (message.ranges_m.empty()) return;
     const auto robot_T_laser = plan_.transforms.base_T_frame(plan_.base_frame, message.header.frame);
     const FloorMount mount = robot_T_laser ? floor_mount(*robot_T_laser, bag_->place()) : FloorMount{};
+    const TimeUs time_us = message.header.time_us;
+    add_scan(time_us, lasers_[laser].scan(std::move(message), mount, bag_->place()), laser);
+  }
+
+  void take_cloud(const RosPointCloud& cloud, std::size_t laser) {
+    const auto robot_T_sensor = plan_.transforms.base_T_frame(plan_.base_frame, cloud.header.frame);
+    add_scan(cloud.header.time_us,
+             scan_of_slice(cloud.points, robot_T_sensor.value_or(mrpt::poses::CPose3D()), slice_.value(),
+                           sensor_options_[laser]),
+             laser);
+  }
+
+  void add_scan(TimeUs time_us, LaserScan scan, std::size_t laser) {
     Frame frame;
-    frame.time_us = message.header.time_us;
-    frame.scan = lasers_[laser].scan(std::move(message), mount, bag_->place());
+    frame.time_us = time_us;
+    frame.scan = std::move(scan);
     frame.scan.laser = laser;
-    interpolator_.add_scan(std::move(frame));
+    frame.has_odometry = plan_.has_odometry;
+    uses_gyroscope() ? headings_.add_scan(std::move(frame)) : interpolator_.add_scan(std::move(frame));
   }
 
   BagPlan plan_;
   std::unique_ptr<BagFile> bag_;
-  std::vector<RosLaser> lasers_;  // in the order of plan_.scan_topics
+  std::optional<HeightSlice> slice_;
+  std::vector<LogOptions> sensor_options_;  // in the order of plan_.scan_topics
+  std::vector<RosLaser> lasers_;            // in the order of plan_.scan_topics
   OdometryInterpolator interpolator_;
+  GyroscopeHeadings headings_;  // instead of interpolator_ if a gyroscope is used
   std::exception_ptr failure_;
   bool at_end_ = false;
 };

@@ -473,9 +473,12 @@ std::vector<std::string> MappingSession::assumptions() const {
   const std::vector<Frame>& log = m_->mapped_log();
   const auto without = static_cast<std::size_t>(
       std::count_if(log.begin(), log.end(), [](const Frame& frame) { return !frame.has_odometry; }));
+  const bool has_gyroscope = std::any_of(
+      log.begin(), log.end(), [](const Frame& frame) { return frame.imu_heading_rad.has_value(); });
   if (without == log.size() && without > 0 && !ignores_odometry(log_options(m_->settings)))
     assumptions.push_back(
-        "the log has no odometry, so the motion between scans follows from the scans alone");
+        std::string("the log has no odometry, so the motion between scans follows from the scans ") +
+        (has_gyroscope ? "and the gyroscope" : "alone"));
   else if (without > 0 && without < log.size())
     assumptions.push_back(std::to_string(without) + " of " + std::to_string(log.size()) +
                           " scans have no odometry");

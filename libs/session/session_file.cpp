@@ -41,8 +41,9 @@ enum Flags : std::uint8_t {
   kHasOdometry = 1,
   kOtherSensor = 2,    ///< the sensor differs from the previous frame's sensor and is described
   kHasCompanions = 4,  ///< the number of companions and their scans follow
+  kHasImuHeading = 8,  ///< the heading by a gyroscope follows; not before version 4
 };
-constexpr std::uint8_t kAllFlags = kHasOdometry | kOtherSensor | kHasCompanions;
+constexpr std::uint8_t kAllFlags = kHasOdometry | kOtherSensor | kHasCompanions | kHasImuHeading;
 
 /// Appends the bytes of a number to `bytes`.
 template <class Number>
@@ -159,8 +160,10 @@ void append_frames(std::string& bytes, const std::vector<Frame>& frames) {
   LastSensors<std::string> sensors;
   for (const Frame& frame : frames) {
     append_scan(bytes,
-                (frame.has_odometry ? kHasOdometry : 0) | (frame.companions.empty() ? 0 : kHasCompanions),
+                (frame.has_odometry ? kHasOdometry : 0) | (frame.companions.empty() ? 0 : kHasCompanions) |
+                    (frame.imu_heading_rad ? kHasImuHeading : 0),
                 frame.time_us, frame.odom_T_robot, frame.scan, sensors[0]);
+    if (frame.imu_heading_rad) append_number(bytes, *frame.imu_heading_rad);
     if (frame.companions.empty()) continue;
     append_number(bytes, static_cast<std::uint32_t>(frame.companions.size()));
     for (std::size_t i = 0; i < frame.companions.size(); ++i) {
@@ -189,6 +192,9 @@ std::vector<Frame> read_frames(ByteCursor& bytes, std::uint32_t version) {
     if (!sensor.bearings_rad) throw MalformedBytes("the first scan has no sensor description");
     frame.scan = sensor;
     read_ranges(bytes, frame.scan);
+    if ((flags & kHasImuHeading) != 0) frame.imu_heading_rad = bytes.number<double>();
+    if (!std::isfinite(frame.imu_heading_rad.value_or(0)))
+      throw MalformedBytes("the heading by a gyroscope is not finite");
     if ((flags & kHasCompanions) != 0)
       frame.companions = read_companions(bytes, version, frame.scan.laser, sensors);
     frames.push_back(std::move(frame));

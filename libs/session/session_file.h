@@ -13,7 +13,7 @@
 namespace psi_slam {
 
 /// Version of the files that are written. Files of this and all older versions can be read.
-inline constexpr std::uint32_t kSessionVersion = 3;
+inline constexpr std::uint32_t kSessionVersion = 4;
 
 /// Whether the file begins with the magic word of sessions. False if the file is unreadable.
 bool is_session_file(const std::filesystem::path& path);

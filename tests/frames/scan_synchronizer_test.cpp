@@ -102,6 +102,19 @@ TEST(ScanSynchronizer, without_odometry_the_motion_is_zero) {
   EXPECT_EQ(synchronizer.take()->companions.at(0).frame_T_robot, TPose2D(0, 0, 0));
 }
 
+TEST(ScanSynchronizer, without_odometry_a_gyroscope_gives_the_turn) {
+  ScanSynchronizer synchronizer;
+  Frame first = scan_of({0, 0});
+  Frame other = scan_of({1, 50});
+  for (Frame* frame : {&first, &other}) frame->has_odometry = false;
+  first.imu_heading_rad = 7.0;
+  other.imu_heading_rad = 7.125;
+  synchronizer.add(first);
+  synchronizer.add(other);
+  synchronizer.end_of_log();
+  EXPECT_EQ(synchronizer.take()->companions.at(0).frame_T_robot, TPose2D(0, 0, 0.125));
+}
+
 TEST(ScanSynchronizer, a_faster_laser_has_scans_to_spare) {
   std::size_t spare = 0;
   EXPECT_THAT(synchronized({{0, 0}, {1, 5}, {1, 30}, {1, 55}, {1, 80}, {0, 100}, {1, 105}}, &spare),

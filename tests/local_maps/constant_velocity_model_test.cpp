@@ -89,5 +89,54 @@ TEST(ConstantVelocityModel, scans_at_one_time_give_no_speed) {
   EXPECT_EQ(robot.predict(kSecond).motion, TPose2D(0, 0, 0));
 }
 
+TEST(ConstantVelocityModel, a_gyroscope_predicts_the_turn) {
+  ConstantVelocityModel robot;
+  robot.moved(0, {0, 0, 0}, true, 5.0);
+  robot.moved(kSecond / 2, {0.5, 0, 0}, true, 5.0);
+  const PredictedMotion predicted = robot.predict(kSecond, 6.0);
+  EXPECT_NEAR(predicted.motion.phi, 1, 1e-9);
+  EXPECT_NEAR(predicted.motion.x, 0.5 * std::cos(0.5), 1e-9) << "the robot moves along an arc";
+  EXPECT_NEAR(predicted.motion.y, 0.5 * std::sin(0.5), 1e-9);
+  const PredictedMotion steady = robot.predict(kSecond);
+  EXPECT_EQ(steady.motion.phi, 0);
+  EXPECT_LT(predicted.sigma_rad, 0.2 * steady.sigma_rad);
+  EXPECT_LT(predicted.sigma_since_match_rad, 0.2 * steady.sigma_since_match_rad);
+  EXPECT_EQ(predicted.sigma_without_gyroscope_rad, steady.sigma_since_match_rad);
+  EXPECT_EQ(predicted.sigma_m, steady.sigma_m);
+}
+
+TEST(ConstantVelocityModel, a_gyroscope_predicts_turns_only_between_scans_with_a_heading) {
+  ConstantVelocityModel robot;
+  EXPECT_EQ(robot.predict(0, 5.0).motion.phi, 0) << "there is no pose yet";
+  robot.moved(0, {0, 0, 0}, true);
+  EXPECT_EQ(robot.predict(kSecond / 2, 5.0).motion.phi, 0);
+  robot.moved(kSecond / 2, {0, 0, 0.25}, true, 5.0);
+  EXPECT_NEAR(robot.predict(kSecond).motion.phi, 0.25, 1e-9);
+  EXPECT_NEAR(robot.predict(kSecond, 5.5).motion.phi, 0.5, 1e-9);
+}
+
+TEST(ConstantVelocityModel, unknown_turns_since_the_last_match_widen_the_window) {
+  ConstantVelocityModel robot;
+  robot.moved(0, {0, 0, 0}, true, 0.0);
+  robot.moved(kSecond, {0, 0, 0}, true, 0.0);
+  robot.moved(3 * kSecond / 2, {0, 0, 0}, false);
+  robot.moved(2 * kSecond, {0, 0, 0}, false, 1.0);
+  const PredictedMotion predicted = robot.predict(5 * kSecond / 2, 1.5);
+  EXPECT_NEAR(predicted.motion.phi, 0.5, 1e-9);
+  EXPECT_EQ(predicted.sigma_since_match_rad, predicted.sigma_without_gyroscope_rad);
+}
+
+// The robot turns left and right in turns; the gyroscope reports nothing.
+TEST(ConstantVelocityModel, a_dead_gyroscope_is_ignored) {
+  ConstantVelocityModel robot;
+  TPose2D pose(0, 0, 0);
+  TimeUs time_us = 0;
+  for (int i = 0; i < 60; ++i, time_us += kSecond / 10) {
+    pose.phi += 0.1 * (i / 10 % 2 == 0 ? 1 : -1);
+    robot.moved(time_us, pose, true, 0.0);
+  }
+  EXPECT_NEAR(robot.predict(time_us, 0.0).motion.phi, -0.1, 1e-9);
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -64,6 +64,17 @@ TEST(OpenLog, rejects_invalid_options) {
             "log.every_nth_scan is 0, expected 1 or more");
 }
 
+TEST(OpenLog, rejects_a_gyroscope_of_a_log_that_holds_none) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "log";
+  write_file(path, small_carmen_log(1));
+  LogOptions options;
+  options.imu = "/imu";
+  EXPECT_EQ(sentence_of([&] { open_log(path, options); }), "log.imu is \"/imu\", expected auto or none for " +
+                                                               path.string() +
+                                                               ", because CARMEN logs hold no gyroscope");
+}
+
 TEST(OpenLog, reports_missing_and_empty_files) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "log";

@@ -139,6 +139,58 @@ TEST_F(RawlogReaderTest, odometry_may_be_missing_or_unwanted) {
   }
 }
 
+TEST_F(RawlogReaderTest, a_gyroscope_gives_the_headings_of_scans_without_odometry) {
+  const mrpt::poses::CPose3D upside_down(0, 0, 0, 0, 0, M_PI);
+  const auto log_with = [&](const std::string& label) {
+    RawlogObjects objects;
+    for (TimeUs t = 0; t <= 1'000'000; t += 10'000) {
+      objects.push_back(imu_rate(kStart + t, -0.5, label, upside_down));
+      if (t % 100'000 == 0) objects.push_back(sensory_frame({range_scan(kStart + t + 5'000)}));
+    }
+    return objects;
+  };
+  const auto expect_headings = [](const std::vector<Frame>& frames) {
+    ASSERT_EQ(frames.size(), 11U);
+    for (std::size_t i = 0; i < 10; ++i) {
+      EXPECT_FALSE(frames[i].has_odometry);
+      EXPECT_NEAR(frames[i].imu_heading_rad.value(), 0.05 * static_cast<double>(i) + 0.0025, 1e-9);
+    }
+    EXPECT_FALSE(frames[10].imu_heading_rad);
+  };
+  expect_headings(read(log_with("IMU")));
+  EXPECT_TRUE(contents_.assumptions.empty());
+  RawlogObjects with_odometry = log_with("IMU");
+  with_odometry.insert(with_odometry.begin(), odometry(kStart, {1, 0, 0}));
+  EXPECT_FALSE(read(with_odometry).at(1).imu_heading_rad);
+  LogOptions options;
+  options.odometry = "none";
+  expect_headings(read(with_odometry, options));
+
+  RawlogObjects two = log_with("IMU");
+  two.push_back(imu_rate(kStart + 2'000'000, 0, "CAMERA"));
+  EXPECT_FALSE(read(two).at(1).imu_heading_rad);
+  EXPECT_THAT(contents_.assumptions,
+              testing::ElementsAre(testing::HasSubstr("the log has several: \"CAMERA\", \"IMU\"")));
+  options.imu = "IMU";
+  expect_headings(read(two, options));
+  EXPECT_TRUE(contents_.assumptions.empty());
+  options.imu = "GYRO";
+  EXPECT_EQ(sentence_about(two, options),
+            "log.imu is \"GYRO\", expected the label of a CObservationIMU with a rate of turn of " +
+                path_.string() + ": \"CAMERA\", \"IMU\"");
+  options.imu = "none";
+  EXPECT_FALSE(read(two, options).at(1).imu_heading_rad);
+}
+
+TEST_F(RawlogReaderTest, an_imu_without_a_rate_of_turn_is_no_gyroscope) {
+  const auto imu = imu_rate(kStart, 1);
+  imu->dataIsPresent.fill(false);
+  imu->set(mrpt::obs::IMU_YAW, 1);
+  const auto frames = read({imu, range_scan(kStart), imu});
+  EXPECT_FALSE(frames.at(0).imu_heading_rad);
+  EXPECT_TRUE(contents_.assumptions.empty());
+}
+
 TEST_F(RawlogReaderTest, skips_odometry_that_is_not_finite) {
   const auto scan = sensory_frame({range_scan(kStart)});
   const auto frames =

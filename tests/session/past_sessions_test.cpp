@@ -11,6 +11,9 @@
 //
 // version-3.session: the room of room_log.h again, made by `psi-slam merge`, with runs as in version 1. Line
 // 21 of the first log is malformed, and the log is cut off in line 57.
+//
+// version-4.session: the room of room_log.h again. One run of a bag without odometry has 60 scans, 50 for
+// each round. A gyroscope with a bias of 0.02 rad/s gives the heading of each scan after the first.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -122,6 +125,30 @@ TEST(PastSessions, version_3_has_faults_of_each_log_and_gives_the_same_map) {
   EXPECT_THAT(session.warnings(),
               testing::ElementsAre(testing::HasSubstr("first.log:57"), testing::HasSubstr("first.log:21")));
   EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, {0.4085, 7.9527, 0}), 0.015)
+      << "the map is the same as when the session was recorded";
+}
+
+TEST(PastSessions, version_4_has_headings_by_a_gyroscope_and_gives_the_same_map) {
+  const auto file = past_session("version-4.session");
+  ASSERT_EQ(sha256_of_file(file), "0f105c04e9fa845c6c126b28ff9e6f0baa31f55049f1592d4e40db169124addd")
+      << "the session file was changed";
+  const SessionInput input = SessionInput::of_file(file);
+  const std::vector<Frame>& frames = input.recording()->frames;
+  ASSERT_EQ(frames.size(), 60U);
+  EXPECT_FALSE(frames[0].imu_heading_rad);
+  for (std::size_t i = 2; i < frames.size(); ++i) {
+    EXPECT_FALSE(frames[i].has_odometry);
+    const double turn_rad = frames[i].imu_heading_rad.value() - frames[i - 1].imu_heading_rad.value();
+    const double true_turn_rad = (room_pose(2 * M_PI * static_cast<double>(i) / 50) -
+                                  room_pose(2 * M_PI * static_cast<double>(i - 1) / 50))
+                                     .phi;
+    EXPECT_NEAR(turn_rad, true_turn_rad + 0.02 * 0.2, 0.01);
+  }
+  BoundSettings bound;
+  load_recorded(bound, input.recording()->facts, file);
+  MappingSession session(input, bound.settings);
+  session.run(std::atomic<bool>(false));
+  EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, {2.3553, 2.2963, 0}), 0.01)
       << "the map is the same as when the session was recorded";
 }
 

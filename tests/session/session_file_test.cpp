@@ -54,6 +54,7 @@ SessionRecording small_recording() {
     frame.odom_T_robot = {1.0 / 3, -0.0, std::nextafter(M_PI, 0)};
     frame.scan = i < 2 ? scan_of({1.1F, nan, INFINITY, 3.3F}, 80) : scan_of({0.1F}, 30);
     frame.has_odometry = i != 3;
+    if (i > 1) frame.imu_heading_rad = -1.0 / 3;
     if (i > 0) frame.companions = companions_of(i);
     recording.frames.push_back(frame);
   }
@@ -113,6 +114,7 @@ TEST_F(SessionFileTest, restores_everything_to_the_last_bit) {
     EXPECT_EQ(b.index, i);
     EXPECT_EQ(a.time_us, b.time_us);
     EXPECT_EQ(a.has_odometry, b.has_odometry);
+    EXPECT_EQ(a.imu_heading_rad, b.imu_heading_rad);
     EXPECT_TRUE(same_bits(a.odom_T_robot, b.odom_T_robot));
     expect_same_scan(a.scan, b.scan);
     ASSERT_EQ(a.companions.size(), b.companions.size());
@@ -182,11 +184,11 @@ TEST_F(SessionFileTest, reports_a_truncated_file) {
 
 TEST_F(SessionFileTest, reports_a_newer_version) {
   std::string newer = bytes_;
-  newer[16] = 4;
+  newer[16] = 5;
   EXPECT_THAT(
       complaint_about(sealed(newer)),
       HasSubstr(
-          "my.session is a session of version 4, made by a newer psi-slam. This one reads versions up to 3"));
+          "my.session is a session of version 5, made by a newer psi-slam. This one reads versions up to 4"));
 }
 
 TEST_F(SessionFileTest, reports_a_file_that_is_no_session) {
@@ -228,6 +230,8 @@ TEST_F(SessionFileTest, reports_contradictions_despite_a_valid_checksum) {
               HasSubstr("invalid pose"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[0].odom_T_robot.phi = NAN; }),
               HasSubstr("invalid pose"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].imu_heading_rad = NAN; }),
+              HasSubstr("the heading by a gyroscope is not finite"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].companions[1].scan.laser = 4'000'000'000; }),
               HasSubstr("number of a laser is too high"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].companions[1].scan.laser = 1; }),

@@ -50,7 +50,25 @@ struct RecordedPose {
   bool is_transform() const { return topic.compare(0, 3, "/tf") == 0; }
 };
 
-using Recorded = std::variant<RecordedScan, RecordedPose>;
+struct RecordedImu {
+  std::string topic = "/imu";
+  TimeUs time_us = 0;
+  std::string frame = "imu";
+  std::array<double, 3> rate_radps{};
+  bool has_rate = true;  // false: the message states that it has no angular velocity
+};
+
+struct RecordedCloud {
+  std::string topic = "/points";
+  TimeUs time_us = 0;
+  std::string frame = "lidar";
+  std::vector<std::array<double, 3>> points;  // their number is a multiple of `rows`
+  std::uint32_t rows = 1;
+  bool doubles = false;     // float64 coordinates instead of float32
+  bool big_endian = false;  // byte order of the points
+};
+
+using Recorded = std::variant<RecordedScan, RecordedPose, RecordedImu, RecordedCloud>;
 using Recording = std::vector<Recorded>;
 
 inline const std::string& topic_of(const Recorded& message) {
@@ -62,11 +80,11 @@ inline TimeUs time_of(const Recorded& message) {
 }
 
 inline std::string ros2_type_of(const Recorded& message) {
-  const auto* pose = std::get_if<RecordedPose>(&message);
-  if (pose == nullptr)
-    return std::get<RecordedScan>(message).multi_echo ? "sensor_msgs/msg/MultiEchoLaserScan"
-                                                      : "sensor_msgs/msg/LaserScan";
-  return pose->is_transform() ? "tf2_msgs/msg/TFMessage" : "nav_msgs/msg/Odometry";
+  if (const auto* scan = std::get_if<RecordedScan>(&message))
+    return scan->multi_echo ? "sensor_msgs/msg/MultiEchoLaserScan" : "sensor_msgs/msg/LaserScan";
+  if (const auto* pose = std::get_if<RecordedPose>(&message))
+    return pose->is_transform() ? "tf2_msgs/msg/TFMessage" : "nav_msgs/msg/Odometry";
+  return std::holds_alternative<RecordedImu>(message) ? "sensor_msgs/msg/Imu" : "sensor_msgs/msg/PointCloud2";
 }
 
 /// Static transform from base_link to a laser 0.2 m ahead and 0.4 m above, turned left by 0.3 rad.
@@ -141,6 +159,11 @@ class CdrWriter {
     bytes_ += value + '\0';
   }
 
+  void bytes(const std::string& value) {
+    number(static_cast<std::uint32_t>(value.size()));
+    bytes_ += value;
+  }
+
   void header(TimeUs time_us, const std::string& frame) {
     number(static_cast<std::int32_t>(time_us / 1'000'000));
     number(static_cast<std::uint32_t>(time_us % 1'000'000 * 1000));
@@ -189,6 +212,84 @@ inline std::string cdr(const RecordedPose& pose, bool little_endian) {
   cdr.pose(pose.pose);
   if (!pose.is_transform())
     for (int i = 0; i < 36 + 6 + 36; ++i) cdr.number(0.0);  // covariance, twist
+  return cdr.message();
+}
+
+/// Returns the 37 numbers of an IMU message after its header.
+inline std::vector<double> numbers_of(const RecordedImu& imu) {
+  std::vector<double> numbers(4 + 9 + 3 + 9 + 3 + 9, 0.0);
+  for (std::size_t axis = 0; axis < 3; ++axis) numbers[13 + axis] = imu.rate_radps[axis];
+  numbers[16] = imu.has_rate ? 0.01 : -1;
+  return numbers;
+}
+
+inline std::string cdr(const RecordedImu& imu, bool little_endian) {
+  CdrWriter cdr(little_endian);
+  cdr.header(imu.time_us, imu.frame);
+  for (const double value : numbers_of(imu)) cdr.number(value);
+  return cdr.message();
+}
+
+/// Bytes of a cloud's points. Each point has an intensity, then z, x and y, then a spare byte. Two spare
+/// bytes follow each row.
+struct CloudBytes {
+  explicit CloudBytes(const RecordedCloud& cloud)
+      : size(cloud.doubles ? 8 : 4),
+        columns(static_cast<std::uint32_t>(cloud.points.size()) / cloud.rows),
+        point_bytes(4 + 3 * size + 1),
+        row_bytes(columns * point_bytes + 2) {
+    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+      data += std::string(4, '\0');
+      for (const std::size_t axis : {2U, 0U, 1U}) add(cloud.points[i][axis], cloud);
+      data += '\0';
+      if ((i + 1) % columns == 0) data += std::string(2, '\0');
+    }
+  }
+
+  struct Field {
+    std::string name;
+    std::uint32_t offset;
+    std::uint8_t type;
+  };
+  std::vector<Field> fields() const {
+    const std::uint8_t type = size == 8 ? 8 : 7;
+    return {{"intensity", 0, 7}, {"z", 4, type}, {"x", 4 + size, type}, {"y", 4 + 2 * size, type}};
+  }
+
+  std::uint32_t size;  // of a coordinate
+  std::uint32_t columns;
+  std::uint32_t point_bytes;
+  std::uint32_t row_bytes;
+  std::string data;
+
+ private:
+  void add(double value, const RecordedCloud& cloud) {
+    const auto single = static_cast<float>(value);
+    std::string raw(size, '\0');
+    std::memcpy(raw.data(), cloud.doubles ? static_cast<const void*>(&value) : &single, size);
+    if (cloud.big_endian) raw = std::string(raw.rbegin(), raw.rend());
+    data += raw;
+  }
+};
+
+inline std::string cdr(const RecordedCloud& cloud, bool little_endian) {
+  CdrWriter cdr(little_endian);
+  const CloudBytes content(cloud);
+  cdr.header(cloud.time_us, cloud.frame);
+  cdr.number(cloud.rows);
+  cdr.number(content.columns);
+  cdr.number(static_cast<std::uint32_t>(content.fields().size()));
+  for (const CloudBytes::Field& field : content.fields()) {
+    cdr.text(field.name);
+    cdr.number(field.offset);
+    cdr.number(field.type);
+    cdr.number(std::uint32_t{1});
+  }
+  cdr.number(std::uint8_t{cloud.big_endian});
+  cdr.number(content.point_bytes);
+  cdr.number(content.row_bytes);
+  cdr.bytes(content.data);
+  cdr.number(std::uint8_t{1});
   return cdr.message();
 }
 
@@ -353,9 +454,9 @@ inline void write_carmen(const std::filesystem::path& path, const Recording& rec
       log += " 0.01 0 " + std::to_string(scan->ranges_m.size());
       for (const float range : scan->ranges_m) add(static_cast<double>(range));
       log += " 0";
-    } else if (const auto& pose = std::get<RecordedPose>(message); !pose.is_transform()) {
+    } else if (const auto* pose = std::get_if<RecordedPose>(&message); pose && !pose->is_transform()) {
       log += "ODOM";
-      for (const double value : {pose.pose.x, pose.pose.y, pose.pose.yaw, 0.0, 0.0, 0.0}) add(value);
+      for (const double value : {pose->pose.x, pose->pose.y, pose->pose.yaw, 0.0, 0.0, 0.0}) add(value);
     } else {
       continue;
     }

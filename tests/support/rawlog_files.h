@@ -7,6 +7,7 @@
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
@@ -43,6 +44,18 @@ inline mrpt::obs::CObservationOdometry::Ptr odometry(TimeUs time_us, const mrpt:
   observation->timestamp = mrpt_time(time_us);
   observation->sensorLabel = "ODOMETRY";
   observation->odometry = pose;
+  return observation;
+}
+
+/// Observation of an IMU that measures the rate of turn about its z axis.
+inline mrpt::obs::CObservationIMU::Ptr imu_rate(TimeUs time_us, double rate_radps,
+                                                const std::string& label = "IMU",
+                                                const mrpt::poses::CPose3D& robot_T_imu = {}) {
+  auto observation = mrpt::obs::CObservationIMU::Create();
+  observation->timestamp = mrpt_time(time_us);
+  observation->sensorLabel = label;
+  observation->sensorPose = robot_T_imu;
+  observation->set(mrpt::obs::IMU_WZ, rate_radps);
   return observation;
 }
 

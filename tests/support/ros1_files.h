@@ -58,6 +58,24 @@ inline std::string ros1_message(const RecordedPose& pose) {
   return pose.is_transform() ? bytes : bytes + std::string((36 + 6 + 36) * sizeof(double), '\0');
 }
 
+inline std::string ros1_message(const RecordedImu& imu) {
+  std::string bytes = ros1_header(imu.time_us, imu.frame);
+  for (const double value : numbers_of(imu)) bytes += ros1_packed(value);
+  return bytes;
+}
+
+inline std::string ros1_message(const RecordedCloud& cloud) {
+  const CloudBytes content(cloud);
+  std::string bytes = ros1_header(cloud.time_us, cloud.frame) + ros1_packed(cloud.rows) +
+                      ros1_packed(content.columns) +
+                      ros1_packed(static_cast<std::uint32_t>(content.fields().size()));
+  for (const CloudBytes::Field& field : content.fields())
+    bytes += ros1_text(field.name) + ros1_packed(field.offset) + ros1_packed(field.type) +
+             ros1_packed(std::uint32_t{1});
+  return bytes + ros1_packed(std::uint8_t{cloud.big_endian}) + ros1_packed(content.point_bytes) +
+         ros1_packed(content.row_bytes) + ros1_text(content.data) + ros1_packed(std::uint8_t{1});
+}
+
 inline std::string ros1_message(const Recorded& message) {
   return std::visit([](const auto& m) { return ros1_message(m); }, message);
 }

@@ -104,7 +104,7 @@ FrontEndStep FrontEnd::add(const Frame& recorded, bool may_be_lost) {
 
 Frame FrontEnd::straightened(Frame frame) const {
   if (frame.has_odometry) return frame;
-  const PredictedMotion predicted = constant_velocity_.predict(frame.time_us);
+  const PredictedMotion predicted = constant_velocity_.predict(frame.time_us, frame.imu_heading_rad);
   straighten(frame, predicted.motion, predicted.duration_s);
   return frame;
 }

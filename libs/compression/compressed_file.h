@@ -8,14 +8,14 @@
 #include <optional>
 #include <string>
 
+#include "compression/file_decoder.h"
 #include "psi_slam/user_error.h"
-
-struct gzFile_s;  // file handle of zlib
 
 namespace psi_slam {
 
-/// Reads a plain or gzipped file once from its beginning. Recognises gzip by the content of the file, not by
-/// its name. The constructor throws UserError if the file does not exist, is a folder or is not readable.
+/// Reads a file once from its beginning, plain or compressed by gzip or zstd. Recognises the compression by
+/// the content of the file, not by its name. The constructor throws UserError if the file does not exist, is
+/// a folder or is not readable.
 class CompressedFile {
  public:
   /// `expected` names the kind of file in the messages about a missing file and about a folder.
@@ -35,7 +35,7 @@ class CompressedFile {
   std::optional<UserError> failure_now() const;
 
   std::filesystem::path path_;
-  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
+  std::unique_ptr<FileDecoder> decoder_;
   std::uintmax_t bytes_on_disk_ = 0;
   std::optional<UserError> failure_;  // error for the next call of read()
 };

@@ -12,7 +12,6 @@
 
 #include "base/text_parts.h"
 #include "compression/compressed_file.h"
-#include "compression/compression.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -56,10 +55,30 @@ bool is_carmen(std::string_view head) {
   return false;
 }
 
+/// Returns the name of a file without the ending that zstd programs add: "run_0.db3" for "run_0.db3.zstd".
+fs::path without_zstd(fs::path path) {
+  if (path.extension() == ".zstd" || path.extension() == ".zst") path.replace_extension();
+  return path;
+}
+
+/// Returns the file that metadata.yaml of a folder lists under `name`. rosbag2 lists compressed files, which
+/// the user may have unpacked. The unpacked file takes precedence, because a recorder that was killed leaves
+/// an incomplete compressed file beside it.
+fs::path listed_file(const fs::path& folder, const fs::path& name) {
+  // Early versions of rosbag2 wrote paths that start with the name of the folder itself.
+  for (const fs::path& path : {folder / name, folder / name.filename()})
+    for (const char* ending : {"", ".zstd", ".zst"}) {
+      fs::path file = without_zstd(path);
+      file += ending;
+      if (fs::exists(file)) return file;
+    }
+  return folder / name.filename();
+}
+
 /// Orders "run_2.db3" before "run_10.db3".
 bool by_numbers(const fs::path& a, const fs::path& b) {
   const auto key = [](const fs::path& path) {
-    const std::string stem = path.stem().string();
+    const std::string stem = without_zstd(path).stem().string();
     const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
     const std::string number = stem.substr(digits);
     return std::make_tuple(stem.substr(0, digits), number.size(), number);
@@ -71,12 +90,8 @@ std::vector<fs::path> files_listed(const fs::path& metadata) {
   std::vector<fs::path> files;
   try {
     const auto yaml = mrpt::containers::yaml::FromFile(metadata.string());
-    for (const auto& file : yaml["rosbag2_bagfile_information"]["relative_file_paths"].asSequence()) {
-      const fs::path name = file.as<std::string>();
-      // Early versions of rosbag2 wrote paths that start with the name of the folder itself.
-      const fs::path beside = metadata.parent_path() / name;
-      files.push_back(fs::exists(beside) ? beside : metadata.parent_path() / name.filename());
-    }
+    for (const auto& file : yaml["rosbag2_bagfile_information"]["relative_file_paths"].asSequence())
+      files.push_back(listed_file(metadata.parent_path(), file.as<std::string>()));
   } catch (const std::exception&) {
     throw UserError(
         metadata.string() +
@@ -102,9 +117,11 @@ std::vector<fs::path> files_of_bag_folder(const fs::path& folder) {
   std::error_code ignored;
   if (fs::exists(folder / "metadata.yaml", ignored)) return files_listed(folder / "metadata.yaml");
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (entry.path().extension() == ".db3" || entry.path().extension() == ".mcap")
-      files.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const fs::path unpacked = without_zstd(entry.path());
+    const bool is_bag_file = unpacked.extension() == ".db3" || unpacked.extension() == ".mcap";
+    if (is_bag_file && (entry.path() == unpacked || !fs::exists(unpacked))) files.push_back(entry.path());
+  }
   std::sort(files.begin(), files.end(), by_numbers);
   return files;
 }
@@ -126,8 +143,6 @@ LogFormat detect_log_format(const fs::path& path) {
   if (starts_with(head, std::string_view("SQLite format 3\0", 16))) return LogFormat::kRos2Sqlite;
   if (is_mrpt_archive(head)) return LogFormat::kMrptRawlog;
   if (is_carmen(head)) return LogFormat::kCarmen;
-  if (is_zstd(head))
-    throw UserError(path.string() + " is compressed by zstd, which is not supported. Unpack it with zstd -d");
   throw UserError(path.string() + " has an unknown format" + kExpected + ". Convert it first");
 }
 

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "base/byte_cursor.h"
+#include "compression/compression.h"
 #include "frames/log_format.h"
 #include "psi_slam/user_error.h"
 
@@ -67,6 +69,19 @@ std::string ros1_type_name(std::string_view type) {
 
 void add_topic(std::vector<BagTopic>& topics, const BagTopic& topic) {
   if (std::find(topics.begin(), topics.end(), topic) == topics.end()) topics.push_back(topic);
+}
+
+void check_stated_size(std::uint64_t bytes) {
+  if (bytes > kMaxRecordBytes)
+    throw MalformedBytes("it states a size of " + std::to_string(bytes) + " bytes, expected at most " +
+                         std::to_string(kMaxRecordBytes));
+}
+
+void unpack_message(BagMessage& message, std::string& room) {
+  // CDR starts with a byte 0, so it is never taken for zstd.
+  if (message.topic->encoding != BagEncoding::kCdr || !is_zstd(message.bytes)) return;
+  room = decompress_zstd_frame(message.bytes, kMaxRecordBytes);
+  message.bytes = room;
 }
 
 std::unique_ptr<BagFile> open_bag(const fs::path& path) {

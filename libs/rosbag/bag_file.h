@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -39,6 +40,17 @@ struct BagMessage {
   std::string_view bytes;
 };
 
+/// Largest record, chunk or message that is read. Anything larger is taken for damage.
+constexpr std::uint64_t kMaxRecordBytes = std::uint64_t{1} << 29;
+
+/// Throws MalformedBytes if a bag states a size above kMaxRecordBytes.
+void check_stated_size(std::uint64_t bytes);
+
+/// Decompresses the bytes of a message if rosbag2 compressed each message by itself (compression mode
+/// "message"). `room` holds the decompressed bytes. Throws MalformedBytes if they are damaged, or more than
+/// kMaxRecordBytes.
+void unpack_message(BagMessage& message, std::string& room);
+
 /// Reads a bag from its beginning, in the order of the file.
 class BagFile {
  public:
@@ -71,8 +83,9 @@ class BagFile {
   std::vector<std::string> wanted_;
 };
 
-/// Opens a bag of any container: a file, or the folder of a ROS 2 bag, whose files are read in order.
-/// Recognises the container by the content. Throws UserError if `path` is not a bag.
+/// Opens a bag of any container: a file, or the folder of a ROS 2 bag, whose files are read in order. Each
+/// file may be compressed as a whole by gzip or zstd. Recognises the container by the content. Throws
+/// UserError if `path` is not a bag.
 std::unique_ptr<BagFile> open_bag(const std::filesystem::path& path);
 
 /// Opens a ROS 1 bag, version 2.0 (http://wiki.ros.org/Bags/Format/2.0). It consists of records of header
@@ -87,7 +100,8 @@ std::unique_ptr<BagFile> open_ros1_bag(const std::filesystem::path& path);
 std::unique_ptr<BagFile> open_mcap_bag(const std::filesystem::path& path);
 
 /// Opens an SQLite file (.db3) of ROS 2, which has a table of topics and a table of messages. Messages are
-/// read in the order in which they were written.
+/// read in the order in which they were written. A compressed file is unpacked into a temporary file while it
+/// is read.
 std::unique_ptr<BagFile> open_sqlite_bag(const std::filesystem::path& path);
 
 }  // namespace psi_slam

@@ -105,8 +105,13 @@ class McapBag : public RecordBag {
     record_offset_ = stream_.offset();
     ByteCursor head(stream_.read(9));
     kind_ = head.number<std::uint8_t>();
-    bytes_ = stream_.read(head.number<std::uint64_t>());
+    const auto size = head.number<std::uint64_t>();
     at_end_ = kind_ == kDataEnd || kind_ == kFooter;
+    if (kind_ == kSchema || kind_ == kChannel || kind_ == kMessage || kind_ == kChunk) {
+      bytes_ = stream_.read(size);
+    } else {
+      stream_.skip(size);  // an attachment, for example, which may be of any size
+    }
     return !at_end_;
   }
 
@@ -148,7 +153,9 @@ class McapBag : public RecordBag {
 
   std::vector<BagTopic> topics_of_summary() const {
     const std::string footer = tail_of_file(stream_.path(), -kFooterBytes);
-    if (footer.empty() || footer.front() != kFooter) return {};
+    const bool is_footer = !footer.empty() && footer.front() == kFooter &&
+                           footer.compare(footer.size() - kMagic.size(), kMagic.size(), kMagic) == 0;
+    if (!is_footer) return {};
     const auto start = ByteCursor(std::string_view(footer).substr(9)).number<std::uint64_t>();
     if (start == 0 || start > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) return {};
     const std::string summary = tail_of_file(stream_.path(), static_cast<std::int64_t>(start));

@@ -30,12 +30,25 @@ std::string_view BagStream::read_up_to(std::uint64_t size) {
 }
 
 std::string_view BagStream::read(std::uint64_t size) {
+  check_stated_size(size);
   const std::uint64_t start = offset_;
   const std::string_view bytes = read_up_to(size);
-  if (bytes.size() < size)
-    throw UserError(place_of(start) + ": the file is cut off, expected " + std::to_string(size) +
-                    " more bytes, found " + std::to_string(bytes.size()) + ". Fetch the bag again");
+  if (bytes.size() < size) fail_cut_off(start, size);
   return bytes;
+}
+
+void BagStream::skip(std::uint64_t size) {
+  const std::uint64_t start = offset_;
+  for (std::uint64_t left = size; left > 0;) {
+    const std::size_t skipped = read_up_to(std::min(left, kPieceBytes)).size();
+    if (skipped == 0) fail_cut_off(start, size);
+    left -= skipped;
+  }
+}
+
+void BagStream::fail_cut_off(std::uint64_t start, std::uint64_t expected) const {
+  throw UserError(place_of(start) + ": the file is cut off, expected " + std::to_string(expected) +
+                  " more bytes, found " + std::to_string(offset_ - start) + ". Fetch the bag again");
 }
 
 std::string BagStream::place_of(std::uint64_t offset) const {
@@ -63,7 +76,9 @@ bool RecordBag::next(BagMessage& message) {
         in_chunk_.reset();
         if (!read_record_of_file()) break;
       }
-      if (take_record(message)) return true;
+      if (!take_record(message)) continue;
+      unpack_message(message, unpacked_message_);
+      return true;
     }
   } catch (const MalformedBytes& error) {
     throw UserError(place() + ": the bag is damaged: " + error.what() + ". Fetch the bag again");
@@ -74,7 +89,11 @@ bool RecordBag::next(BagMessage& message) {
 
 void RecordBag::unpack_chunk(std::string_view compression, std::string_view bytes, std::uint64_t size) {
   if (in_chunk_) throw MalformedBytes("a chunk contains another chunk");
+  check_stated_size(size);
   const bool is_plain = compression.empty() || compression == "none";
+  if (is_plain && bytes.size() != size)
+    throw MalformedBytes("a chunk has " + std::to_string(bytes.size()) + " bytes, not the " +
+                         std::to_string(size) + " that it states");
   chunk_ = is_plain ? std::string(bytes) : decompress(compression, bytes, size);
 }
 

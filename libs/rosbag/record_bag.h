@@ -22,8 +22,11 @@ class BagStream {
   explicit BagStream(const std::filesystem::path& path) : file_(path) {}
 
   /// Returns the next `size` bytes, valid until the next call. Throws UserError if the file has fewer bytes
-  /// left.
+  /// left, and MalformedBytes for a size that no record has.
   std::string_view read(std::uint64_t size);
+
+  /// Skips the next `size` bytes, any number of them. Throws UserError if the file has fewer bytes left.
+  void skip(std::uint64_t size);
 
   /// Returns up to `size` bytes, fewer only at the end of the file.
   std::string_view read_up_to(std::uint64_t size);
@@ -36,6 +39,8 @@ class BagStream {
   std::string place_of(std::uint64_t offset) const;
 
  private:
+  [[noreturn]] void fail_cut_off(std::uint64_t start, std::uint64_t expected) const;
+
   CompressedFile file_;
   std::string bytes_;
   std::uint64_t offset_ = 0;
@@ -64,8 +69,8 @@ class RecordBag : public BagFile {
   /// Throws UserError if the file ended before the end that it states.
   virtual void check_end() const {}
 
-  /// Decompresses the bytes of a chunk to chunk_. `size` is the number of decompressed bytes. Throws
-  /// MalformedBytes for damaged or nested chunks.
+  /// Decompresses the bytes of a chunk to chunk_. `size` is the stated number of decompressed bytes. Throws
+  /// MalformedBytes for damaged or nested chunks, and for chunks of another size.
   void unpack_chunk(std::string_view compression, std::string_view bytes, std::uint64_t size);
   /// Makes next() continue with the records in chunk_.
   void begin_chunk() { in_chunk_.emplace(chunk_); }
@@ -78,6 +83,7 @@ class RecordBag : public BagFile {
 
  private:
   std::optional<ByteCursor> in_chunk_;
+  std::string unpacked_message_;
   std::uint64_t offset_in_chunk_ = 0;  // byte offset of the current record in the decompressed chunk
 };
 

@@ -3,19 +3,18 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
+#include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "base/byte_cursor.h"
-#include "compression/compression.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_file.h"
+#include "rosbag/unpacked_database.h"
 
 namespace psi_slam {
 namespace {
-
-constexpr std::uint64_t kMaxMessageBytes = std::uint64_t{1} << 30;
 
 std::string text_at(sqlite3_stmt* row, int column) {
   const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
@@ -39,20 +38,28 @@ std::string uri_of(const std::filesystem::path& path) {
   return uri + (has_journal ? "?mode=ro" : "?mode=ro&immutable=1");
 }
 
+bool is_compressed(const std::filesystem::path& path) {
+  constexpr std::string_view kMagic("SQLite format 3\0", 16);
+  std::string head(kMagic.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head != kMagic;
+}
+
 class SqliteBag : public BagFile {
  public:
   explicit SqliteBag(const std::filesystem::path& path)
       : path_(path), database_(nullptr, &sqlite3_close), messages_(nullptr, &sqlite3_finalize) {
+    if (is_compressed(path)) unpacked_.emplace(path);
     sqlite3* database = nullptr;
     const int code =
-        sqlite3_open_v2(uri_of(path).c_str(), &database, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+        sqlite3_open_v2(unpacked_ ? "bag" : uri_of(path).c_str(), &database,
+                        SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, unpacked_ ? unpacked_->vfs_name() : nullptr);
     database_.reset(database);
     if (code != SQLITE_OK) fail();
     std::error_code ignored;
-    const auto bytes = std::filesystem::file_size(path, ignored);
-    sqlite3_limit(
-        database, SQLITE_LIMIT_LENGTH,
-        static_cast<int>(std::clamp<std::uintmax_t>(bytes, 1 << 20, std::numeric_limits<int>::max())));
+    const auto bytes = unpacked_ ? kMaxRecordBytes : std::filesystem::file_size(path, ignored);
+    sqlite3_limit(database, SQLITE_LIMIT_LENGTH,
+                  static_cast<int>(std::clamp<std::uintmax_t>(bytes, 1 << 20, kMaxRecordBytes)));
     // Without this setting, SQLite rejects a truncated file as a whole.
     sqlite3_exec(database, "PRAGMA writable_schema = ON", nullptr, nullptr, nullptr);
     read_topics();
@@ -66,7 +73,10 @@ class SqliteBag : public BagFile {
 
   bool next(BagMessage& message) override {
     if (!messages_) begin_messages();
-    if (!step(messages_)) return false;
+    if (!step(messages_)) {
+      if (unpacked_) unpacked_->unpack_rest();  // damage there may have changed the messages
+      return false;
+    }
     sqlite3_stmt* row = messages_.get();
     id_ = sqlite3_column_int64(row, 0);
     const auto topic = topics_.find(sqlite3_column_int64(row, 1));
@@ -74,17 +84,16 @@ class SqliteBag : public BagFile {
     const auto* data = static_cast<const char*>(sqlite3_column_blob(row, 3));
     const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row, 3));
     message = {&topic->second, sqlite3_column_int64(row, 2) / 1000, std::string_view(data, data ? size : 0)};
-    if (!is_zstd(message.bytes)) return true;
     try {
-      unpacked_ = decompress_zstd_frame(message.bytes, kMaxMessageBytes);
+      unpack_message(message, unpacked_message_);
     } catch (const MalformedBytes& error) {
       throw UserError(place() + ": the bag is damaged: " + error.what() + ". Fetch the bag again");
     }
-    message.bytes = unpacked_;
     return true;
   }
 
   double progress() const override {
+    if (unpacked_) return unpacked_->progress();
     if (last_id_ <= 0) return id_ > 0 ? 1 : 0;
     return std::clamp(static_cast<double>(id_) / static_cast<double>(last_id_), 0.0, 1.0);
   }
@@ -121,6 +130,7 @@ class SqliteBag : public BagFile {
       if (is_wanted(topic)) ids += (ids.empty() ? "" : ",") + std::to_string(id);
     messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages WHERE topic_id IN (" + ids +
                         ") ORDER BY id");
+    if (unpacked_) return;  // the last message is at the end of the file, which is not unpacked yet
     try {
       const Statement last = prepare("SELECT max(id) FROM messages");
       if (step(last)) last_id_ = sqlite3_column_int64(last.get(), 0);
@@ -130,6 +140,7 @@ class SqliteBag : public BagFile {
   }
 
   [[noreturn]] void fail() const {
+    if (unpacked_) unpacked_->rethrow_failure();
     const std::string reason = database_ ? sqlite3_errmsg(database_.get()) : "out of memory";
     const std::string where =
         id_ > 0 ? path_.string() + ": after message " + std::to_string(id_) : path_.string();
@@ -138,10 +149,11 @@ class SqliteBag : public BagFile {
   }
 
   std::filesystem::path path_;
+  std::optional<UnpackedDatabase> unpacked_;  // for a compressed file
   std::unique_ptr<sqlite3, int (*)(sqlite3*)> database_;
   Statement messages_;
   std::map<std::int64_t, BagTopic> topics_;
-  std::string unpacked_;
+  std::string unpacked_message_;
   std::int64_t id_ = 0;  // number of the last message read
   std::int64_t last_id_ = 0;
 };

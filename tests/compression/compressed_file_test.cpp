@@ -5,6 +5,7 @@
 
 #include "temporary_folder.h"
 #include "test_files.h"
+#include "zstd_files.h"
 
 namespace psi_slam {
 namespace {
@@ -34,14 +35,30 @@ TEST(CompressedFile, reads_plain_and_gzipped_files_of_any_name) {
   EXPECT_TRUE(content_of(folder.path() / "zipped.txt") == bytes);
 }
 
+TEST(CompressedFile, reads_files_of_one_or_several_zstd_frames) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "log";
+  const std::string bytes = noise(1'000'003) + std::string(3'000'000, 'a');
+  write_file(path, zstd_frame(bytes));
+  EXPECT_TRUE(content_of(path) == bytes);
+  write_file(path, zstd_frame(bytes, 12'345) + zstd_frame("") + zstd_frame("the end"));
+  EXPECT_TRUE(content_of(path) == bytes + "the end");
+  write_file(path, zstd_frame(""));
+  EXPECT_EQ(content_of(path), "");
+}
+
 TEST(CompressedFile, reports_its_progress) {
   const TemporaryFolder folder;
-  write_gzipped(folder.path() / "log", noise(4'000'000));
-  CompressedFile file(folder.path() / "log");
-  EXPECT_LT(file.progress(), 0.1);
-  std::string half(2'000'000, '\0');
-  file.read(half.data(), half.size());
-  EXPECT_NEAR(file.progress(), 0.5, 0.15);
+  const auto path = folder.path() / "log";
+  const std::string bytes = noise(4'000'000);
+  for (const bool zstd : {false, true}) {
+    zstd ? write_file(path, zstd_frame(bytes)) : write_gzipped(path, bytes);
+    CompressedFile file(path);
+    EXPECT_LT(file.progress(), 0.1);
+    std::string half(2'000'000, '\0');
+    file.read(half.data(), half.size());
+    EXPECT_NEAR(file.progress(), 0.5, 0.15);
+  }
 }
 
 TEST(CompressedFile, reports_truncated_data) {
@@ -67,6 +84,44 @@ TEST(CompressedFile, yields_the_data_before_the_truncation) {
   for (int again = 0; again < 2; ++again)
     EXPECT_EQ(sentence_of([&] { file.read(part.data(), part.size()); }),
               path.string() + " is cut off: its compressed data are incomplete. Fetch it again");
+}
+
+TEST(CompressedFile, yields_every_zstd_block_before_a_truncation_or_damage) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "log.zstd";
+  const std::string bytes = noise(100'000);
+  const std::string whole = zstd_frame(bytes, 1000);
+  const auto expect = [&](const std::string& compressed, const std::string& sentence) {
+    write_file(path, compressed);
+    CompressedFile file(path);
+    std::string part(bytes.size(), '\0');
+    const std::size_t got = file.read(part.data(), part.size());
+    EXPECT_GE(got, 49'000U);
+    EXPECT_LE(got, 50'000U);
+    EXPECT_TRUE(part.substr(0, got) == bytes.substr(0, got));
+    for (int again = 0; again < 2; ++again)
+      EXPECT_EQ(sentence_of([&] { file.read(part.data(), part.size()); }), path.string() + sentence);
+  };
+  expect(whole.substr(0, whole.size() / 2),
+         " is cut off: its compressed data are incomplete. Fetch it again");
+  const std::string no_block = "\xFF\xFF\xFF";
+  const std::size_t block = whole.find(bytes.substr(50'000, 20)) - 3;  // noise is stored as it is
+  expect(std::string(whole).replace(block, 3, no_block),
+         " is damaged: its data cannot be decompressed. Fetch it again");
+}
+
+TEST(CompressedFile, does_not_believe_a_stated_size_of_terabytes) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "log.zstd";
+  const std::string four_terabytes("\0\0\0\0\0\x04\0\0", 8);
+  const std::string block("\x28\0\0hello", 8);
+  const std::string magic = "\x28\xB5\x2F\xFD";
+  write_file(path, magic + "\xC0\x38" + four_terabytes + block);
+  std::string part(100, '\0');
+  EXPECT_EQ(CompressedFile(path).read(part.data(), part.size()), 5U);
+  write_file(path, magic + "\xE0" + four_terabytes + block);  // all of it in one window
+  EXPECT_EQ(sentence_of([&] { content_of(path); }),
+            path.string() + " is damaged: its data cannot be decompressed. Fetch it again");
 }
 
 TEST(CompressedFile, reports_damaged_data) {

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 
 #include <string>
+#include <vector>
 
 #include "log_files.h"
 #include "temporary_folder.h"
+#include "zstd_files.h"
 
 namespace psi_slam {
 namespace {
@@ -51,7 +53,34 @@ TEST_F(LogFormatTest, detects_bags_by_their_first_bytes_and_folders_by_their_fil
   EXPECT_EQ(format_of("\x89MCAP0\r\n"), LogFormat::kRos2Mcap);
   write_file(folder_.path() / "run_0.mcap", "");
   EXPECT_EQ(detect_log_format(folder_.path()), LogFormat::kRos2Folder);
-  EXPECT_THAT(sentence_about("\x28\xB5\x2F\xFD"), testing::HasSubstr("Unpack it with zstd -d"));
+}
+
+TEST_F(LogFormatTest, detects_the_content_of_a_compressed_file) {
+  EXPECT_EQ(format_of(zstd_frame(std::string("SQLite format 3\0", 16))), LogFormat::kRos2Sqlite);
+  EXPECT_EQ(format_of(zstd_frame("\x89MCAP0\r\n")), LogFormat::kRos2Mcap);
+  EXPECT_EQ(format_of(zstd_frame("PARAM robot_length 1\n")), LogFormat::kCarmen);
+  EXPECT_EQ(sentence_about(zstd_frame("hello")),
+            path_.string() + " has an unknown format" + expected_ + ". Convert it first");
+  EXPECT_EQ(sentence_about(zstd_frame("hello").substr(0, 9)),
+            path_.string() + " is cut off: its compressed data are incomplete. Fetch it again");
+}
+
+TEST_F(LogFormatTest, finds_compressed_and_unpacked_files_of_a_folder) {
+  const auto names = [&] {
+    std::vector<std::string> found;
+    for (const auto& file : files_of_bag_folder(folder_.path()))
+      found.push_back(file.lexically_relative(folder_.path()).string());
+    return found;
+  };
+  for (const char* name : {"run_2.db3.zstd", "run_10.db3", "run_3.db3", "run_3.db3.zstd", "run_4.mcap.zst"})
+    write_file(folder_.path() / name, "");
+  EXPECT_THAT(names(), testing::ElementsAre("run_2.db3.zstd", "run_3.db3", "run_4.mcap.zst", "run_10.db3"));
+  write_file(folder_.path() / "metadata.yaml",
+             "rosbag2_bagfile_information:\n  compression_format: zstd\n  compression_mode: FILE\n"
+             "  relative_file_paths:\n    - run_10.db3.zstd\n    - run_2.db3.zstd\n    - run_3.db3.zstd\n"
+             "    - some_folder/run_4.mcap\n    - run_5.db3.zstd\n");
+  EXPECT_THAT(names(), testing::ElementsAre("run_10.db3", "run_2.db3.zstd", "run_3.db3", "run_4.mcap.zst",
+                                            "run_5.db3.zstd"));
 }
 
 TEST_F(LogFormatTest, reports_empty_files_and_unknown_formats) {

@@ -2,6 +2,7 @@
 // Reading a bag that is truncated or damaged anywhere ends with an error message, never with a crash or
 // gigabytes of memory. It yields the frames before the damage.
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <fstream>
@@ -126,8 +127,130 @@ INSTANTIATE_TEST_SUITE_P(
                     Kind{"mcap_zstd",
                          [](const Path& p, const Recording& r) {
                            write_mcap(p, r, {"zstd", 4, true, true});
+                         }},
+                    Kind{"mcap_of_compressed_messages",
+                         [](const Path& p, const Recording& r) {
+                           write_mcap(p, r, {"", 0, true, true, true});
+                         }},
+                    Kind{"mcap_in_zstd",
+                         [](const Path& p, const Recording& r) {
+                           write_mcap(p, r, {"", 4, true, true});
+                           write_file(p, zstd_frame(read_file(p), 500));
+                         }},
+                    Kind{"db3_in_zstd",
+                         [](const Path& p, const Recording& r) {
+                           write_db3(p, r);
+                           write_file(p, zstd_frame(read_file(p), 500));
                          }}),
     [](const auto& tested) { return tested.param.name; });
+
+// ---- Stated sizes ----
+
+constexpr std::uint64_t kGigabytes = 3'000'000'000;
+
+/// Runs `action` and expects that the program needs less than 900 MB more than before at its peak.
+void expect_little_memory(const std::function<void()>& action) {
+  const auto peak_kb = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  };
+  const auto before_kb = peak_kb();
+  action();
+  EXPECT_LT(peak_kb() - before_kb, 900'000);
+}
+
+/// Returns a zstd frame of 16 kB for every gigabyte of zeros that it holds.
+std::string frame_of_zeros(std::uint64_t bytes) {
+  std::string frame = "\x28\xB5\x2F\xFD";
+  frame += {'\0', '\x38'};  // a window of 128 KiB
+  for (std::uint64_t block = 0; block < bytes >> 17; ++block) frame += {'\x02', '\0', '\x10', '\0'};
+  return frame + std::string("\x01\0\0", 3);
+}
+
+std::string mcap_record(char kind, std::uint64_t stated, const std::string& bytes) {
+  return kind + ros1_packed(stated) + bytes;
+}
+
+std::string mcap_chunk(std::uint64_t stated, const std::string& compression, const std::string& bytes) {
+  const std::string content = std::string(16, '\0') + ros1_packed(stated) + ros1_packed(std::uint32_t{0}) +
+                              ros1_text(compression) + ros1_packed(std::uint64_t{bytes.size()}) + bytes;
+  return mcap_record('\x06', content.size(), content);
+}
+
+class StatedSize : public testing::Test {
+ protected:
+  /// Reads an MCAP file of eight scans, with `record` and then `zeros` bytes 0 after them.
+  Reading read_mcap_with(const std::string& record, std::uint64_t zeros = 0) {
+    McapWriter writer({"", 0, false, true});
+    for (const Recorded& message : recorded_run(8)) writer.add(message);
+    const std::string whole = writer.finish();
+    const std::size_t end_bytes = 13 + 29 + 8;  // of the records DataEnd and Footer and the last magic bytes
+    write_file(path_, whole.substr(0, whole.size() - end_bytes) + record);
+    std::filesystem::resize_file(path_, std::filesystem::file_size(path_) + zeros);
+    return read_to_the_end(path_);
+  }
+
+  static void expect_gigabytes_refused(const Reading& reading) {
+    EXPECT_EQ(reading.frames, 8U);
+    EXPECT_THAT(reading.sentence,
+                testing::HasSubstr("the bag is damaged: it states a size of 3000000000 "
+                                   "bytes, expected at most 536870912. Fetch the bag again"));
+  }
+
+  TemporaryFolder folder_;
+  Path path_ = folder_.path() / "bag";
+};
+
+TEST_F(StatedSize, of_gigabytes_for_an_mcap_record_or_chunk_needs_no_memory) {
+  expect_little_memory([&] {
+    expect_gigabytes_refused(read_mcap_with(mcap_chunk(kGigabytes, "zstd", frame_of_zeros(kGigabytes))));
+    expect_gigabytes_refused(read_mcap_with(mcap_record('\x05', kGigabytes, ""), kGigabytes));
+  });
+}
+
+TEST_F(StatedSize, of_gigabytes_for_an_attachment_is_skipped) {
+  expect_little_memory([&] {
+    const Reading reading = read_mcap_with(mcap_record('\x09', 1'500'000'000, ""), 1'400'000'000);
+    EXPECT_EQ(reading.frames, 8U);
+    EXPECT_THAT(reading.sentence,
+                testing::HasSubstr("the file is cut off, expected 1500000000 more bytes, found 1400000000"));
+  });
+}
+
+TEST_F(StatedSize, of_a_message_that_decompresses_to_gigabytes_is_bounded) {
+  expect_little_memory([&] {
+    const std::string head = ros1_packed(std::uint16_t{2}) + std::string(20, '\0');  // channel of /scan
+    const std::string message = head + frame_of_zeros(kGigabytes);
+    const Reading reading = read_mcap_with(mcap_record('\x05', message.size(), message));
+    EXPECT_EQ(reading.frames, 8U);
+    EXPECT_THAT(reading.sentence,
+                testing::HasSubstr("its data decompress to more than the expected 536870912 bytes"));
+  });
+}
+
+TEST_F(StatedSize, of_gigabytes_for_a_ros1_chunk_needs_no_memory) {
+  for (const char* compression : {"none", "lz4", "bz2"}) {
+    write_ros1_bag(path_, recorded_run(8), {compression, 30, true});
+    std::string bytes = read_file(path_);
+    bytes.replace(bytes.rfind("size=") + 5, 4, ros1_packed(static_cast<std::uint32_t>(kGigabytes)));
+    write_file(path_, bytes);
+    expect_little_memory([&] {
+      EXPECT_THAT(read_to_the_end(path_).sentence,
+                  testing::HasSubstr("it states a size of 3000000000 bytes"));
+    });
+  }
+}
+
+TEST_F(StatedSize, of_an_uncompressed_chunk_must_be_its_size) {
+  EXPECT_THAT(read_mcap_with(mcap_chunk(5, "", "1234")).sentence,
+              testing::HasSubstr("the bag is damaged: a chunk has 4 bytes, not the 5 that it states"));
+  write_ros1_bag(path_, recorded_run(8), {"none", 1000, true});
+  std::string bytes = read_file(path_);
+  bytes[bytes.find("size=") + 5] ^= 1;
+  write_file(path_, bytes);
+  EXPECT_THAT(read_to_the_end(path_).sentence, testing::HasSubstr("bytes, not the"));
+}
 
 }  // namespace
 }  // namespace psi_slam

@@ -6,7 +6,6 @@
 #include <lz4frame.h>
 #include <mrpt/math/TPose3D.h>
 #include <sqlite3.h>
-#include <zstd.h>
 
 #include <array>
 #include <cmath>
@@ -22,6 +21,7 @@
 
 #include "psi_slam/time_stamp.h"
 #include "test_files.h"
+#include "zstd_files.h"
 
 namespace psi_slam {
 
@@ -198,8 +198,9 @@ inline std::string cdr(const Recorded& message, bool little_endian = true) {
 
 // ---- SQLite ----
 
+/// `compresses_messages`: rosbag2's compression mode "message".
 inline void write_db3(const std::filesystem::path& path, const Recording& recording,
-                      bool little_endian = true) {
+                      bool little_endian = true, bool compresses_messages = false) {
   std::filesystem::remove(path);
   sqlite3* database = nullptr;
   if (sqlite3_open(path.c_str(), &database) != SQLITE_OK)
@@ -226,7 +227,7 @@ inline void write_db3(const std::filesystem::path& path, const Recording& record
           ros2_type_of(message) + "', 'cdr', '')");
     run("INSERT INTO messages (topic_id, timestamp, data) VALUES (" + std::to_string(id->second) + ", " +
             std::to_string(time_of(message) * 1000) + ", ?)",
-        cdr(message, little_endian));
+        compresses_messages ? zstd_frame(cdr(message, little_endian)) : cdr(message, little_endian));
   }
   run("COMMIT");
   sqlite3_close(database);
@@ -239,6 +240,7 @@ struct McapLayout {
   std::size_t messages_per_chunk = 7;  ///< 0: no chunks
   bool with_summary = true;
   bool little_endian = true;
+  bool compresses_messages = false;  ///< rosbag2's compression mode "message"
 };
 
 class McapWriter {
@@ -262,9 +264,10 @@ class McapWriter {
       summary_ += told;
     }
     const auto time_ns = static_cast<std::uint64_t>(time_of(message)) * 1000;
+    const std::string bytes = cdr(message, layout_.little_endian);
     record(chunk_, 0x05,
            packed(id) + packed(std::uint32_t{0}) + packed(time_ns) + packed(time_ns) +
-               cdr(message, layout_.little_endian));
+               (layout_.compresses_messages ? zstd_frame(bytes) : bytes));
     if (++in_chunk_ >= layout_.messages_per_chunk) end_chunk();
   }
 
@@ -294,11 +297,7 @@ class McapWriter {
   }
 
   std::string compressed() const {
-    if (layout_.compression == "zstd") {
-      std::string bytes(ZSTD_compressBound(chunk_.size()), '\0');
-      bytes.resize(ZSTD_compress(bytes.data(), bytes.size(), chunk_.data(), chunk_.size(), 3));
-      return bytes;
-    }
+    if (layout_.compression == "zstd") return zstd_frame(chunk_);
     if (layout_.compression == "lz4") return lz4_frame(chunk_);
     return chunk_;
   }

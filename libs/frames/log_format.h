@@ -16,14 +16,14 @@ std::string_view name_of(LogFormat format);
 bool is_bag(LogFormat format);
 
 /// Detects the format by the content of the file, plain or compressed by gzip or zstd; its name does not
-/// matter. Throws UserError if the file does not exist, is empty, is a folder without a ROS 2 bag, or has none
-/// of the formats.
+/// matter. Throws UserError if the file does not exist, is empty, is a folder without a ROS 2 bag, or has
+/// none of the formats.
 LogFormat detect_log_format(const std::filesystem::path& path);
 
 /// Files in the folder of a ROS 2 bag, in the order of its metadata.yaml. Without metadata.yaml, which a
-/// killed recorder does not write: the .db3 and .mcap files in the order of the numbers in their names. Either
-/// kind may be compressed by zstd (.db3.zstd); an unpacked file takes precedence over the compressed one. Empty
-/// if the folder has no such files. Throws UserError if metadata.yaml is damaged.
+/// killed recorder does not write: the .db3 and .mcap files in the order of the numbers in their names.
+/// Either kind may be compressed by zstd (.db3.zstd). An unpacked file takes precedence over the compressed
+/// one. Empty if the folder has no such files. Throws UserError if metadata.yaml is damaged.
 std::vector<std::filesystem::path> files_of_bag_folder(const std::filesystem::path& folder);
 
 }  // namespace psi_slam

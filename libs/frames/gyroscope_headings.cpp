@@ -28,6 +28,7 @@ double vertical_rate_radps(const mrpt::poses::CPose3D& robot_T_gyroscope,
 
 void GyroscopeHeadings::add_rate(TimeUs time_us, double rate_radps) {
   if (!(std::abs(rate_radps) <= kMaxRate_radps)) return;
+  measures_ = measures_ || rate_radps != 0;
   Sample added{time_us, rate_radps, 0, 0};
   if (!samples_.empty()) {
     const Sample last = samples_.back();
@@ -69,7 +70,7 @@ std::optional<Frame> GyroscopeHeadings::take() {
   Frame frame = std::move(scans_.front());
   scans_.pop_front();
   const auto last_part = last_parts_.find(frame.scan.laser);
-  const auto sample = sample_at(frame.time_us);
+  const auto sample = measures_ ? sample_at(frame.time_us) : std::nullopt;
   const bool continues = sample && (last_part == last_parts_.end() || last_part->second == sample->part);
   if (continues) {
     frame.imu_heading_rad = sample->heading_rad;

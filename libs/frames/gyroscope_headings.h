@@ -26,7 +26,8 @@ double vertical_rate_radps(const mrpt::poses::CPose3D& robot_T_gyroscope,
 /// Only the difference between the headings of successive scans is meaningful, so the constant bias of a
 /// gyroscope adds up over the time between two scans only. If rates are missing for more than `kMaxGap_s`, or
 /// if the clock was set back, the turn is unknown. Then the scans in the gap and the first scan of each laser
-/// after the gap have no heading.
+/// after the gap have no heading. IMUs without a gyroscope may report zero, so scans have no heading before
+/// the first rate other than zero.
 class GyroscopeHeadings {
  public:
   /// Largest time between two rates, seconds, over which the rate is integrated.
@@ -60,6 +61,7 @@ class GyroscopeHeadings {
   std::deque<Sample> samples_;  // in the order of time
   std::deque<Frame> scans_;
   std::map<std::size_t, std::size_t> last_parts_;  // part of the last scan of each laser, if it has a heading
+  bool measures_ = false;                          // whether a rate was other than 0
   bool ended_ = false;
 };
 

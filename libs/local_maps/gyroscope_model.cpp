@@ -8,7 +8,7 @@
 namespace psi_slam {
 namespace {
 
-constexpr double kBiasWeight = 0.05;  // weight of one scan in the bias
+constexpr int kBiasScans = 20;        // the bias is a mean of the first scans, then a decaying mean
 constexpr double kErrorWeight = 0.1;  // weight of one scan in the mean errors
 // A wrong match changes the bias and the mean errors by limited amounts.
 constexpr double kLargestBiasStep_radps = 0.2;
@@ -31,8 +31,9 @@ void GyroscopeModel::learn(double passed_s, double measured_rad, double matched_
   const double error_rad = mrpt::math::wrapToPi(turn_rad(measured_rad, passed_s) - matched_rad);
   average(squared_error_, error_rad);
   average(squared_error_of_steady_turns_, steady_rad - matched_rad);
+  learned_scans_ = std::min(learned_scans_ + 1, kBiasScans);
   bias_radps_ +=
-      kBiasWeight * std::clamp(error_rad / passed_s, -kLargestBiasStep_radps, kLargestBiasStep_radps);
+      std::clamp(error_rad / passed_s, -kLargestBiasStep_radps, kLargestBiasStep_radps) / learned_scans_;
 }
 
 }  // namespace psi_slam

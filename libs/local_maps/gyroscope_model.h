@@ -28,6 +28,7 @@ class GyroscopeModel {
 
  private:
   double bias_radps_ = 0;
+  int learned_scans_ = 0;
   double squared_error_ = 0;  ///< decaying mean over the scans, square radians
   double squared_error_of_steady_turns_ = 0;
 };

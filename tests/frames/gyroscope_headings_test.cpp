@@ -99,6 +99,16 @@ TEST(GyroscopeHeadings, ignores_faulty_rates_and_late_rates) {
   EXPECT_NEAR(heading_at(headings, 120 * kMs).value(), 0.12, 1e-9);
 }
 
+TEST(GyroscopeHeadings, an_imu_that_reports_only_zero_gives_no_headings) {
+  GyroscopeHeadings headings;
+  add_rates(headings, 0, 1000 * kMs, 0);
+  EXPECT_FALSE(heading_at(headings, 900 * kMs));
+  headings.add_rate(1010 * kMs, 0.5);
+  add_rates(headings, 1020 * kMs, 1100 * kMs, 0);
+  EXPECT_TRUE(heading_at(headings, 950 * kMs));
+  EXPECT_TRUE(heading_at(headings, 1050 * kMs));
+}
+
 TEST(GyroscopeHeadings, a_clock_that_was_set_back_is_a_gap) {
   GyroscopeHeadings headings;
   add_rates(headings, 10'000 * kMs, 11'000 * kMs, 1);

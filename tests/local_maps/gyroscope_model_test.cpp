@@ -24,7 +24,7 @@ void turn_and_pause(GyroscopeModel& model, int rounds, const std::function<doubl
 TEST(GyroscopeModel, learns_a_constant_bias) {
   GyroscopeModel model;
   constexpr double kBias_radps = 0.2;
-  turn_and_pause(model, 5, [](double turn_rad) { return turn_rad + kBias_radps * kStep_s; });
+  turn_and_pause(model, 1, [](double turn_rad) { return turn_rad + kBias_radps * kStep_s; });
   EXPECT_NEAR(model.turn_rad(0.3 + kBias_radps * kStep_s, kStep_s), 0.3, 1e-3);
   EXPECT_TRUE(model.is_credible());
 }

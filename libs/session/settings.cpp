@@ -63,7 +63,7 @@ void describe_log(OptionTable& table, Settings& settings) {
               "Whether the first or the last beam of a scan is measured first. auto: as the scans show in "
               "turns, otherwise as the log states.")
       .choice("mask_own_body", log.mask_own_body, {{"auto", true}, {"off", false}},
-              "Ignores readings of the robot itself: short ranges that stay the same while the robot turns. "
+              "Ignores readings of the robot itself: short ranges that stay constant while the robot turns. "
               "off: uses all readings.")
       .text(
           "scan_topic", log.scan_topic,

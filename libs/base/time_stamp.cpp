@@ -10,7 +10,8 @@ namespace psi_slam {
 namespace {
 
 constexpr TimeUs kMicrosecondsPerSecond = 1'000'000;
-constexpr TimeUs kMaxSeconds = 9'000'000'000'000;  // this time in microseconds fits in 64 bits
+// Microseconds of such times, and the differences of two, fit in 64 bits.
+constexpr TimeUs kMaxSeconds = 4'000'000'000'000;
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';

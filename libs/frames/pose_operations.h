@@ -5,7 +5,17 @@
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/math/wrap2pi.h>
 
+#include <cmath>
+
 namespace psi_slam {
+
+/// Returns whether odometry can measure this pose: its numbers are finite, and it is at most 10,000 km from
+/// the origin along each axis.
+inline bool is_possible_odometry(const mrpt::math::TPose2D& odom_T_robot) {
+  constexpr double kFarthest_m = 1e7;
+  return std::abs(odom_T_robot.x) <= kFarthest_m && std::abs(odom_T_robot.y) <= kFarthest_m &&
+         std::isfinite(odom_T_robot.phi);
+}
 
 /// Returns the inverse b_T_a of the pose a_T_b.
 inline mrpt::math::TPose2D inverse(const mrpt::math::TPose2D& a_T_b) {

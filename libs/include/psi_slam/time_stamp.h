@@ -19,7 +19,7 @@ std::string format_seconds(TimeUs time_us);
 
 /// Converts decimal seconds ("976052905.167303", "12", "1.5e9", "-0.25") to microseconds. Rounds to the
 /// nearest microsecond, exactly if the text has no exponent. Returns nothing if the text is not a number, or
-/// if its magnitude exceeds 9e12 seconds.
+/// if its magnitude exceeds 4e12 seconds.
 std::optional<TimeUs> parse_seconds(std::string_view text);
 
 /// Converts microseconds to seconds.

@@ -109,10 +109,16 @@ void CarmenLaser::take_parameter(CarmenFields& fields) {
   const std::string_view name = fields.word("the parameter's name");
   if (position_.empty()) return;
   const std::string mount = "robot_" + position_ + "laser_";
+  const auto metres = [&](const char* what) {
+    const double offset_m = fields.number(what);
+    if (!is_possible_mount({offset_m, 0, 0}))
+      fields.fail("the laser is more than 100 m from the robot's centre, expected metres");
+    return offset_m;
+  };
   if (name == mount + "offset") {
-    offset_m_ = fields.number("the laser's offset in metres");
+    offset_m_ = metres("the laser's offset in metres");
   } else if (name == mount + "side_offset") {
-    side_offset_m_ = fields.number("the laser's side offset in metres");
+    side_offset_m_ = metres("the laser's side offset in metres");
   } else if (name == mount + "angular_offset") {
     angular_offset_rad_ = fields.number("the laser's angular offset in radians");
   } else if (name == "robot_" + position_ + "_laser_max") {
@@ -153,6 +159,7 @@ std::vector<float> CarmenLaser::bearings_rad(const CarmenLaserMessage& message,
         message.resolution_rad > 0
             ? message.resolution_rad
             : message.field_of_view_rad / static_cast<double>(std::max<std::size_t>(beams - 1, 1));
+    if (const auto fault = fault_of_beams(beams, message.start_angle_rad, step_rad)) fields.fail(*fault);
     std::vector<float> bearings(beams);
     for (std::size_t i = 0; i < beams; ++i)
       bearings[i] = static_cast<float>(message.start_angle_rad + static_cast<double>(i) * step_rad);
@@ -163,6 +170,8 @@ std::vector<float> CarmenLaser::bearings_rad(const CarmenLaserMessage& message,
   if (!field_of_view_rad) field_of_view_rad = usual_field_of_view_rad(beams);
   if (!field_of_view_rad && stated_resolution_rad_)
     field_of_view_rad = *stated_resolution_rad_ * static_cast<double>(beams - 1);
+  if (field_of_view_rad)
+    if (const auto fault = fault_of_beams(2, 0, *field_of_view_rad)) fields.fail(*fault);
   if (!field_of_view_rad) {
     fields.fail(
         "a scan of " + std::to_string(beams) +
@@ -201,6 +210,7 @@ std::optional<TPose2D> mount_by_robotlaser(const std::filesystem::path& path, st
     const auto laser = readable_laser(fields);
     if (!laser) continue;
     const TPose2D robot_T_laser = laser->odom_T_laser - laser->odom_T_robot;
+    if (!is_possible_mount(robot_T_laser)) return std::nullopt;
     if (mount && !same_mount(*mount, robot_T_laser)) return std::nullopt;
     if (!mount) mount = robot_T_laser;
     if (last_robot) {

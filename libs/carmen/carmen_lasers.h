@@ -27,7 +27,8 @@ std::vector<std::string> carmen_laser_messages(const std::string& laser,
 
 /// Pose of the laser on the robot, from the two poses in the ROBOTLASER lines with this name. Reads until the
 /// robot has moved 3 m or turned 1 rad and skips malformed lines. Empty if there are no such lines. Empty
-/// also if the difference of the two poses varies: a mapper has then corrected the laser's pose.
+/// also if the difference of the two poses varies or is no possible mount: a mapper has then corrected the
+/// laser's pose.
 std::optional<mrpt::math::TPose2D> mount_by_robotlaser(const std::filesystem::path& path,
                                                        std::string_view message);
 

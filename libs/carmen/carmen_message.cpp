@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text_parts.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -106,6 +107,7 @@ mrpt::math::TPose2D CarmenFields::pose(const char* what) {
   const double y = number((std::string("y of ") + what).c_str());
   const double phi = number((std::string("theta of ") + what).c_str());
   mrpt::math::TPose2D pose{x, y, phi};
+  if (!is_possible_odometry(pose)) fail(std::string(what) + " is beyond 10,000 km, expected metres");
   const bool is_wrapped = phi > -M_PI && phi <= M_PI;
   if (!is_wrapped) pose.normalizePhi();  // only if necessary: wrapping may change the last digit
   return pose;

@@ -11,6 +11,7 @@
 #include "base/number_text.h"
 #include "base/text_parts.h"
 #include "frames/height_slice.h"
+#include "frames/laser_readings.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -44,6 +45,7 @@ std::optional<StatedMount> mount_from(const std::string& text) {
   const auto yaw_deg = parse_number(numbers[2]);
   if (!x_m || !y_m || !yaw_deg) return std::nullopt;
   mount.robot_T_laser = {*x_m, *y_m, mrpt::DEG2RAD(*yaw_deg)};
+  if (!is_possible_mount(mount.robot_T_laser)) return std::nullopt;
   mount.robot_T_laser.normalizePhi();
   for (auto word = words.begin(); word != numbers; ++word)
     mount.name += (mount.name.empty() ? "" : " ") + *word;
@@ -115,9 +117,10 @@ std::vector<StatedMount> stated_mounts(const LogOptions& options) {
   for (const std::string& text : split(options.laser_mounts, ",")) {
     auto mount = mount_from(text);
     if (!mount)
-      throw UserError("log.laser_mounts contains \"" + std::string(trimmed(text)) +
-                      "\", expected a laser's name, x and y in metres and yaw in degrees, such as \"RLASER "
-                      "-0.3 0 180\". Separate several mounts by commas");
+      throw UserError(
+          "log.laser_mounts contains \"" + std::string(trimmed(text)) +
+          "\", expected a laser's name, x and y of at most 100 m and yaw in degrees, such as \"RLASER "
+          "-0.3 0 180\". Separate several mounts by commas");
     mounts.push_back(*std::move(mount));
   }
   return mounts;
@@ -155,10 +158,9 @@ void check_log_options(const LogOptions& options) {
     fail("log.max_range_m", *options.max_range_m, "more metres than log.min_range_m");
   if (options.sweep_time_s && !(*options.sweep_time_s >= 0 && *options.sweep_time_s <= 1))
     fail("log.sweep_time_s", *options.sweep_time_s, "0 to 1 seconds");
-  if (options.robot_T_laser &&
-      !(std::isfinite(options.robot_T_laser->x) && std::isfinite(options.robot_T_laser->y) &&
-        std::isfinite(options.robot_T_laser->phi)))
-    fail("the laser's pose on the robot", options.robot_T_laser->asString(), "finite numbers");
+  if (options.robot_T_laser && !is_possible_mount(*options.robot_T_laser))
+    fail("the laser's pose on the robot", options.robot_T_laser->asString(),
+         "finite numbers and at most 100 m");
   stated_mounts(options);
   laser_choice("log.laser", options.laser);
   laser_choice("log.scan_topic", options.scan_topic);

@@ -7,13 +7,20 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
 
+using mrpt::math::TPose2D;
+
 const double kMaxTilt_rad = mrpt::DEG2RAD(15.0);
+constexpr std::size_t kMaxBeams = 100'000;
+constexpr double kMaxBearing_rad = 4 * M_PI;
+constexpr double kMaxMount_m = 100;
+constexpr double kLargestRange_m = 1000;  // no 2D laser sees farther
 
 /// Angle between the laser's plane and the floor, in [0, pi/2].
 double tilt_rad(const mrpt::math::CMatrixDouble33& rotation) {
@@ -77,14 +84,36 @@ std::vector<float> make_bearings_rad(BeamAngles angles, std::size_t beams, doubl
   return bearings_rad;
 }
 
+std::optional<std::string> fault_of_beams(std::size_t beams, double first_rad, double step_rad) {
+  std::ostringstream fault;
+  if (beams > kMaxBeams) {
+    fault << "the scan has " << beams << " beams, expected at most " << kMaxBeams
+          << ". Correct the laser's driver";
+    return fault.str();
+  }
+  const double last_rad = first_rad + step_rad * static_cast<double>(beams > 0 ? beams - 1 : 0);
+  if (std::abs(first_rad) <= kMaxBearing_rad && std::abs(last_rad) <= kMaxBearing_rad) return std::nullopt;
+  fault << "the bearings of the beams run from " << first_rad << " to " << last_rad
+        << " radians, expected at most two turns. Correct the laser's driver, which may state degrees";
+  return fault.str();
+}
+
+bool is_possible_mount(const TPose2D& robot_T_laser) {
+  return std::abs(robot_T_laser.x) <= kMaxMount_m && std::abs(robot_T_laser.y) <= kMaxMount_m &&
+         std::isfinite(robot_T_laser.phi);
+}
+
 FloorMount floor_mount(const mrpt::poses::CPose3D& robot_T_laser, const std::string& place) {
   const mrpt::math::CMatrixDouble33 rotation = robot_T_laser.getRotationMatrix();
+  const TPose2D mount{robot_T_laser.x(), robot_T_laser.y(), std::atan2(rotation(1, 0), rotation(0, 0))};
+  if (!is_possible_mount(mount) || !std::isfinite(rotation(2, 2)))
+    throw UserError(place + ": the pose of the laser on the robot is " + mount.asString() +
+                    ", expected finite numbers and at most 100 m. Select another laser with log.laser");
   if (tilt_rad(rotation) > kMaxTilt_rad)
     throw UserError(place + ": the laser is tilted by " +
                     std::to_string(std::lround(mrpt::RAD2DEG(tilt_rad(rotation)))) +
                     " degrees, expected at most 15. Select another laser with log.laser");
-  return {{robot_T_laser.x(), robot_T_laser.y(), std::atan2(rotation(1, 0), rotation(0, 0))},
-          rotation(2, 2) < 0};
+  return {mount, rotation(2, 2) < 0};
 }
 
 void mirror(std::vector<float>& bearings_rad) {
@@ -107,8 +136,9 @@ void mark_no_returns(std::vector<float>& ranges_m, double min_range_m, double ma
 
 void limit_ranges(LaserScan& scan, const LogOptions& options, double stated_max_range_m,
                   double stated_min_range_m) {
-  scan.max_range_m = static_cast<float>(
-      options.max_range_m.value_or(stated_max_range_m > 0 ? stated_max_range_m : kUnstatedMaxRange_m));
+  const double max_range_m =
+      options.max_range_m.value_or(stated_max_range_m > 0 ? stated_max_range_m : kUnstatedMaxRange_m);
+  scan.max_range_m = static_cast<float>(std::min(max_range_m, kLargestRange_m));
   mark_no_returns(scan.ranges_m, std::max(options.min_range_m, stated_min_range_m),
                   static_cast<double>(scan.max_range_m));
 }

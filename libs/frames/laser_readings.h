@@ -10,6 +10,7 @@
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/poses/CPose3D.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +40,15 @@ BeamAngles usual_beam_angles(std::size_t beams);
 /// UserError for kSkipZero with an odd number of beams.
 std::vector<float> make_bearings_rad(BeamAngles angles, std::size_t beams, double field_of_view_rad);
 
+/// Returns what is wrong with the beams of a scan, as a part of a sentence. `step_rad` is the angle from each
+/// beam to the next. Returns nothing for up to 100,000 beams with bearings within two turns of straight
+/// ahead.
+std::optional<std::string> fault_of_beams(std::size_t beams, double first_rad, double step_rad);
+
+/// Returns whether a laser can be mounted at this pose: its numbers are finite, and it is at most 100 m from
+/// the robot's centre along each axis.
+bool is_possible_mount(const mrpt::math::TPose2D& robot_T_laser);
+
 /// Pose of a laser on the robot, projected to the floor.
 struct FloorMount {
   mrpt::math::TPose2D robot_T_laser;
@@ -46,7 +56,7 @@ struct FloorMount {
 };
 
 /// Projects the pose of a laser to the floor. Throws UserError that starts with `place` if the laser is
-/// tilted by more than 15 degrees.
+/// tilted by more than 15 degrees, or if its mount is not possible, see is_possible_mount().
 FloorMount floor_mount(const mrpt::poses::CPose3D& robot_T_laser, const std::string& place);
 
 /// Reverses the sign of all bearings.
@@ -58,7 +68,7 @@ void mark_no_returns(std::vector<float>& ranges_m, double min_range_m, double ma
 
 /// Sets the maximum range of a scan and marks its readings without a return. The user's options override the
 /// maximum that the log states; `stated_max_range_m` is 0 if it states none. The larger of
-/// `stated_min_range_m` and the minimum in `options` applies.
+/// `stated_min_range_m` and the minimum in `options` applies. Limits the maximum to 1 km.
 void limit_ranges(LaserScan& scan, const LogOptions& options, double stated_max_range_m,
                   double stated_min_range_m = 0);
 

@@ -46,11 +46,14 @@ constexpr double kLeastAgreement = 0.5;
 constexpr int kLostMisses = 5;      // the robot may be lost after this many successive scans without a match
 constexpr double kLostAfter_s = 5;  // and this time
 
-// Returns whether odometry began again at zero: the pose is zero, and the last pose was not nearby.
+// Returns whether odometry began again at zero: the pose is zero, and the last pose was not nearby. Returns
+// true also for a step that no robot makes between two scans.
 bool was_restarted(const TPose2D& last, const TPose2D& now) {
   constexpr double kZero_m = 0.05;
   constexpr double kZero_rad = 0.05;
   constexpr double kLeastJump_m = 1.0;
+  constexpr double kFarthestStep_m = 1000.0;
+  if (length_m({now.x - last.x, now.y - last.y, 0}) > kFarthestStep_m) return true;
   return length_m(now) < kZero_m && std::abs(mrpt::math::wrapToPi(now.phi)) < kZero_rad &&
          length_m(last) > kLeastJump_m;
 }
@@ -398,7 +401,9 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
     step.memberships.push_back(
         {active.id, active.anchor, step.local_T_robot - active.local_T_map, active.covariance});
   // misses_ does not count this scan yet. A match would have set the travel to 0, so this scan is unmatched.
-  if (unmatched_travel_m_ >= options_.max_unmatched_travel_m && misses_ > 0) {
+  const bool strays = unmatched_travel_m_ >= options_.max_unmatched_travel_m && misses_ > 0;
+  const bool leaves = unmatched_travel_m_ >= options_.local_map_travel_m;
+  if (strays || leaves) {
     end_local_maps(step, active_.size());
     unmatched_travel_m_ = 0;
   }

@@ -98,7 +98,8 @@ struct FrontEndOptions {
   std::size_t nodes_per_local_map = 80;
   double local_map_travel_m = 15.0;
   /// All active local maps end if at least two successive scans were not matched and the robot has travelled
-  /// this far since the last match. The error of odometry over this path would distort the maps.
+  /// this far since the last match. The error of odometry over this path would distort the maps. They end at
+  /// the first scan without a match if it is farther than local_map_travel_m.
   double max_unmatched_travel_m = 0.5;
 };
 
@@ -165,8 +166,9 @@ class FrontEnd {
     double wide_disagreement_rad = 0;
     double sigma_m = 0;  ///< standard deviations of the motion, for the covariance of the poses
     double sigma_rad = 0;
-    bool after_gap = false;      ///< scans are missing before this scan
-    bool was_restarted = false;  ///< odometry began again at zero, so the motion is not measured
+    bool after_gap = false;  ///< scans are missing before this scan
+    /// Odometry began again at zero or jumped farther than a robot drives, so the motion is not measured.
+    bool was_restarted = false;
   };
   /// Removes the motion during the sweep, as the constant-velocity model predicts it, from the scans of a
   /// frame without odometry.

@@ -8,6 +8,7 @@
 
 #include "frames/laser_readings.h"
 #include "frames/log_reader.h"
+#include "frames/pose_operations.h"
 #include "observations/mrpt_objects.h"
 #include "psi_slam/user_error.h"
 
@@ -18,10 +19,6 @@ TimeUs stamp_of(const mrpt::obs::CObservation& observation, const char* what, co
   if (const std::optional<TimeUs> stamp = time_us(observation)) return *stamp;
   throw UserError(place + ": the " + what +
                   " has no time stamp, expected one on every observation. Record the log with time stamps");
-}
-
-bool is_finite(const mrpt::math::TPose2D& pose) {
-  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.phi);
 }
 
 }  // namespace
@@ -44,6 +41,8 @@ LaserScan RawlogLaser::scan(const mrpt::obs::CObservation2DRangeScan& observatio
   const auto aperture_rad = static_cast<double>(observation.aperture);
   const std::tuple geometry{beams, aperture_rad, clockwise};
   if (!bearings_ || geometry != geometry_) {
+    if (const auto fault = fault_of_beams(beams, 0, aperture_rad / static_cast<double>(beams)))
+      throw UserError(place + ": " + *fault);
     bearings_ = std::make_shared<const std::vector<float>>(bearings_rad(beams, aperture_rad, clockwise));
     geometry_ = geometry;
   }
@@ -102,7 +101,7 @@ void ObservationFrames::decide_for_none() {
 }
 
 void ObservationFrames::skip(const std::string& place) {
-  if (skipped_.count++ == 0) skipped_.first = place + ": the odometry is not finite";
+  if (skipped_.count++ == 0) skipped_.first = place + ": the odometry is not finite, or beyond 10,000 km";
 }
 
 void ObservationFrames::take(const mrpt::obs::CActionCollection& action, const std::string& place) {
@@ -115,7 +114,7 @@ void ObservationFrames::take(const mrpt::obs::CActionCollection& action, const s
     waiting_ = {};
   }
   if (!motion || odometry_ != Odometry::kActions) return;
-  if (is_finite(*motion)) {
+  if (is_possible_odometry(*motion)) {
     odom_T_robot_ = odom_T_robot_ + *motion;
   } else {
     is_motion_unknown_ = true;
@@ -159,7 +158,7 @@ void ObservationFrames::take_odometry(const mrpt::obs::CObservationOdometry& obs
   if (odometry_ == Odometry::kActions || odometry_ == Odometry::kNone) return;
   if (!odometry_label_) odometry_label_ = observation.sensorLabel;
   if (observation.sensorLabel != *odometry_label_) return;
-  if (!is_finite(observation.odometry.asTPose())) return skip(place);
+  if (!is_possible_odometry(observation.odometry.asTPose())) return skip(place);
   odometry_ = Odometry::kObservations;
   waiting_.add_odometry(stamp_of(observation, "odometry", place), observation.odometry.asTPose());
 }

@@ -75,7 +75,7 @@ bool has_rate(const mrpt::obs::CObservationIMU& imu);
 
 /// Makes frames from MRPT's actions and observations. Odometry is either the sum of the actions, or
 /// interpolated between the odometry observations of the first label. In the second case, a scan waits for
-/// the next odometry. Odometry that is not finite is skipped.
+/// the next odometry. Odometry that is not finite or beyond 10,000 km is skipped.
 class ObservationFrames {
  public:
   enum class Odometry { kUndecided, kActions, kObservations, kNone };

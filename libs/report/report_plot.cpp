@@ -97,8 +97,10 @@ std::vector<Tick> decade_ticks(const Axes& axes, const std::function<std::string
 std::vector<Tick> time_ticks(double last_s) {
   constexpr std::array kSteps_s{0.1,  0.2,  0.5,  1.,    2.,    5.,    10.,   20.,    30.,    60.,
                                 120., 300., 600., 1200., 1800., 3600., 7200., 18000., 36000., 86400.};
-  const double step = *std::find_if(kSteps_s.begin(), kSteps_s.end() - 1,
-                                    [&](double step_s) { return last_s / step_s <= 10; });
+  double step = *std::find_if(kSteps_s.begin(), kSteps_s.end() - 1,
+                              [&](double step_s) { return last_s / step_s <= 10; });
+  constexpr double kMostTicks = 100;
+  while (last_s / step > kMostTicks) step *= 10;  // time stamps may be absurd
   std::vector<Tick> ticks;
   for (int i = 0; i * step <= last_s * (1 + 1e-9); ++i) {
     const double time_s = i * step;

@@ -514,7 +514,8 @@ Names BagPlan::topics() const {
 }
 
 std::string invalid_pose_text(const std::string& topic) {
-  return "the odometry on " + topic + " is not finite, or the length of its quaternion is not 1";
+  return "the odometry on " + topic +
+         " is not finite, or the length of its quaternion is not 1, or it is beyond 10,000 km";
 }
 
 bool is_transforms(const BagTopic& topic) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/byte_cursor.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -93,14 +94,14 @@ RosHeader header(RosFields& fields, TimeUs recorded_us) {
   return header;
 }
 
-/// Parses a position and a quaternion x, y, z, w. Empty if the position is not finite or the length of the
-/// quaternion is not 1.
+/// Parses a position and a quaternion x, y, z, w. Empty if odometry cannot measure the position, or if the
+/// length of the quaternion is not 1.
 std::optional<mrpt::math::TPose3D> pose(RosFields& fields) {
   double values[7];
   for (double& value : values) value = fields.number<double>();
   const auto [x, y, z, qx, qy, qz, qw] = values;
   const double norm = std::sqrt(qx * qx + qy * qy + qz * qz + qw * qw);
-  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || !(std::abs(norm - 1) < 0.1))
+  if (!is_possible_odometry({x, y, 0}) || !std::isfinite(z) || !(std::abs(norm - 1) < 0.1))
     return std::nullopt;
   const mrpt::math::CQuaternionDouble rotation(qw / norm, qx / norm, qy / norm, qz / norm);
   mrpt::math::TPose3D pose(x, y, z, 0, 0, 0);

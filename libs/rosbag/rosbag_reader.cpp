@@ -64,6 +64,10 @@ class RosLaser {
                       " in steps of " + std::to_string(message.angle_increment_rad) +
                       " radians, expected finite angles and a step other than 0. Correct the laser's driver");
     if (!bearings_ || geometry != geometry_) {
+      if (const auto fault =
+              fault_of_beams(message.ranges_m.size(), static_cast<double>(message.angle_min_rad),
+                             static_cast<double>(message.angle_increment_rad)))
+        throw UserError(place + ": " + *fault);
       bearings_ = std::make_shared<const std::vector<float>>(bearings_rad(message, clockwise));
       geometry_ = geometry;
     }

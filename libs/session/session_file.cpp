@@ -14,6 +14,7 @@
 #include "base/byte_cursor.h"
 #include "base/file_checksum.h"
 #include "compression/compression.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -33,9 +34,8 @@ constexpr std::uint32_t kFactsOfEachLog = 3;  // first version with the damage a
 // Frames are stored in little-endian bytes, every number to the last bit.
 
 constexpr std::uint32_t kSeveralLasers = 2;  // first version with several lasers
-// Limits that protect against damaged files, because the mapper's memory grows with both values.
+// Protects against damaged files, because the mapper's memory grows with it.
 constexpr std::uint32_t kMostLasers = 64;
-constexpr double kFarthest_m = 1e7;
 
 enum Flags : std::uint8_t {
   kHasOdometry = 1,
@@ -59,17 +59,11 @@ void append_pose(std::string& bytes, const TPose2D& pose) {
   for (const double value : {pose.x, pose.y, pose.phi}) append_number(bytes, value);
 }
 
-/// Whether a pose can be the pose of a robot or a laser: finite and at most 10,000 km from the origin along x
-/// and y.
-bool is_possible(const TPose2D& pose) {
-  return std::abs(pose.x) <= kFarthest_m && std::abs(pose.y) <= kFarthest_m && std::isfinite(pose.phi);
-}
-
-/// Reads a pose. Throws MalformedBytes unless it can be the pose of a robot or a laser.
+/// Reads a pose of a robot or a laser. Throws MalformedBytes for a pose that odometry cannot measure.
 TPose2D read_pose(ByteCursor& bytes) {
   TPose2D pose;
   for (double* const value : {&pose.x, &pose.y, &pose.phi}) *value = bytes.number<double>();
-  if (!is_possible(pose)) throw MalformedBytes("invalid pose");
+  if (!is_possible_odometry(pose)) throw MalformedBytes("invalid pose");
   return pose;
 }
 
@@ -315,7 +309,7 @@ void require_consistent(const SessionRecording& recording) {
   std::size_t begin = 0;
   for (const RecordedRun& run : recording.facts.runs) {
     if (run.scan >= recording.frames.size()) throw MalformedBytes("a run begins after the last scan");
-    if (!is_possible(run.start.node_T_robot) || !is_possible(run.start.robot_T_found))
+    if (!is_possible_odometry(run.start.node_T_robot) || !is_possible_odometry(run.start.robot_T_found))
       throw MalformedBytes("a run begins at an invalid pose");
     if (run.scan <= begin) throw MalformedBytes("its runs are out of order");
     begin = run.scan;

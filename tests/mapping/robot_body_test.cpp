@@ -24,6 +24,8 @@ namespace {
 using mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPose2D;
 
+constexpr std::size_t kScans = 2500;  ///< number of scans that are mapped
+
 struct Map {
   std::vector<Frame> log;
   std::vector<TPose2D> map_T_robot;
@@ -32,7 +34,7 @@ struct Map {
 
 Map map_of(FrameSource& source) {
   Mapper mapper;
-  while (auto frame = source.next()) mapper.add(*std::move(frame));
+  for (std::size_t i = 0; i < kScans; ++i) mapper.add(source.next().value());
   MappingResult result = mapper.finish();
   Map map;
   for (const FrameRecord& frame : result.frames) map.map_T_robot.push_back(frame.map_T_robot);
@@ -66,23 +68,21 @@ double error_m(const Map& map, const std::filesystem::path& relations) {
 
 /// Mean difference between the motions of two trajectories over 20 scans.
 double mean_difference_m(const Map& a, const Map& b) {
-  constexpr std::size_t kScans = 20;
+  constexpr std::size_t kApart = 20;
   double sum_m = 0;
-  for (std::size_t i = kScans; i < a.map_T_robot.size(); ++i) {
+  for (std::size_t i = kApart; i < a.map_T_robot.size(); ++i) {
     const TPose2D off =
-        (a.map_T_robot[i] - a.map_T_robot[i - kScans]) - (b.map_T_robot[i] - b.map_T_robot[i - kScans]);
+        (a.map_T_robot[i] - a.map_T_robot[i - kApart]) - (b.map_T_robot[i] - b.map_T_robot[i - kApart]);
     sum_m += std::hypot(off.x, off.y);
   }
-  return sum_m / static_cast<double>(a.map_T_robot.size() - kScans);
+  return sum_m / static_cast<double>(a.map_T_robot.size() - kApart);
 }
 
 TEST(RobotBodyInALog, leaves_no_ghosts_in_the_map) {
-  const auto path = shared_file("mit-csail.clf.gz");
-  const auto relations = shared_file("mit-csail.relations");
+  const auto path = shared_file("aces.clf.gz");
+  const auto relations = shared_file("aces.relations");
   if (!path || !relations) GTEST_SKIP() << kNeedsData;
   LogOptions options;
-  options.beam_angles = BeamAngles::kCentredStepInclusive;
-  options.max_range_m = 50;
   options.mask_own_body = false;
   const auto log_with_body = [&] { return std::make_unique<SeesRobotBody>(open_log(*path, options)); };
   const Map clean = map_of(*open_log(*path, options));
@@ -97,10 +97,12 @@ TEST(RobotBodyInALog, leaves_no_ghosts_in_the_map) {
   RecordProperty("error_unmasked_mm", std::to_string(1e3 * error_m(unmasked, *relations)));
   RecordProperty("error_masked_mm", std::to_string(1e3 * error_m(masked, *relations)));
   RecordProperty("difference_mm", std::to_string(1e3 * mean_difference_m(masked, clean)));
-  EXPECT_GT(occupied_on_path(unmasked), occupied_on_path(clean) + 20) << "without the mask, ghosts appear";
-  EXPECT_LE(occupied_on_path(masked), occupied_on_path(clean) + 2);
+  // Other beams cross most cells in which the body was seen, so that only a few ghosts remain without the
+  // mask.
+  EXPECT_GE(occupied_on_path(unmasked), occupied_on_path(clean) + 5);
+  EXPECT_EQ(occupied_on_path(masked), occupied_on_path(clean));
   ASSERT_EQ(masked.map_T_robot.size(), clean.map_T_robot.size());
-  EXPECT_LT(mean_difference_m(masked, clean), 0.01);
+  EXPECT_LT(mean_difference_m(masked, clean), 0.015);
   EXPECT_LT(error_m(masked, *relations), error_m(clean, *relations) + 0.002);
 }
 

@@ -52,8 +52,8 @@ class GzipDecoder : public FileDecoder {
   std::unique_ptr<gzFile_s, int (*)(gzFile)> file_;
 };
 
-/// Reads a file of one or more zstd frames. Passes the compressed blocks to zstd one by one, because zstd
-/// drops what it decompressed in the call that finds damage.
+/// Reads a file of one or more zstd frames. Passes the compressed blocks to zstd one by one, because the
+/// call that finds damage drops the bytes that it has decompressed.
 class ZstdDecoder : public FileDecoder {
  public:
   explicit ZstdDecoder(File file)

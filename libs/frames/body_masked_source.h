@@ -19,7 +19,7 @@ namespace psi_slam {
 ///
 /// The first call of next() reads ahead until the body is known: usually a tenth of a log, at most
 /// OwnBodyFinder::kMostFrames frames, which wait in memory. The mask therefore applies from the first scan,
-/// the log is read once, and the mask is the same for every number of threads. A part of the body that
+/// the log is read once, and the number of threads does not change the mask. A part of the body that
 /// appears later is not found.
 class BodyMaskedSource : public FrameSource {
  public:

@@ -45,7 +45,7 @@ struct SweepDirectionStudy {
 };
 
 /// Reads the first part of a log, whose frames hold one scan each, and returns a study for each number of a
-/// laser. Reads at most 6000 frames, and no more after each laser has turned eight times. Ends early at an
+/// laser. Ends when each laser has turned eight times, or after 6000 frames. Ends early at an
 /// error of the log, or if its first scans state no sweep time. `sweep_time_s` replaces the sweep time of all
 /// scans.
 std::vector<SweepDirectionStudy> study_sweep_directions(FrameSource& log, std::optional<double> sweep_time_s);

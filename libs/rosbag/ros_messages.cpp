@@ -165,7 +165,7 @@ void check_field(const std::string& name, const PointField& field, std::uint64_t
     throw MalformedBytes("the field " + name + " of its points has type " + std::to_string(field.type) +
                          ", expected 7 (float32) or 8 (float64)");
   if (field.offset + std::uint64_t{field.type == kFloat32 ? 4U : 8U} > point_bytes)
-    throw MalformedBytes("the field " + name + " ends behind its points, which have " +
+    throw MalformedBytes("the field " + name + " extends beyond its points, which have " +
                          std::to_string(point_bytes) + " bytes");
 }
 

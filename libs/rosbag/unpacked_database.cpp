@@ -6,7 +6,7 @@
 namespace psi_slam {
 namespace {
 
-/// Size that SQLite is told. It only has to exceed the number of pages in the header of the database, because
+/// Size of the database that SQLite receives. It only has to exceed the number of pages in the header of the database, because
 /// the true size is unknown before all is unpacked.
 constexpr sqlite3_int64 kSizeForSqlite = sqlite3_int64{1} << 40;
 

@@ -204,7 +204,7 @@ TEST_F(DamagedCloudTest, is_reported) {
               HasSubstr("the message on /points is damaged: the field x of its points has type 5, expected 7 "
                         "(float32) or 8 (float64)"));
   EXPECT_THAT(sentence_after(field("y", 12, 7), field("y", 14, 7)),
-              HasSubstr("the field y ends behind its points, which have 17 bytes"));
+              HasSubstr("the field y extends beyond its points, which have 17 bytes"));
   EXPECT_THAT(sentence_after(field("z", 4, 7), field("Z", 4, 7)), HasSubstr("its points have no field z"));
   const std::string rows_and_columns = ros1_packed(std::uint32_t{1}) + ros1_packed(std::uint32_t{6});
   for (const std::uint32_t rows : {2U, 4'000'000'000U})

@@ -36,7 +36,7 @@ struct RecordedScan {
   float range_max_m = 30;
   float time_increment_s = 0;
   float scan_time_s = 0.1F;
-  bool multi_echo = false;  // a MultiEchoLaserScan: each beam has a second echo 1 m behind its range
+  bool multi_echo = false;  // a MultiEchoLaserScan: each beam has a second echo 1 m beyond its range
 };
 
 /// An odometry message, or a transform if the topic begins with "/tf".

@@ -6,8 +6,8 @@
 namespace psi_slam {
 namespace {
 
-/// Size of the database that SQLite receives. It only has to exceed the number of pages in the header of the database, because
-/// the true size is unknown before all is unpacked.
+/// Size of the database that SQLite receives. It only has to exceed the number of pages in the header of the
+/// database, because the true size is unknown before all is unpacked.
 constexpr sqlite3_int64 kSizeForSqlite = sqlite3_int64{1} << 40;
 
 /// The open database, as SQLite holds it.

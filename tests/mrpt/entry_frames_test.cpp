@@ -81,7 +81,8 @@ TEST(EntryFrames, skip_odometry_that_is_not_finite) {
   EXPECT_TRUE(entries.next()->has_odometry);
   EXPECT_FALSE(entries.next()->has_odometry);
   EXPECT_EQ(entries.skipped().sentence(),
-            "1 message of the log is unusable and skipped: entries: action 2: the odometry is not finite");
+            "1 message of the log is unusable and skipped: entries: action 2: the odometry is not finite, or "
+            "beyond 10,000 km");
 }
 
 TEST(EntryFrames, a_scan_without_time_is_refused) {

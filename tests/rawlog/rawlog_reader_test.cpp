@@ -201,7 +201,8 @@ TEST_F(RawlogReaderTest, skips_odometry_that_is_not_finite) {
   EXPECT_TRUE(frames[2].has_odometry);
   expect_pose(frames[2].odom_T_robot, {2, 0, 0});
   EXPECT_EQ(contents_.skipped.count, 1U);
-  EXPECT_EQ(contents_.skipped.first, path_.string() + ": object 3: the odometry is not finite");
+  EXPECT_EQ(contents_.skipped.first,
+            path_.string() + ": object 3: the odometry is not finite, or beyond 10,000 km");
 }
 
 TEST_F(RawlogReaderTest, reports_missing_scans_and_time_stamps) {

@@ -48,7 +48,8 @@ std::vector<std::string> quick_check(const std::vector<Frame>& log, const LogOpt
   if (diagnosis.facts.scans_without_odometry == 0) compare_odometry_with(scans, diagnosis);
   std::vector<std::string> faults;
   for (Finding& finding : judge(diagnosis)) {
-    if (finding.severity != Severity::kWarning) continue;
+    const bool is_minor = finding.code == "max_range" || finding.code == "empty_scans";
+    if (finding.severity != Severity::kWarning || is_minor) continue;
     faults.push_back(finding.remedy.empty() ? std::move(finding.sentence)
                                             : finding.sentence + ". Remedy: " + finding.remedy);
   }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "frames/pose_operations.h"
 #include "frames/straightened_frame.h"
 #include "local_maps/correction_support.h"
 
@@ -77,7 +78,8 @@ FrontEnd::FrontEnd(const FrontEndOptions& options)
     : options_(options), matcher_(matcher_options(options)), constant_velocity_(options.constant_velocity) {}
 
 FrontEndStep FrontEnd::add(const Frame& recorded, bool may_be_lost) {
-  const Frame frame = straightened(recorded);
+  Frame frame = recorded;
+  const TPose2D during_sweep = straighten_by_prediction(frame);
   FrontEndStep step;
   step.points = std::make_shared<const ScanPoints>(matching_points(frame, options_.scan));
   const Motion motion = motion_to(frame);
@@ -93,23 +95,42 @@ FrontEndStep FrontEnd::add(const Frame& recorded, bool may_be_lost) {
     step.lost = may_be_lost && is_lost(step, motion, frame.time_us, expected_response);
     if (step.lost) return step;
   }
+  const TPose2D local_T_middle = step.local_T_robot + interpolate({0, 0, 0}, during_sweep, 0.5);
+  if (step.matched && misses_ == 0)
+    if (auto again = straighten_by_match(recorded, local_T_middle, step)) frame = *std::move(again);
   const double travel_m = motion.measured ? motion.length_m : std::max(motion.length_m, motion.sigma_m);
   unmatched_travel_m_ = step.matched ? 0 : unmatched_travel_m_ + travel_m;
   propagate_covariances(step, motion);
   if (active_.empty() || moved_enough(step.local_T_robot)) insert(step, frame);
   last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}, frame.has_odometry};
-  constant_velocity_.moved(frame.time_us, step.local_T_robot, step.matched, frame.imu_heading_rad);
+  // A wrong prediction bends a scan about the middle of its sweep, where the match is therefore right. Speeds
+  // from the poses at the beginnings of sweeps would amplify the errors of predictions.
+  constant_velocity_.moved(frame.time_us, local_T_middle, step.matched, frame.imu_heading_rad);
+  last_local_T_middle_ = local_T_middle;
   last_motion_ = step.local_T_robot - last_local_T_robot_;
   last_local_T_robot_ = step.local_T_robot;
   misses_ = step.matched ? 0 : misses_ + 1;
   return step;
 }
 
-Frame FrontEnd::straightened(Frame frame) const {
-  if (frame.has_odometry) return frame;
+TPose2D FrontEnd::straighten_by_prediction(Frame& frame) const {
+  const double sweep_s = std::abs(static_cast<double>(frame.scan.sweep_time_s));
+  if (frame.has_odometry) return {0, 0, 0};
   const PredictedMotion predicted = constant_velocity_.predict(frame.time_us, frame.imu_heading_rad);
-  straighten(frame, predicted.motion, predicted.duration_s);
-  return frame;
+  if (!straighten(frame, predicted.motion, predicted.duration_s)) return {0, 0, 0};
+  return interpolate({0, 0, 0}, predicted.motion, sweep_s / predicted.duration_s);
+}
+
+std::optional<Frame> FrontEnd::straighten_by_match(Frame recorded, const TPose2D& local_T_middle,
+                                                   FrontEndStep& step) const {
+  if (recorded.has_odometry || !last_) return std::nullopt;
+  const TPose2D motion = local_T_middle - last_local_T_middle_;
+  const double duration_s = seconds(recorded.time_us - last_->time_us);
+  const double sweep_s = std::abs(static_cast<double>(recorded.scan.sweep_time_s));
+  if (!straighten(recorded, motion, duration_s)) return std::nullopt;
+  step.local_T_robot = local_T_middle + inverse(interpolate({0, 0, 0}, motion, 0.5 * sweep_s / duration_s));
+  step.points = std::make_shared<const ScanPoints>(matching_points(recorded, options_.scan));
+  return recorded;
 }
 
 FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {

@@ -171,8 +171,13 @@ class FrontEnd {
     bool was_restarted = false;
   };
   /// Removes the motion during the sweep, as the constant-velocity model predicts it, from the scans of a
-  /// frame without odometry.
-  Frame straightened(Frame frame) const;
+  /// frame without odometry. Returns the motion that was removed from the scan of the first laser.
+  mrpt::math::TPose2D straighten_by_prediction(Frame& frame) const;
+  /// Removes the motion from the middle of the last sweep to `local_T_middle`, the pose in the middle of this
+  /// sweep, from the scans of `recorded` instead. Sets the pose and points of `step`. Returns the frame to
+  /// insert; nothing if no motion was removed.
+  std::optional<Frame> straighten_by_match(Frame recorded, const mrpt::math::TPose2D& local_T_middle,
+                                           FrontEndStep& step) const;
   Motion motion_to(const Frame& frame) const;
   /// Predicts the motion by the constant-velocity model and the gyroscope, for scans without odometry.
   Motion constant_velocity_motion(const Frame& frame) const;
@@ -209,6 +214,7 @@ class FrontEnd {
   std::optional<Frame> last_;  ///< last frame, without its scans
   ConstantVelocityModel constant_velocity_;
   mrpt::math::TPose2D last_local_T_robot_;
+  mrpt::math::TPose2D last_local_T_middle_;  ///< pose in the middle of the last sweep
   mrpt::math::TPose2D last_motion_;
   Eigen::Vector2d doubtful_correction_m_ = Eigen::Vector2d::Zero();  ///< decaying sum, along the robot's axes
   double expected_response_ = 0.5;                                   ///< decaying mean of the responses

@@ -94,8 +94,8 @@ TEST_F(MergedRuns, are_placed_correctly_without_odometry_between_them) {
 }
 
 TEST_F(MergedRuns, mapping_a_saved_session_again_gives_the_same_bytes) {
-  const TrueRun first = run_through(5, 1, 45);
-  const TrueRun second = run_through(5, 2, 30);
+  const TrueRun first = run_through(5, 1, 60);
+  const TrueRun second = run_through(5, 2, 50);
   const auto with_edits = [&](const std::string& name, const TrueRun& run) {
     const SessionInput input = input_of(name, run.frames);
     MappingSession session(input, settings_);

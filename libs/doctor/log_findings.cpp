@@ -170,9 +170,12 @@ class Judge {
     const std::string remedy = std::string("log.sweep_direction = ") + (backward ? "backward" : "forward");
     const SweepDirection used = diagnosis_.options.sweep_direction;
     if (used != SweepDirection::kAuto && used != direction) {
-      warn("sweep_direction", sentence + "not the " + (backward ? "first" : "last"), remedy);
+      warn("sweep_direction",
+           sentence + "but log.sweep_direction states the " + (backward ? "first" : "last"), remedy);
     } else if (used == SweepDirection::kAuto && backward != (study.stated_sweep_time_s < 0)) {
-      note("sweep_direction", sentence + "other than the log states", remedy);
+      note("sweep_direction",
+           sentence + "but the log states the " + (backward ? "first" : "last") + "; mapping corrects this",
+           remedy);
     } else {
       note("sweep_direction", sentence + "as used");
     }

@@ -32,10 +32,12 @@ void compare_odometry_with(const std::vector<const LaserScan*>& scans, LogDiagno
 
 }  // namespace
 
-std::vector<std::string> quick_check(const std::vector<Frame>& log, const LogOptions& options) {
+std::vector<std::string> quick_check(const std::vector<Frame>& log, std::size_t begin, std::size_t end,
+                                     const LogOptions& options) {
   LogFactsCollector collector;
   std::vector<const LaserScan*> scans;
-  for (const Frame& frame : log) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const Frame& frame = log[i];
     if (frame.scan.laser != 0 || frame.scan.ranges_m.empty()) continue;
     collector.add(frame, frame.scan.max_range_m);
     scans.push_back(&frame.scan);

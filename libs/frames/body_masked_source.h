@@ -17,7 +17,7 @@ namespace psi_slam {
 /// Replaces readings of the robot's own body in the scans of another source by NaN; see own_body.h. Frames
 /// keep their order and number. Scans without such readings stay unchanged.
 ///
-/// The first call of next() reads ahead until the body is known: usually a tenth of a log, at most
+/// The first call of next() reads ahead until the body is known: until OwnBodyFinder::settled(), at most
 /// OwnBodyFinder::kMostFrames frames, which wait in memory. The mask therefore applies from the first scan,
 /// the log is read once, and the number of threads does not change the mask. A part of the body that
 /// appears later is not found.

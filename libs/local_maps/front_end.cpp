@@ -110,6 +110,7 @@ FrontEndStep FrontEnd::add(const Frame& recorded, bool may_be_lost) {
   last_motion_ = step.local_T_robot - last_local_T_robot_;
   last_local_T_robot_ = step.local_T_robot;
   misses_ = step.matched ? 0 : misses_ + 1;
+  if (frame.scan.sweep_time_s != recorded.scan.sweep_time_s) step.straightened = std::move(frame);
   return step;
 }
 
@@ -123,9 +124,9 @@ TPose2D FrontEnd::straighten_by_prediction(Frame& frame) const {
 
 std::optional<Frame> FrontEnd::straighten_by_match(Frame recorded, const TPose2D& local_T_middle,
                                                    FrontEndStep& step) const {
-  if (recorded.has_odometry || !last_) return std::nullopt;
+  if (recorded.has_odometry || !last_ || last_->has_odometry) return std::nullopt;
   const TPose2D motion = local_T_middle - last_local_T_middle_;
-  const double duration_s = seconds(recorded.time_us - last_->time_us);
+  const double duration_s = constant_velocity_.predict(recorded.time_us).duration_s;
   const double sweep_s = std::abs(static_cast<double>(recorded.scan.sweep_time_s));
   if (!straighten(recorded, motion, duration_s)) return std::nullopt;
   step.local_T_robot = local_T_middle + inverse(interpolate({0, 0, 0}, motion, 0.5 * sweep_s / duration_s));

@@ -116,6 +116,8 @@ struct FrontEndStep {
   /// Information matrix of the matched (x, y, theta), along the axes of the older active map; 0 if unmatched.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   std::shared_ptr<const ScanPoints> points;
+  /// The frame without the motion during its sweeps. Empty if no motion was removed.
+  std::optional<Frame> straightened;
 
   std::optional<std::size_t> node;  ///< number of the scan's node, from 0; empty if it became no node
   /// Pose of this node in one local map. `memberships` excludes maps that begin with this node. It includes

@@ -24,6 +24,7 @@ class RewindableSource : public FrameSource {
       Kept first = std::move(kept_.front());
       kept_.pop_front();
       progress_ = first.progress;
+      skipped_ = std::move(first.skipped);
       return std::move(first.frame);
     }
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
@@ -42,20 +43,24 @@ class RewindableSource : public FrameSource {
   }
 
   double progress() const override { return progress_; }
-  SkippedLines skipped_lines() const override { return source_->skipped_lines(); }
+  /// Skipped parts up to the frame that next() returned.
+  SkippedLines skipped_lines() const override {
+    return rewound_ && !kept_.empty() ? skipped_ : source_->skipped_lines();
+  }
   std::vector<std::string> assumptions() const override { return source_->assumptions(); }
 
  private:
   struct Kept {
     Frame frame;
     double progress = 0;  // after the frame
+    SkippedLines skipped;
   };
 
   std::optional<Frame> read_and_keep() {
     try {
       std::optional<Frame> frame = source_->next();
       progress_ = source_->progress();
-      if (frame) kept_.push_back({*frame, progress_});
+      if (frame) kept_.push_back({*frame, progress_, source_->skipped_lines()});
       return frame;
     } catch (const UserError&) {
       failure_ = std::current_exception();  // thrown again after the kept frames
@@ -68,6 +73,7 @@ class RewindableSource : public FrameSource {
   std::exception_ptr failure_;
   bool rewound_ = false;
   double progress_ = 0;
+  SkippedLines skipped_;
 };
 
 }  // namespace psi_slam

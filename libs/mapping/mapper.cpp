@@ -80,7 +80,9 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   record.node = step.node;
   record_factor(record, step);
 
-  if (has_map) straighten_last_scan(frame, step.local_T_robot);
+  if (has_map) straighten_last_scan(frame, step);
+  bent_last_.reset();
+  if (step.straightened) bent_last_ = std::exchange(frame, *std::exchange(step.straightened, std::nullopt));
   result_.log.push_back(std::move(frame));
   if (step.node) {
     add_node(step, result_.frames.size());
@@ -94,13 +96,14 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   return result_.frames.back();
 }
 
-// Removes the motion during the sweep from the last scan if it has no odometry, now that the motion to the
-// next scan is known.
-void Mapper::Implementation::straighten_last_scan(const Frame& next, const TPose2D& local_T_next) {
-  Frame& last = result_.log.back();
-  if (last.has_odometry) return;
-  straighten(last, local_T_next - result_.frames.back().front_end_T_robot,
-             seconds(next.time_us - last.time_us));
+// Removes the motion to the next scan, which is now known, from the last scan instead of the motion before
+// it. Leaves the last scan unchanged if it has odometry, or if one of the two scans is unmatched.
+void Mapper::Implementation::straighten_last_scan(const Frame& next, const FrontEndStep& step) {
+  const FrameRecord& record = result_.frames.back();
+  if (result_.log.back().has_odometry || record.match == ScanMatch::kUnmatched || !step.matched) return;
+  Frame last = bent_last_.value_or(result_.log.back());
+  if (straighten(last, step.local_T_robot - record.front_end_T_robot, seconds(next.time_us - last.time_us)))
+    result_.log.back() = std::move(last);
 }
 
 void Mapper::Implementation::begin_run(const RunStart& start) {
@@ -263,7 +266,7 @@ void Mapper::Implementation::refine_poses(FinalProgress& progress) {
   scans.node_frames = result_.node_frames;
   scans.points = [&](std::size_t frame) {
     const std::optional<std::size_t>& node = result_.frames[frame].node;
-    // Without odometry, the log holds scans that were straightened with the motion after them.
+    // Without odometry, the log may hold scans that were straightened with the motion after them.
     return node && result_.log[frame].has_odometry
                ? *keyframes_.nodes[*node].points
                : matching_points(result_.log[frame], options_.front_end.scan);

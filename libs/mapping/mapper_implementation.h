@@ -42,7 +42,7 @@ class Mapper::Implementation {
   };
 
   void rebase_odometry(FrameRecord& record);
-  void straighten_last_scan(const Frame& next, const mrpt::math::TPose2D& local_T_next);
+  void straighten_last_scan(const Frame& next, const FrontEndStep& step);
   void record_factor(FrameRecord& record, const FrontEndStep& step);
   void add_node(const FrontEndStep& step, std::size_t frame);
   void join_run();
@@ -74,6 +74,7 @@ class Mapper::Implementation {
   /// Odometry frame of a later run, in the odometry frame of the first run.
   std::optional<mrpt::math::TPose2D> odom_T_run_;
   mrpt::math::TPose2D map_T_local_;  ///< pose of the front end's frame in the map, from the newest node
+  std::optional<Frame> bent_last_;   ///< last frame before the motion during its sweep was removed
   MappingResult result_;
   StageClock front_end_clock_{"match and insert scan"};
 };

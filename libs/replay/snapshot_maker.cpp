@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "replay/snapshot_maker.h"
 
+#include <algorithm>
+
 namespace psi_slam {
 namespace {
 
@@ -93,6 +95,12 @@ void SnapshotMaker::take(const MappingResult& result) {
   finished_ = true;
   frames_ = {};
   append_new(frames_, result.frames);
+  // The mapper has straightened scans without odometry since follow() copied them.
+  if (std::any_of(result.log.begin(), result.log.end(),
+                  [](const Frame& frame) { return !frame.has_odometry; })) {
+    log_ = {};
+    append_new(log_, result.log);
+  }
   now.unmatched = std::make_shared<UnmatchedScans>(unmatched_scans(result.frames, runs_of(result)));
   std::vector<mrpt::math::TPose2D> poses;
   for (const std::size_t frame : result.node_frames) poses.push_back(result.frames[frame].map_T_robot);

@@ -252,9 +252,9 @@ class Planner {
     const bool has_transforms = !plan_.transform_topics.empty();
     const bool has_motion =
         plan_.has_odometry || (!expects_odometry_ && seen_imus_.size() == imu_topics_.size());
-    return has_motion && has_scans() &&
-           std::all_of(scan_frames_.begin(), scan_frames_.end(),
-                       [&](const auto& scan) { return !has_transforms || knows_mount(scan.second); });
+    const auto has_mount = [&](const auto& sensor) { return !has_transforms || knows_mount(sensor.second); };
+    return has_motion && has_scans() && std::all_of(scan_frames_.begin(), scan_frames_.end(), has_mount) &&
+           (plan_.has_odometry || std::all_of(gyroscope_frames_.begin(), gyroscope_frames_.end(), has_mount));
   }
 
   /// Returns whether a scan of each topic has been read.

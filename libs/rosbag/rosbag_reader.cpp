@@ -214,6 +214,11 @@ class RosbagReader : public LogReader {
 
   void take_cloud(const RosPointCloud& cloud, std::size_t laser) {
     const auto robot_T_sensor = plan_.transforms.base_T_frame(plan_.base_frame, cloud.header.frame);
+    if (robot_T_sensor &&
+        !is_possible_mount({robot_T_sensor->x(), robot_T_sensor->y(), robot_T_sensor->yaw()}))
+      throw UserError(
+          bag_->place() + ": the pose of the sensor on the robot is " + robot_T_sensor->asString() +
+          ", expected finite numbers and at most 100 m. Select another topic with log.scan_topic");
     add_scan(cloud.header.time_us,
              scan_of_slice(cloud.points, robot_T_sensor.value_or(mrpt::poses::CPose3D()), slice_.value(),
                            sensor_options_[laser]),

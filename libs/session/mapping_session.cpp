@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -35,6 +36,12 @@ bool has_return(const Frame& frame) {
                              [](float range_m) { return std::isfinite(range_m); });
   });
   return any;
+}
+
+bool has_sweep(const Frame& frame) {
+  return frame.scan.sweep_time_s != 0 ||
+         std::any_of(frame.companions.begin(), frame.companions.end(),
+                     [](const CompanionScan& companion) { return companion.scan.sweep_time_s != 0; });
 }
 
 /// Adds the time from its construction to its destruction to `work_s`, in seconds.
@@ -98,6 +105,8 @@ struct MappingSession::Members {
   /// std::logic_error.
   void enter(State next);
   std::optional<Frame> read();
+  std::vector<Frame> recorded_frames() const;
+  void check_log();
   void make_due_edits(EditTime now);
   void begin_recorded_run();
   SessionFacts facts() const;
@@ -119,6 +128,9 @@ struct MappingSession::Members {
   Settings settings;
   std::vector<std::string> settings_warnings;
   std::unique_ptr<FrameSource> source;
+  /// Frames without odometry as the log states them, by their numbers. The mapper removes the motion during
+  /// the sweep from its own copies.
+  std::map<std::size_t, Frame> bent;
   std::unique_ptr<Mapper> mapper;  ///< null after finish() without stay_open()
   Mapper::AfterFinish after_finish = Mapper::AfterFinish::kNothing;
   EditJournal edits;
@@ -178,6 +190,7 @@ bool MappingSession::step() {
     if (!frame) return false;
     frame->index = m_->scans;
     m_->begin_recorded_run();
+    if (!frame->has_odometry && has_sweep(*frame)) m_->bent.emplace(frame->index, *frame);
     m_->mapper->add(*std::move(frame));
     m_->make_due_edits({EditTime::Kind::kAfterScan, m_->scans++});
   }
@@ -195,6 +208,15 @@ std::optional<Frame> MappingSession::Members::read() {
   }
   if (!frame) enter(State::kRead);
   return frame;
+}
+
+/// Checks each log of the result, unless the same scans were checked before.
+void MappingSession::Members::check_log() {
+  if (std::exchange(scans_checked, result.log.size()) == result.log.size()) return;
+  faults.clear();
+  for (const FrameSpan& of_log : logs_of(result))
+    for (std::string& fault : quick_check(result.log, of_log.begin, of_log.end, log_options(settings)))
+      if (std::find(faults.begin(), faults.end(), fault) == faults.end()) faults.push_back(std::move(fault));
 }
 
 void MappingSession::finish() {
@@ -228,8 +250,7 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
     return goes_on;
   };
   m.result = m.mapper->finish(progress, m.after_finish);
-  if (std::exchange(m.scans_checked, m.result.log.size()) != m.result.log.size())
-    m.faults = quick_check(m.result.log, log_options(m.settings));
+  m.check_log();
   m.enter(Members::State::kFinished);
   if (m.after_finish == Mapper::AfterFinish::kNothing) m.mapper.reset();
   m.result.stages.insert(m.result.stages.begin(), m.reading_clock.timing());
@@ -391,10 +412,16 @@ void MappingSession::Members::write_edits(const fs::path& file) const {
   fs::remove(file, ignored);
 }
 
+/// Frames to save: those that were mapped, as the mapper received them, or all of the recording.
+std::vector<Frame> MappingSession::Members::recorded_frames() const {
+  if (recording && mapped_log().size() < recording->frames.size()) return recording->frames;
+  std::vector<Frame> frames = mapped_log();
+  for (const auto& [number, frame] : bent) frames.at(number) = frame;
+  return frames;
+}
+
 SavedSession MappingSession::save(const fs::path& file) const {
-  const std::vector<Frame>& mapped = m_->mapped_log();
-  const bool all_of_recording = !m_->recording || mapped.size() >= m_->recording->frames.size();
-  const std::vector<Frame>& frames = all_of_recording ? mapped : m_->recording->frames;
+  const std::vector<Frame> frames = m_->recorded_frames();
   const SessionFacts facts = m_->facts();
   write_session_file(file, facts, frames);
   SavedSession saved{frames.size(), ""};

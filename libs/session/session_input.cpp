@@ -33,6 +33,7 @@ class RecordedSource : public FrameSource {
       : recording_(std::move(recording)), log_(std::move(log)), is_last_(is_last), path_(std::move(path)) {
     if (!log_ || is_last_) return;
     first_ = log_->next();
+    if (first_) first_->imu_heading_rad.reset();  // the headings of two logs are unrelated
     const std::vector<Frame>& frames = recording_->frames;
     if (!first_ || frames.empty() || first_->time_us > frames.back().time_us) return;
     const char* const why =

@@ -60,11 +60,11 @@ void describe_log(OptionTable& table, Settings& settings) {
               {{"auto", SweepDirection::kAuto},
                {"forward", SweepDirection::kForward},
                {"backward", SweepDirection::kBackward}},
-              "Whether the first or the last beam of a scan is measured first. auto: as the scans show in "
-              "turns, otherwise as the log states.")
+              "Order in which the laser measures the beams of a scan. forward: the first beam first. "
+              "backward: the last beam first. auto: as the scans show in turns, otherwise as the log states.")
       .choice("mask_own_body", log.mask_own_body, {{"auto", true}, {"off", false}},
-              "Ignores readings of the robot itself: short ranges that stay constant while the robot turns. "
-              "off: uses all readings.")
+              "Readings of the robot's own body. auto: ignores ranges up to 1 m that stay constant while the "
+              "robot turns. off: uses all readings.")
       .text(
           "scan_topic", log.scan_topic,
           "ROS bags: topic of the scans. Several with commas, or all. Empty: log.laser, or all topics whose "

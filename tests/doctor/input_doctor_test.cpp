@@ -335,7 +335,8 @@ TEST_F(InputDoctorTest, finds_the_direction_of_the_sweep) {
   EXPECT_THAT(warnings_of(backward), testing::IsEmpty()) << "mapping finds the direction by itself";
   const Finding finding = finding_of(backward, "sweep_direction");
   EXPECT_EQ(finding.sentence,
-            "turns show that the last beam of each scan is measured first, other than the log states");
+            "turns show that the last beam of each scan is measured first, but the log states the first; "
+            "mapping corrects this");
   EXPECT_EQ(finding.remedy, "log.sweep_direction = backward");
   EXPECT_THAT(warnings_of(diagnose_with(SweepDirection::kForward)), testing::ElementsAre("sweep_direction"));
   const LogDiagnosis mended = diagnose_with(SweepDirection::kBackward);

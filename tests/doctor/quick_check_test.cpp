@@ -37,7 +37,7 @@ std::vector<Frame> frames_of(const SimulatedRun& run) {
 std::vector<std::string> faults_after(const std::function<void(Frame&)>& change) {
   std::vector<Frame> frames = frames_of(round_trips(2));
   for (Frame& frame : frames) change(frame);
-  return quick_check(frames, {});
+  return quick_check(frames, 0, frames.size(), {});
 }
 
 TEST(QuickCheck, finds_nothing_in_a_sound_log) {
@@ -73,7 +73,7 @@ TEST(QuickCheck, finds_few_returns) {
 
 TEST(QuickCheck, needs_no_odometry_and_no_scan) {
   EXPECT_THAT(faults_after([](Frame& frame) { frame.has_odometry = false; }), IsEmpty());
-  EXPECT_THAT(quick_check({}, {}), IsEmpty());
+  EXPECT_THAT(quick_check({}, 0, 0, {}), IsEmpty());
 }
 
 class QuickCheckOfRealLogs : public testing::TestWithParam<const char*> {};
@@ -84,7 +84,7 @@ TEST_P(QuickCheckOfRealLogs, finds_nothing) {
   std::vector<Frame> frames;
   const auto log = open_log(*path, {});
   while (auto frame = log->next()) frames.push_back(*std::move(frame));
-  EXPECT_THAT(quick_check(frames, {}), IsEmpty());
+  EXPECT_THAT(quick_check(frames, 0, frames.size(), {}), IsEmpty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Logs, QuickCheckOfRealLogs,

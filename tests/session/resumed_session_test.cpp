@@ -83,6 +83,24 @@ TEST_F(ResumedSession, gives_the_same_map_wherever_it_was_saved) {
   }
 }
 
+TEST_F(ResumedSession, gives_the_same_map_of_sweeps_without_odometry) {
+  settings_.log.odometry = "none";
+  settings_.log.sweep_time_s = 0.15;
+  const auto path = log("room.log", room_log_lines(60));
+  const fs::path whole = uninterrupted(path);
+  for (const std::size_t scans : {30U, 60U}) {
+    saved_after(scans, path);
+    MappingSession session(resumed(path), settings_);
+    session.run(go_on_);
+    expect_same_results(whole, export_of(session, "resumed" + std::to_string(scans)));
+  }
+  settings_.log.sweep_time_s = 0;
+  MappingSession without(path, settings_);
+  without.run(go_on_);
+  EXPECT_NE(read_file(export_of(without, "without") / "trajectory.tum"), read_file(whole / "trajectory.tum"))
+      << "without an effect of the sweep the test would show nothing";
+}
+
 TEST_F(ResumedSession, continues_with_a_second_log_as_if_both_were_one) {
   const auto lines = room_log_lines();
   const auto half = lines.begin() + 80;

@@ -48,7 +48,7 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
  public:
   /// Options of the builder. A Configuration provides all members.
   struct Options {
-    /// Options of the laser, its mount and its ranges. every_nth_scan,
+    /// Options of the laser, its mount and its ranges. every_nth_scan, mask_own_body, imu, slice_z_m,
     /// sweep_time_s and sweep_direction have no effect.
     LogOptions log;
     GridMapOptions map;                           ///< options of the drawn grid map

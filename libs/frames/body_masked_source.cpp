@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/number_text.h"
-#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -25,41 +24,16 @@ std::string sentence_of(const std::vector<BodySector>& sectors) {
 }  // namespace
 
 void BodyMaskedSource::look_ahead() {
-  OwnBodyFinder finder;
-  try {
-    while (!finder.settled() && !at_end_) {
-      std::optional<Frame> frame = source_->next();
-      at_end_ = !frame;
-      if (at_end_) break;
-      finder.add(*frame);
-      ahead_.push_back({*std::move(frame), source_->progress(), source_->skipped_lines()});
-    }
-  } catch (const UserError&) {
-    failure_ = std::current_exception();
-    at_end_ = true;
-  }
-  mask_ = finder.mask();
+  mask_ = find_own_body(source_);
+  source_.rewind();
   std::map<std::size_t, std::vector<BodySector>> by_laser;
   for (const BodySector& sector : mask_.sectors()) by_laser[sector.laser].push_back(sector);
   for (const auto& [laser, sectors] : by_laser) sentences_.push_back(sentence_of(sectors));
 }
 
-std::optional<Frame> BodyMaskedSource::next_unmasked() {
-  if (!ahead_.empty()) {
-    Read read = std::move(ahead_.front());
-    ahead_.pop_front();
-    progress_ = read.progress;
-    skipped_ = std::move(read.skipped);
-    return std::move(read.frame);
-  }
-  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-  if (at_end_) return std::nullopt;
-  return source_->next();
-}
-
 std::optional<Frame> BodyMaskedSource::next() {
   if (!std::exchange(started_, true)) look_ahead();
-  std::optional<Frame> frame = next_unmasked();
+  std::optional<Frame> frame = source_.next();
   if (!frame) return frame;
   mask_.apply(frame->scan);
   for (CompanionScan& companion : frame->companions) mask_.apply(companion.scan);
@@ -67,7 +41,7 @@ std::optional<Frame> BodyMaskedSource::next() {
 }
 
 std::vector<std::string> BodyMaskedSource::assumptions() const {
-  std::vector<std::string> assumptions = source_->assumptions();
+  std::vector<std::string> assumptions = source_.assumptions();
   assumptions.insert(assumptions.end(), sentences_.begin(), sentences_.end());
   return assumptions;
 }

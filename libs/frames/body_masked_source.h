@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <deque>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "frames/own_body.h"
+#include "frames/rewindable_source.h"
 #include "psi_slam/frame_source.h"
 
 namespace psi_slam {
@@ -28,31 +27,17 @@ class BodyMaskedSource : public FrameSource {
   /// Returns the next frame. Throws an error of the source after the frames before it.
   std::optional<Frame> next() override;
 
-  /// Progress and skipped parts up to the frame that next() returned, without the frames read ahead.
-  double progress() const override { return ahead_.empty() ? source_->progress() : progress_; }
-  SkippedLines skipped_lines() const override { return ahead_.empty() ? source_->skipped_lines() : skipped_; }
+  double progress() const override { return source_.progress(); }
+  SkippedLines skipped_lines() const override { return source_.skipped_lines(); }
 
   /// Assumptions of the source, and after the first next() one sentence for each laser that sees the robot.
   std::vector<std::string> assumptions() const override;
 
  private:
-  /// A frame, and the state of the source after reading it.
-  struct Read {
-    Frame frame;
-    double progress = 0;
-    SkippedLines skipped;
-  };
-
   void look_ahead();
-  std::optional<Frame> next_unmasked();
 
-  std::unique_ptr<FrameSource> source_;
+  RewindableSource source_;
   bool started_ = false;
-  bool at_end_ = false;
-  std::deque<Read> ahead_;
-  std::exception_ptr failure_;  ///< error of reading ahead; thrown after the last frame before the error
-  double progress_ = 0;
-  SkippedLines skipped_;
   OwnBodyMask mask_;
   std::vector<std::string> sentences_;  ///< what is masked, one sentence for each laser
 };

@@ -10,16 +10,13 @@
 #include <vector>
 
 #include "frames/pose_operations.h"
+#include "frames/sweep_motion.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
-
-constexpr double kMaxBetweenScans_s = 1.0;
-// Largest ratio of the sweep time to the time between two scans. A larger sweep time is wrong.
-constexpr double kMaxSweepRatio = 1.5;
 
 }  // namespace
 
@@ -76,11 +73,8 @@ std::vector<std::string> DeskewedSource::assumptions() const {
 }
 
 std::optional<TPose2D> DeskewedSource::motion_between(const Mark& from, const Mark& to, double time_s) {
-  const double apart_s = seconds(to.time_us - from.time_us);
-  if (!from.has_odometry || !to.has_odometry || !(apart_s > 0) || apart_s > kMaxBetweenScans_s ||
-      time_s > kMaxSweepRatio * apart_s)
-    return std::nullopt;
-  return interpolate({0, 0, 0}, to.odom_T_robot - from.odom_T_robot, time_s / apart_s);
+  if (!from.has_odometry || !to.has_odometry) return std::nullopt;
+  return motion_during_sweep(to.odom_T_robot - from.odom_T_robot, seconds(to.time_us - from.time_us), time_s);
 }
 
 DeskewedSource::Marks DeskewedSource::marks_of(const Frame& frame) {

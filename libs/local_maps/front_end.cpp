@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "frames/pose_operations.h"
-#include "frames/straightened_frame.h"
+#include "frames/sweep_motion.h"
 #include "local_maps/correction_support.h"
 
 namespace psi_slam {
@@ -72,16 +72,22 @@ ScanPoints coarse_scan(const ScanPoints& scan) {
   return coarse;
 }
 
+// Returns the motion during the sweep of the first laser, which the poses of the frame refer to.
+TPose2D motion_of_first_scan(const Frame& frame, const TPose2D& motion, double duration_s) {
+  return motion_during_sweep(motion, duration_s, static_cast<double>(frame.scan.sweep_time_s))
+      .value_or(TPose2D(0, 0, 0));
+}
+
 }  // namespace
 
 FrontEnd::FrontEnd(const FrontEndOptions& options)
     : options_(options), matcher_(matcher_options(options)), constant_velocity_(options.constant_velocity) {}
 
-FrontEndStep FrontEnd::add(const Frame& recorded, bool may_be_lost) {
-  Frame frame = recorded;
-  const TPose2D during_sweep = straighten_by_prediction(frame);
+FrontEndStep FrontEnd::add(const Frame& frame, bool may_be_lost) {
   FrontEndStep step;
-  step.points = std::make_shared<const ScanPoints>(matching_points(frame, options_.scan));
+  const TPose2D during_sweep = straighten_by_prediction(frame, step);
+  step.points = std::make_shared<const ScanPoints>(
+      matching_points(step.straightened ? *step.straightened : frame, options_.scan));
   const Motion motion = motion_to(frame);
   doubtful_correction_m_ *= std::exp(-motion.length_m / options_.doubtful_correction_travel_m);
   step.local_T_robot = last_local_T_robot_ + motion.predicted;
@@ -96,12 +102,12 @@ FrontEndStep FrontEnd::add(const Frame& recorded, bool may_be_lost) {
     if (step.lost) return step;
   }
   const TPose2D local_T_middle = step.local_T_robot + interpolate({0, 0, 0}, during_sweep, 0.5);
-  if (step.matched && misses_ == 0)
-    if (auto again = straighten_by_match(recorded, local_T_middle, step)) frame = *std::move(again);
+  if (step.matched && misses_ == 0) straighten_by_match(frame, local_T_middle, step);
   const double travel_m = motion.measured ? motion.length_m : std::max(motion.length_m, motion.sigma_m);
   unmatched_travel_m_ = step.matched ? 0 : unmatched_travel_m_ + travel_m;
   propagate_covariances(step, motion);
-  if (active_.empty() || moved_enough(step.local_T_robot)) insert(step, frame);
+  if (active_.empty() || moved_enough(step.local_T_robot))
+    insert(step, step.straightened ? *step.straightened : frame);
   last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}, frame.has_odometry};
   // A wrong prediction bends a scan about the middle of its sweep, where the match is therefore right. Speeds
   // from the poses at the beginnings of sweeps would amplify the errors of predictions.
@@ -110,28 +116,29 @@ FrontEndStep FrontEnd::add(const Frame& recorded, bool may_be_lost) {
   last_motion_ = step.local_T_robot - last_local_T_robot_;
   last_local_T_robot_ = step.local_T_robot;
   misses_ = step.matched ? 0 : misses_ + 1;
-  if (frame.scan.sweep_time_s != recorded.scan.sweep_time_s) step.straightened = std::move(frame);
   return step;
 }
 
-TPose2D FrontEnd::straighten_by_prediction(Frame& frame) const {
-  const double sweep_s = std::abs(static_cast<double>(frame.scan.sweep_time_s));
+TPose2D FrontEnd::straighten_by_prediction(const Frame& frame, FrontEndStep& step) const {
   if (frame.has_odometry) return {0, 0, 0};
   const PredictedMotion predicted = constant_velocity_.predict(frame.time_us, frame.imu_heading_rad);
-  if (!straighten(frame, predicted.motion, predicted.duration_s)) return {0, 0, 0};
-  return interpolate({0, 0, 0}, predicted.motion, sweep_s / predicted.duration_s);
+  Frame still = frame;
+  if (!straighten(still, predicted.motion, predicted.duration_s)) return {0, 0, 0};
+  step.straightened = std::move(still);
+  return motion_of_first_scan(frame, predicted.motion, predicted.duration_s);
 }
 
-std::optional<Frame> FrontEnd::straighten_by_match(Frame recorded, const TPose2D& local_T_middle,
-                                                   FrontEndStep& step) const {
-  if (recorded.has_odometry || !last_ || last_->has_odometry) return std::nullopt;
+void FrontEnd::straighten_by_match(const Frame& frame, const TPose2D& local_T_middle,
+                                   FrontEndStep& step) const {
+  if (frame.has_odometry || !last_ || last_->has_odometry) return;
   const TPose2D motion = local_T_middle - last_local_T_middle_;
-  const double duration_s = constant_velocity_.predict(recorded.time_us).duration_s;
-  const double sweep_s = std::abs(static_cast<double>(recorded.scan.sweep_time_s));
-  if (!straighten(recorded, motion, duration_s)) return std::nullopt;
-  step.local_T_robot = local_T_middle + inverse(interpolate({0, 0, 0}, motion, 0.5 * sweep_s / duration_s));
-  step.points = std::make_shared<const ScanPoints>(matching_points(recorded, options_.scan));
-  return recorded;
+  const double duration_s = constant_velocity_.predict(frame.time_us).duration_s;
+  Frame still = frame;
+  if (!straighten(still, motion, duration_s)) return;
+  const TPose2D during_sweep = motion_of_first_scan(frame, motion, duration_s);
+  step.local_T_robot = local_T_middle + inverse(interpolate({0, 0, 0}, during_sweep, 0.5));
+  step.points = std::make_shared<const ScanPoints>(matching_points(still, options_.scan));
+  step.straightened = std::move(still);
 }
 
 FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {

@@ -173,13 +173,13 @@ class FrontEnd {
     bool was_restarted = false;
   };
   /// Removes the motion during the sweep, as the constant-velocity model predicts it, from the scans of a
-  /// frame without odometry. Returns the motion that was removed from the scan of the first laser.
-  mrpt::math::TPose2D straighten_by_prediction(Frame& frame) const;
+  /// frame without odometry. Sets step.straightened. Returns the motion of the first laser's sweep.
+  mrpt::math::TPose2D straighten_by_prediction(const Frame& frame, FrontEndStep& step) const;
   /// Removes the motion from the middle of the last sweep to `local_T_middle`, the pose in the middle of this
-  /// sweep, from the scans of `recorded` instead. Sets the pose and points of `step`. Returns the frame to
-  /// insert; nothing if no motion was removed.
-  std::optional<Frame> straighten_by_match(Frame recorded, const mrpt::math::TPose2D& local_T_middle,
-                                           FrontEndStep& step) const;
+  /// sweep, from the scans of `frame` instead. Sets the pose, the points and the straightened frame of
+  /// `step`.
+  void straighten_by_match(const Frame& frame, const mrpt::math::TPose2D& local_T_middle,
+                           FrontEndStep& step) const;
   Motion motion_to(const Frame& frame) const;
   /// Predicts the motion by the constant-velocity model and the gyroscope, for scans without odometry.
   Motion constant_velocity_motion(const Frame& frame) const;

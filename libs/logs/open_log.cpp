@@ -11,8 +11,8 @@
 #include "frames/height_slice.h"
 #include "frames/laser_choice.h"
 #include "frames/log_reader.h"
+#include "frames/rewindable_source.h"
 #include "frames/scan_synchronizer.h"
-#include "logs/rewindable_source.h"
 #include "logs/sweep_direction_study.h"
 #include "psi_slam/user_error.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "frames/pose_operations.h"
-#include "frames/straightened_frame.h"
+#include "frames/sweep_motion.h"
 #include "mapping/carried_frames.h"
 #include "mapping/unplaced_runs.h"
 #include "pose_graph/information_matrix.h"

@@ -105,7 +105,7 @@ struct MappingSession::Members {
   /// std::logic_error.
   void enter(State next);
   std::optional<Frame> read();
-  std::vector<Frame> recorded_frames() const;
+  const std::vector<Frame>& recorded_frames(std::vector<Frame>& room) const;
   void check_log();
   void make_due_edits(EditTime now);
   void begin_recorded_run();
@@ -412,16 +412,20 @@ void MappingSession::Members::write_edits(const fs::path& file) const {
   fs::remove(file, ignored);
 }
 
-/// Frames to save: those that were mapped, as the mapper received them, or all of the recording.
-std::vector<Frame> MappingSession::Members::recorded_frames() const {
-  if (recording && mapped_log().size() < recording->frames.size()) return recording->frames;
-  std::vector<Frame> frames = mapped_log();
-  for (const auto& [number, frame] : bent) frames.at(number) = frame;
-  return frames;
+/// Frames to save: those that were mapped, as the mapper received them, or all of the recording. `room` holds
+/// them if the mapper has changed some.
+const std::vector<Frame>& MappingSession::Members::recorded_frames(std::vector<Frame>& room) const {
+  const std::vector<Frame>& mapped = mapped_log();
+  if (recording && mapped.size() < recording->frames.size()) return recording->frames;
+  if (bent.empty()) return mapped;
+  room = mapped;
+  for (const auto& [number, frame] : bent) room.at(number) = frame;
+  return room;
 }
 
 SavedSession MappingSession::save(const fs::path& file) const {
-  const std::vector<Frame> frames = m_->recorded_frames();
+  std::vector<Frame> room;
+  const std::vector<Frame>& frames = m_->recorded_frames(room);
   const SessionFacts facts = m_->facts();
   write_session_file(file, facts, frames);
   SavedSession saved{frames.size(), ""};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "logs/rewindable_source.h"
+#include "frames/rewindable_source.h"
 
 #include <gmock/gmock.h>
 

@@ -17,7 +17,7 @@ namespace psi_slam {
 namespace {
 
 constexpr const char* kWhere = "Settings";  // source of the value, named in error messages
-constexpr const char* kNothingSelected =
+constexpr const char* kNoOptionSelected =
     "Select an option to read its help. Right-click an option to reset it.";
 constexpr int kHelpHeight = 104;  // height of six lines, in pixels
 
@@ -52,7 +52,7 @@ SettingsPanel::SettingsPanel(wxWindow* parent, BoundSettings& settings, Actions 
   grid_->SetColumnProportion(0, 2);  // keys are longer than values
   grid_->SetColumnProportion(1, 1);
   grid_->ResetColumnSizes(true);
-  help_ = new wxStaticText(this, wxID_ANY, kNothingSelected, wxDefaultPosition,
+  help_ = new wxStaticText(this, wxID_ANY, kNoOptionSelected, wxDefaultPosition,
                            FromDIP(wxSize(-1, kHelpHeight)), wxST_NO_AUTORESIZE);
   pending_ = new wxStaticText(this, wxID_ANY, "This map was made with other settings.");
   restart_ = new wxButton(this, wxID_ANY, "Restart");
@@ -70,7 +70,7 @@ SettingsPanel::SettingsPanel(wxWindow* parent, BoundSettings& settings, Actions 
   add_options();
   grid_->Bind(wxEVT_PG_SELECTED, [this](wxPropertyGridEvent& event) {
     const wxPGProperty* const property = event.GetProperty();
-    help_->SetLabel(property == nullptr ? wxString(kNothingSelected) : property->GetHelpString());
+    help_->SetLabel(property == nullptr ? wxString(kNoOptionSelected) : property->GetHelpString());
     help_->Wrap(GetClientSize().GetWidth() - FromDIP(16));
   });
   grid_->Bind(wxEVT_PG_CHANGING, [this](wxPropertyGridEvent& event) { changing(event); });

@@ -25,6 +25,13 @@ function(psi_slam_configure_target target)
   endif()
 endfunction()
 
+# psi_slam_join_sources(TARGET...)
+# Compiles four sources at a time, which saves a third of the time: they instantiate the same templates. Two sources of
+# such a target must not define the same name in an unnamed namespace.
+function(psi_slam_join_sources)
+  set_target_properties(${ARGN} PROPERTIES UNITY_BUILD ${PSI_SLAM_JOIN_SOURCES} UNITY_BUILD_BATCH_SIZE 4)
+endfunction()
+
 # psi_slam_add_library(NAME SOURCES file... [PUBLIC dependency...] [PRIVATE dependency...])
 # Adds the static library of libs/NAME as psi-slam::NAME. Its own headers lie beside its sources and are included as
 # "NAME/file.h"; the public headers of all libraries are libs/include/psi_slam/*.h. The library is installed if a
@@ -63,10 +70,11 @@ function(psi_slam_add_app name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${ARG_COMPONENT})
 endfunction()
 
-# Sets the compiler options of a test program. Little optimisation is enough for tests, and it compiles faster.
-function(psi_slam_configure_test target)
+# Sets the compiler options of code that only reads options, prints tables, shows windows or tests libraries. Little
+# optimisation is enough for it, and it compiles faster. But it makes false warnings of uninitialised values.
+function(psi_slam_configure_light_target target)
   psi_slam_configure_target(${target})
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1 -Wno-maybe-uninitialized>)
 endfunction()
 
 # psi_slam_add_tests(NAME LINK dependency...)
@@ -79,7 +87,8 @@ function(psi_slam_add_tests name)
   endif()
   add_executable(${name}_tests ${sources})
   target_link_libraries(${name}_tests PRIVATE ${ARG_LINK} psi_slam_test_support GTest::gmock_main)
-  psi_slam_configure_test(${name}_tests)
+  psi_slam_configure_light_target(${name}_tests)
+  psi_slam_join_sources(${name}_tests)
   if(TARGET psi_slam_test_headers)
     target_precompile_headers(${name}_tests REUSE_FROM psi_slam_test_headers)
   endif()

@@ -64,7 +64,7 @@ TEST_P(AbsurdLogs, are_mapped_or_refused_with_one_sentence) {
   expect_result_or_sentence(run_within_limits({"check", log.string()}, folder.path()));
 }
 
-std::string name_of(const testing::TestParamInfo<AbsurdLog>& absurd) {
+std::string absurd_name(const testing::TestParamInfo<AbsurdLog>& absurd) {
   return absurd.param.name;
 }
 
@@ -202,7 +202,7 @@ const std::vector<AbsurdLog> kCarmen{
     many_beams("scans_of_100000_beams", 100'000, 10),
 };
 
-INSTANTIATE_TEST_SUITE_P(Carmen, AbsurdLogs, testing::ValuesIn(kCarmen), name_of);
+INSTANTIATE_TEST_SUITE_P(Carmen, AbsurdLogs, testing::ValuesIn(kCarmen), absurd_name);
 
 // ---- Bags ----
 
@@ -275,7 +275,7 @@ const std::vector<AbsurdLog> kBags{
         {std::nan(""), 0, 0, 0, 0, 0}),
 };
 
-INSTANTIATE_TEST_SUITE_P(Bag, AbsurdLogs, testing::ValuesIn(kBags), name_of);
+INSTANTIATE_TEST_SUITE_P(Bag, AbsurdLogs, testing::ValuesIn(kBags), absurd_name);
 
 // ---- Rawlogs ----
 
@@ -339,7 +339,7 @@ const std::vector<AbsurdLog> kRawlogs{
         "odometry_is_nan", [](int, Scan&) {}, [](int, mrpt::poses::CPose2D& pose) { pose.x(std::nan("")); }),
 };
 
-INSTANTIATE_TEST_SUITE_P(Rawlog, AbsurdLogs, testing::ValuesIn(kRawlogs), name_of);
+INSTANTIATE_TEST_SUITE_P(Rawlog, AbsurdLogs, testing::ValuesIn(kRawlogs), absurd_name);
 
 }  // namespace
 }  // namespace psi_slam

@@ -44,12 +44,12 @@ TEST(SeedSpread, of_one_value_is_only_the_mean) {
 }
 
 TEST(SeedSpread, groups_rows_that_differ_only_in_their_seed) {
-  struct Row {
+  struct NamedRun {
     int name;
     std::uint64_t seed;
   };
-  const auto cases = by_case(std::vector<Row>{{1, 4}, {1, 5}, {2, 4}},
-                             [](const Row& a, const Row& b) { return a.name == b.name; });
+  const auto cases = by_case(std::vector<NamedRun>{{1, 4}, {1, 5}, {2, 4}},
+                             [](const NamedRun& a, const NamedRun& b) { return a.name == b.name; });
   ASSERT_EQ(cases.size(), 2U);
   EXPECT_EQ(seeds_of(cases[0]), (std::vector<std::uint64_t>{4, 5}));
   EXPECT_EQ(seeds_of(cases[1]), (std::vector<std::uint64_t>{4}));

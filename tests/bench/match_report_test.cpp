@@ -13,7 +13,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 MatchSeries series_of(double csm_ms, double ga_ms) {
   MatchSeries series;
@@ -40,16 +40,16 @@ MatchBenchmark benchmark() {
   return result;
 }
 
-std::vector<std::string> keys_of(const Json& object) {
+std::vector<std::string> keys_of(const OrderedJson& object) {
   std::vector<std::string> keys;
   for (const auto& item : object.items()) keys.push_back(item.key());
   return keys;
 }
 
 TEST(MatchReport, json_has_a_row_for_each_matcher) {
-  const Json json = Json::parse(match_report(benchmark(), {}, "a machine").json);
+  const OrderedJson json = OrderedJson::parse(match_report(benchmark(), {}, "a machine").json);
   ASSERT_EQ(json["matchers"].size(), 2U);
-  const Json& row = json["matchers"][1];
+  const OrderedJson& row = json["matchers"][1];
   EXPECT_THAT(keys_of(row),
               testing::ElementsAre("series", "matcher", "cases", "success_rate", "same_optimum_rate",
                                    "false_accept_rate", "evaluations", "time_ms", "repaired_share"));
@@ -66,7 +66,7 @@ TEST(MatchReport, json_has_a_row_for_each_matcher) {
 TEST(MatchReport, json_names_machine_options_and_logs) {
   MatchBenchmarkOptions options;
   options.seed = 77;
-  const Json json = Json::parse(match_report(benchmark(), options, "a machine").json);
+  const OrderedJson json = OrderedJson::parse(match_report(benchmark(), options, "a machine").json);
   EXPECT_EQ(json["machine"], "a machine");
   EXPECT_EQ(json["seed"], 77);
   EXPECT_EQ(json["window_m"], 8.0);
@@ -74,7 +74,7 @@ TEST(MatchReport, json_names_machine_options_and_logs) {
   EXPECT_EQ(json["logs"][0]["translation_error_m"], 0.019);
   EXPECT_TRUE(json["logs"][1]["translation_error_m"].is_null());
   EXPECT_EQ(json["logs"][1]["used"], false);
-  EXPECT_EQ(json["repaired_share"], (Json{{"ga", 0.25}}));
+  EXPECT_EQ(json["repaired_share"], (OrderedJson{{"ga", 0.25}}));
   EXPECT_EQ(json["context"]["matchers"][0]["time_ms"]["mean"], 10.0);
   EXPECT_FALSE(json.contains("windows"));
 }
@@ -100,7 +100,7 @@ TEST(MatchReport, sizes_have_tables_and_plots) {
   EXPECT_THAT(report.markdown, HasSubstr("| ±4 m | csm | 1 | 100.0 |"));
   EXPECT_THAT(report.csv, HasSubstr("±4 m,csm,1,1.0,1.0,1000.0,40.0,"));
   ASSERT_EQ(report.plots.size(), 2U);
-  const Json json = Json::parse(report.json);
+  const OrderedJson json = OrderedJson::parse(report.json);
   EXPECT_EQ(json["windows"][1]["window_m"], 4.0);
   EXPECT_EQ(json["windows"][1]["matchers"][0]["time_ms"]["mean"], 40.0);
   EXPECT_EQ(json["local_maps"][0]["nodes_per_local_map"], FrontEndOptions().nodes_per_local_map);

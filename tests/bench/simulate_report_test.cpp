@@ -9,7 +9,7 @@ namespace psi_slam {
 namespace {
 
 using testing::HasSubstr;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 SimulateRow row() {
   SimulateRow row;
@@ -44,7 +44,7 @@ TEST(SimulateReport, rows_survive_as_text) {
 TEST(SimulateReport, json_has_machine_seed_and_figures) {
   SimulateOptions options;
   options.seed = 77;
-  const Json json = Json::parse(simulate_report({row()}, options, "a machine").json);
+  const OrderedJson json = OrderedJson::parse(simulate_report({row()}, options, "a machine").json);
   EXPECT_EQ(json["machine"], "a machine");
   EXPECT_EQ(json["seed"], 77);
   EXPECT_EQ(json["drives"][0]["scan_ms"]["p99"], 8.42);

@@ -28,7 +28,7 @@ SparseRow row(const std::string& log, const std::string& kept, std::uint64_t see
   return row;
 }
 
-SparseBenchmark benchmark() {
+SparseBenchmark sparse_benchmark() {
   SparseBenchmark benchmark;
   benchmark.identities.push_back({"office", "a0a0", "b0b0"});
   benchmark.rows = {row("office", "1 m / 0.5 rad", 7, 0.04), row("office", "1 m / 0.5 rad", 8, 0.06),
@@ -54,7 +54,7 @@ SparseBenchmark benchmark() {
 BenchReport report() {
   SparseOptions options;
   options.seeds = {7, 8};
-  return sparse_report(benchmark(), options, "a machine");
+  return sparse_report(sparse_benchmark(), options, "a machine");
 }
 
 TEST(SparseReport, markdown_has_means_over_the_seeds) {
@@ -71,7 +71,7 @@ TEST(SparseReport, markdown_has_means_over_the_seeds) {
 TEST(SparseReport, names_changed_settings) {
   SparseOptions options;
   options.assignments = {"map.max_range_m=80"};
-  EXPECT_THAT(sparse_report(benchmark(), options, "a machine").markdown,
+  EXPECT_THAT(sparse_report(sparse_benchmark(), options, "a machine").markdown,
               HasSubstr("default settings except `map.max_range_m=80`."));
 }
 

@@ -3,22 +3,15 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "psi_slam/user_error.h"
 #include "temporary_folder.h"
+#include "test_files.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 using ::testing::HasSubstr;
-
-std::string contents(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// Map of 3 m x 2 m with its lower left corner at (-1.5, 4) m and cells of 0.25 m. The lower half is free,
 /// the upper half unknown. The lower left corner of the only occupied cell is at (-0.5, 4.25) m.
@@ -34,7 +27,7 @@ TEST(MapServerPair, image_has_row_0_on_top_and_three_values) {
   const TemporaryFolder folder;
   write_map_server_pair(folder.path() / "map.yaml", lopsided_map());
   const std::string header = "P5\n12 8\n255\n";
-  const std::string pgm = contents(folder.path() / "map.pgm");
+  const std::string pgm = read_file(folder.path() / "map.pgm");
   ASSERT_EQ(pgm.substr(0, header.size()), header);
   ASSERT_EQ(pgm.size(), header.size() + 12 * 8);
   const auto pixel = [&](int column, int row) {
@@ -50,7 +43,7 @@ TEST(MapServerPair, image_has_row_0_on_top_and_three_values) {
 TEST(MapServerPair, yaml_names_the_image_and_the_lower_left_corner) {
   const TemporaryFolder folder;
   write_map_server_pair(folder.path() / "map.yaml", lopsided_map());
-  EXPECT_EQ(contents(folder.path() / "map.yaml"),
+  EXPECT_EQ(read_file(folder.path() / "map.yaml"),
             "image: map.pgm\n"
             "resolution: 0.25\n"
             "origin: [-1.5, 4.0, 0.0]\n"
@@ -63,14 +56,14 @@ TEST(MapServerPair, yaml_names_the_image_and_the_lower_left_corner) {
 TEST(MapServerPair, writes_lengths_without_trailing_zeros) {
   const TemporaryFolder folder;
   write_map_server_pair(folder.path() / "map.yaml", COccupancyGridMap2D(-37.3F, 10, -1234.55F, 0, 0.05F));
-  EXPECT_THAT(contents(folder.path() / "map.yaml"),
+  EXPECT_THAT(read_file(folder.path() / "map.yaml"),
               HasSubstr("resolution: 0.05\norigin: [-37.3, -1234.55, 0.0]\n"));
 }
 
 TEST(MapServerPair, quotes_names_with_yaml_characters) {
   const TemporaryFolder folder;
   write_map_server_pair(folder.path() / "it's: a #1.yaml", lopsided_map());
-  EXPECT_THAT(contents(folder.path() / "it's: a #1.yaml"), HasSubstr("image: 'it''s: a #1.pgm'\n"));
+  EXPECT_THAT(read_file(folder.path() / "it's: a #1.yaml"), HasSubstr("image: 'it''s: a #1.pgm'\n"));
 }
 
 TEST(MapServerPair, mrpt_loads_it_at_the_same_place) {

@@ -9,20 +9,14 @@
 #include <mrpt/poses/CPose3DPDF.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include <fstream>
-#include <iterator>
 #include <random>
 
 #include "simulated_room.h"
 #include "temporary_folder.h"
+#include "test_files.h"
 
 namespace psi_slam {
 namespace {
-
-std::string contents(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 TEST(MrptMaps, mrpt_loads_the_simple_map_with_poses_scans_and_times) {
   const TemporaryFolder folder;
@@ -67,8 +61,8 @@ TEST(MrptMaps, equal_maps_give_equal_bytes_without_a_time_in_the_header) {
   const MappingResult result = walk_around_the_room();
   write_mrpt_map(folder.path() / "a.gz", simple_map(result));
   write_mrpt_map(folder.path() / "b.gz", simple_map(result));
-  const std::string bytes = contents(folder.path() / "a.gz");
-  EXPECT_EQ(bytes, contents(folder.path() / "b.gz"));
+  const std::string bytes = read_file(folder.path() / "a.gz");
+  EXPECT_EQ(bytes, read_file(folder.path() / "b.gz"));
   EXPECT_EQ(bytes.substr(0, 8), std::string("\x1f\x8b\x08\x00\x00\x00\x00\x00", 8));
 }
 

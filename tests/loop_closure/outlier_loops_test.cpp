@@ -10,10 +10,10 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kMaxChi = 5;
+constexpr double kOutlierChi = 5;
 
 // A chain of twenty nodes, one metre apart. Each constraint of odometry has a standard deviation of 0.1 m.
-PoseGraph chain() {
+PoseGraph odometry_chain() {
   PoseGraph graph;
   for (std::size_t i = 0; i < 20; ++i) {
     graph.add_node({static_cast<double>(i), 0, 0});
@@ -30,7 +30,7 @@ PoseGraph chain() {
 
 // Adds a loop from the first node, with a standard deviation of 0.02 m and an error of `off_m` across the
 // path.
-std::size_t add_loop(PoseGraph& graph, std::size_t to, double off_m) {
+std::size_t add_bent_loop(PoseGraph& graph, std::size_t to, double off_m) {
   Constraint loop;
   loop.to = to;
   loop.from_T_to = {static_cast<double>(to), off_m, 0};
@@ -46,10 +46,10 @@ SparsePoseAdjustment plain_solver() {
 }
 
 TEST(OutlierLoops, keeps_consistent_loops) {
-  PoseGraph graph = chain();
-  const std::vector<std::size_t> loops = {add_loop(graph, 12, 0.01), add_loop(graph, 19, -0.01)};
+  PoseGraph graph = odometry_chain();
+  const std::vector<std::size_t> loops = {add_bent_loop(graph, 12, 0.01), add_bent_loop(graph, 19, -0.01)};
   SparsePoseAdjustment solver = plain_solver();
-  const std::vector<double> chi = switch_off_outlier_loops(graph, solver, loops, kMaxChi);
+  const std::vector<double> chi = switch_off_outlier_loops(graph, solver, loops, kOutlierChi);
   ASSERT_EQ(chi.size(), 2U);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     EXPECT_TRUE(graph.enabled(loops[i]));
@@ -58,18 +58,18 @@ TEST(OutlierLoops, keeps_consistent_loops) {
 }
 
 TEST(OutlierLoops, keeps_true_loops_near_a_false_one) {
-  PoseGraph graph = chain();
+  PoseGraph graph = odometry_chain();
   std::vector<std::size_t> loops;
-  for (const std::size_t to : {17U, 17U, 17U, 18U, 19U}) loops.push_back(add_loop(graph, to, 0));
-  loops.insert(loops.begin() + 2, add_loop(graph, 17, 8));
+  for (const std::size_t to : {17U, 17U, 17U, 18U, 19U}) loops.push_back(add_bent_loop(graph, to, 0));
+  loops.insert(loops.begin() + 2, add_bent_loop(graph, 17, 8));
 
   PoseGraph bent = graph;
   SparsePoseAdjustment solver = plain_solver();
   const std::vector<ConstraintFit> fits = solver.optimize(bent).fits;
-  EXPECT_GT(fits[loops[0]].chi2, kMaxChi * kMaxChi)
+  EXPECT_GT(fits[loops[0]].chi2, kOutlierChi * kOutlierChi)
       << "after one optimisation, true loops have large residuals too";
 
-  const std::vector<double> chi = switch_off_outlier_loops(graph, solver, loops, kMaxChi);
+  const std::vector<double> chi = switch_off_outlier_loops(graph, solver, loops, kOutlierChi);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     EXPECT_EQ(graph.enabled(loops[i]), i != 2) << i;
     if (i == 2)
@@ -81,32 +81,32 @@ TEST(OutlierLoops, keeps_true_loops_near_a_false_one) {
 }
 
 TEST(OutlierLoops, disables_false_loops_of_all_sizes) {
-  PoseGraph graph = chain();
+  PoseGraph graph = odometry_chain();
   std::vector<std::size_t> loops;
-  for (std::size_t to = 10; to < 20; ++to) loops.push_back(add_loop(graph, to, 0));
-  const std::vector<std::size_t> wrong = {add_loop(graph, 11, 20), add_loop(graph, 14, 2),
-                                          add_loop(graph, 18, -0.5)};
+  for (std::size_t to = 10; to < 20; ++to) loops.push_back(add_bent_loop(graph, to, 0));
+  const std::vector<std::size_t> wrong = {add_bent_loop(graph, 11, 20), add_bent_loop(graph, 14, 2),
+                                          add_bent_loop(graph, 18, -0.5)};
   loops.insert(loops.end(), wrong.begin(), wrong.end());
   SparsePoseAdjustment solver = plain_solver();
-  switch_off_outlier_loops(graph, solver, loops, kMaxChi);
+  switch_off_outlier_loops(graph, solver, loops, kOutlierChi);
   for (std::size_t i = 0; i < loops.size(); ++i) EXPECT_EQ(graph.enabled(loops[i]), i < 10) << i;
 }
 
 TEST(OutlierLoops, enables_loops_that_fit_in_the_end) {
-  PoseGraph graph = chain();
-  const std::vector<std::size_t> loops = {add_loop(graph, 15, 0.01), add_loop(graph, 19, 0.0),
-                                          add_loop(graph, 17, 5)};
+  PoseGraph graph = odometry_chain();
+  const std::vector<std::size_t> loops = {add_bent_loop(graph, 15, 0.01), add_bent_loop(graph, 19, 0.0),
+                                          add_bent_loop(graph, 17, 5)};
   for (const std::size_t loop : loops) graph.set_enabled(loop, false);
   SparsePoseAdjustment solver = plain_solver();
-  switch_off_outlier_loops(graph, solver, loops, kMaxChi);
+  switch_off_outlier_loops(graph, solver, loops, kOutlierChi);
   EXPECT_TRUE(graph.enabled(loops[0]));
   EXPECT_TRUE(graph.enabled(loops[1]));
   EXPECT_FALSE(graph.enabled(loops[2]));
 }
 
 TEST(OutlierLoops, keeps_a_loop_at_the_limit) {
-  PoseGraph graph = chain();
-  const std::vector<std::size_t> loops = {add_loop(graph, 19, 3)};
+  PoseGraph graph = odometry_chain();
+  const std::vector<std::size_t> loops = {add_bent_loop(graph, 19, 3)};
   SparsePoseAdjustment solver = plain_solver();
   PoseGraph copy = graph;
   const double chi = std::sqrt(solver.optimize(copy).fits[loops[0]].chi2);
@@ -120,10 +120,10 @@ TEST(OutlierLoops, keeps_a_loop_at_the_limit) {
 }
 
 TEST(OutlierLoops, a_graph_without_loops_is_optimised) {
-  PoseGraph graph = chain();
+  PoseGraph graph = odometry_chain();
   graph.set_pose(19, {25, 3, 1});
   SparsePoseAdjustment solver = plain_solver();
-  EXPECT_TRUE(switch_off_outlier_loops(graph, solver, {}, kMaxChi).empty());
+  EXPECT_TRUE(switch_off_outlier_loops(graph, solver, {}, kOutlierChi).empty());
   EXPECT_NEAR(graph.pose(19).x, 19, 1e-6);
 }
 

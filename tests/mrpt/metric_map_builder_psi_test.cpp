@@ -94,7 +94,7 @@ std::vector<TPose2D> node_poses(const CMetricMapBuilderPsi& builder) {
 }
 
 // Returns the first scans of a simulated run with wrong odometry.
-SimulatedDrive short_drive(std::size_t scans = 150) {
+SimulatedDrive observed_drive(std::size_t scans = 150) {
   OdometryErrors errors;
   errors.length_share = 0.05;
   errors.turn_share = 0.1;
@@ -156,7 +156,7 @@ TEST(MetricMapBuilderPsi, maps_a_rawlog_in_ten_lines) {
 TEST(MetricMapBuilderPsi, observations_one_by_one_give_what_reading_their_rawlog_gives) {
   const TemporaryFolder folder;
   const std::string rawlog = (folder.path() / "drive.rawlog").string();
-  write_rawlog(rawlog, as_observations(short_drive()));
+  write_rawlog(rawlog, as_observations(observed_drive()));
   const MappingResult expected = map_by_the_reader(rawlog);
   CMetricMapBuilderPsi builder;
   map_rawlog(rawlog, builder, folder.path().string());
@@ -166,7 +166,7 @@ TEST(MetricMapBuilderPsi, observations_one_by_one_give_what_reading_their_rawlog
 }
 
 TEST(MetricMapBuilderPsi, follows_the_robot_while_it_drives) {
-  const SimulatedDrive drive = short_drive();
+  const SimulatedDrive drive = observed_drive();
   CMetricMapBuilderPsi builder;
   TPose2D last;
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
@@ -185,7 +185,7 @@ TEST(MetricMapBuilderPsi, follows_the_robot_while_it_drives) {
 }
 
 TEST(MetricMapBuilderPsi, the_covariance_is_the_same_however_often_it_was_asked_for) {
-  const SimulatedDrive drive = short_drive();
+  const SimulatedDrive drive = observed_drive();
   CMetricMapBuilderPsi asked_always;
   TPose2D last;
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
@@ -209,7 +209,7 @@ TEST(MetricMapBuilderPsi, the_covariance_is_the_same_however_often_it_was_asked_
 }
 
 TEST(MetricMapBuilderPsi, both_forms_give_the_same_map) {
-  const SimulatedDrive drive = short_drive();
+  const SimulatedDrive drive = observed_drive();
   CMetricMapBuilderPsi by_actions;
   process_as_actions(by_actions, drive);
   by_actions.finish();
@@ -237,7 +237,7 @@ TEST(MetricMapBuilderPsi, before_the_first_scan_the_map_is_empty) {
 }
 
 TEST(MetricMapBuilderPsi, starts_at_the_given_pose) {
-  const SimulatedDrive drive = short_drive(60);
+  const SimulatedDrive drive = observed_drive(60);
   CMetricMapBuilderPsi at_origin;
   process_as_actions(at_origin, drive);
   at_origin.finish();
@@ -266,7 +266,7 @@ TEST(MetricMapBuilderPsi, starts_at_the_given_pose) {
 }
 
 TEST(MetricMapBuilderPsi, initialize_begins_another_map) {
-  const SimulatedDrive drive = short_drive(60);
+  const SimulatedDrive drive = observed_drive(60);
   CMetricMapBuilderPsi builder;
   process_as_actions(builder, drive);
   builder.finish();
@@ -286,7 +286,7 @@ TEST(MetricMapBuilderPsi, initialize_begins_another_map) {
 
 TEST(MetricMapBuilderPsi, an_initial_map_is_an_error) {
   CMetricMapBuilderPsi builder;
-  process_as_actions(builder, short_drive(30));
+  process_as_actions(builder, observed_drive(30));
   mrpt::maps::CSimpleMap map;
   builder.getCurrentlyBuiltMap(map);
   ASSERT_FALSE(map.empty());
@@ -300,7 +300,7 @@ TEST(MetricMapBuilderPsi, an_initial_map_is_an_error) {
 }
 
 TEST(MetricMapBuilderPsi, its_metric_map_is_one_grid_drawn_when_asked_for) {
-  const SimulatedDrive drive = short_drive(100);
+  const SimulatedDrive drive = observed_drive(100);
   CMetricMapBuilderPsi builder;
   const auto* metric_map = builder.getCurrentlyBuiltMetricMap();
   const auto before = builder.grid();
@@ -329,7 +329,7 @@ TEST(MetricMapBuilderPsi, its_metric_map_is_one_grid_drawn_when_asked_for) {
 }
 
 TEST(MetricMapBuilderPsi, nodes_of_two_lasers_keep_the_observations_of_both) {
-  const SimulatedDrive drive = short_drive(30);
+  const SimulatedDrive drive = observed_drive(30);
   CMetricMapBuilderPsi::Options options;
   options.log.laser = "all";
   CMetricMapBuilderPsi builder(options);
@@ -353,7 +353,7 @@ TEST(MetricMapBuilderPsi, nodes_of_two_lasers_keep_the_observations_of_both) {
 }
 
 TEST(MetricMapBuilderPsi, other_observations_are_kept_beside_their_scan) {
-  const SimulatedDrive drive = short_drive(30);
+  const SimulatedDrive drive = observed_drive(30);
   CMetricMapBuilderPsi with_another;
   CMetricMapBuilderPsi alone;
   process_as_actions(alone, drive);
@@ -379,14 +379,14 @@ TEST(MetricMapBuilderPsi, uses_laser_and_mount_of_the_options) {
   CMetricMapBuilderPsi::Options options;
   options.log.laser = "REAR";
   CMetricMapBuilderPsi builder(options);
-  process_as_actions(builder, short_drive(10));
+  process_as_actions(builder, observed_drive(10));
   EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), 0U) << "the scans are of another laser";
   options.log.min_range_m = -1;
   EXPECT_THROW(CMetricMapBuilderPsi{options}, UserError);
 }
 
 TEST(MetricMapBuilderPsi, the_kind_of_odometry_that_comes_first_decides) {
-  const SimulatedDrive drive = short_drive(60);
+  const SimulatedDrive drive = observed_drive(60);
   CMetricMapBuilderPsi actions_alone;
   process_as_actions(actions_alone, drive);
   CMetricMapBuilderPsi both;
@@ -402,7 +402,7 @@ TEST(MetricMapBuilderPsi, the_kind_of_odometry_that_comes_first_decides) {
 }
 
 TEST(MetricMapBuilderPsi, scans_before_the_first_action_are_at_the_start) {
-  const SimulatedDrive drive = short_drive(40);
+  const SimulatedDrive drive = observed_drive(40);
   CMetricMapBuilderPsi builder;
   builder.processObservation(range_observation(drive.frames[0]));
   EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), 0U) << "the scan waits for its odometry";
@@ -427,7 +427,7 @@ TEST(MetricMapBuilderPsi, maps_scans_without_odometry) {
 TEST(MetricMapBuilderPsi, unusable_input_is_an_error) {
   CMetricMapBuilderPsi builder;
   EXPECT_THROW(builder.processObservation(nullptr), std::invalid_argument);
-  const auto frame = short_drive(1).frames[0];
+  const auto frame = observed_drive(1).frames[0];
   auto scan = range_observation(frame);
   scan->timestamp = INVALID_TIMESTAMP;
   EXPECT_THROW(builder.processObservation(scan), UserError);
@@ -445,7 +445,7 @@ TEST(MetricMapBuilderPsi, unusable_input_is_an_error) {
 TEST(MetricMapBuilderPsi, pictures_have_the_format_of_their_extension) {
   const TemporaryFolder folder;
   CMetricMapBuilderPsi builder;
-  process_as_actions(builder, short_drive(60));
+  process_as_actions(builder, observed_drive(60));
   for (const char* name : {"map.png", "map.pgm", "map.bmp"}) {
     const std::string path = (folder.path() / name).string();
     builder.saveCurrentEstimationToImage(path, false);
@@ -459,7 +459,7 @@ TEST(MetricMapBuilderPsi, pictures_have_the_format_of_their_extension) {
 }
 
 TEST(MetricMapBuilderPsi, answers_another_thread_while_mapping) {
-  const SimulatedDrive drive = short_drive();
+  const SimulatedDrive drive = observed_drive();
   CMetricMapBuilderPsi alone;
   process_as_actions(alone, drive);
   alone.finish();

@@ -16,7 +16,7 @@
 namespace psi_slam {
 namespace {
 
-const mrpt::img::TImageSize kSize(1104, 536);
+const mrpt::img::TImageSize kPictureSize(1104, 536);
 
 class MapRenderingTest : public ReplayedRoom {
  protected:
@@ -26,12 +26,12 @@ class MapRenderingTest : public ReplayedRoom {
   }
   void SetUp() override {
     try {
-      renderer_ = std::make_unique<mrpt::opengl::CFBORender>(kSize.x, kSize.y);
+      renderer_ = std::make_unique<mrpt::opengl::CFBORender>(kPictureSize.x, kPictureSize.y);
     } catch (const std::exception& error) {
       GTEST_SKIP() << "needs OpenGL: " << error.what();
     }
     scene_ = std::make_unique<MapScene>();
-    camera_ = camera_above(map_->raster.rectangle(), kSize);
+    camera_ = camera_above(map_->raster.rectangle(), kPictureSize);
   }
 
   /// Renders these layers over the grid map, seen from above.
@@ -53,11 +53,11 @@ class MapRenderingTest : public ReplayedRoom {
 
   /// True if a pixel within 2 px of the place, given in the map frame, has about this colour.
   bool seen(const mrpt::math::TPoint2D& place, const mrpt::img::TColor& colour) const {
-    const auto middle = ground_at(camera_, kSize, kSize.x / 2.0, kSize.y / 2.0);
-    const auto beside = ground_at(camera_, kSize, kSize.x / 2.0 + 100, kSize.y / 2.0);
+    const auto middle = ground_at(camera_, kPictureSize, kPictureSize.x / 2.0, kPictureSize.y / 2.0);
+    const auto beside = ground_at(camera_, kPictureSize, kPictureSize.x / 2.0 + 100, kPictureSize.y / 2.0);
     const double px_per_m = 100 / (beside->x - middle->x);
-    const int x = static_cast<int>(std::lround(kSize.x / 2.0 + (place.x - middle->x) * px_per_m));
-    const int y = static_cast<int>(std::lround(kSize.y / 2.0 - (place.y - middle->y) * px_per_m));
+    const int x = static_cast<int>(std::lround(kPictureSize.x / 2.0 + (place.x - middle->x) * px_per_m));
+    const int y = static_cast<int>(std::lround(kPictureSize.y / 2.0 - (place.y - middle->y) * px_per_m));
     const auto near = [](std::uint8_t a, std::uint8_t b) { return std::abs(int{a} - int{b}) < 70; };
     for (int row = y - 2; row <= y + 2; ++row)
       for (int column = x - 2; column <= x + 2; ++column) {

@@ -68,7 +68,8 @@ BoundLevel::BoundLevel(const SearchLattice& lattice, int stride_cells)
   const SearchWindow& window = lattice.window();
   const double reach = reach_cells(lattice);
   const int turns = 2 * window.n_theta + 1;
-  while (headings_ < turns && (2 * headings_ - 1) * reach * window.angular_step_rad <= stride_) headings_ *= 2;
+  while (headings_ < turns && (2 * headings_ - 1) * reach * window.angular_step_rad <= stride_)
+    headings_ *= 2;
   layers_.resize(static_cast<std::size_t>((turns + headings_ - 1) / headings_));
 
   // Only the cells that the points can reach matter.
@@ -85,9 +86,9 @@ BoundLevel::BoundLevel(const SearchLattice& lattice, int stride_cells)
               edge(centre.y, grid.origin_y_m(), y_cells + 1, grid.finest().height()));
 }
 
-// Makes tables for squares of phases_ to stride_ + 1 half cells: the sizes that points need which move by 0 to
-// stride_ cells. Zeros surround the planes, as wide as all blocks of a window, so sums need no bounds check.
-// The zeros before a row also end the row before, and those before a plane end the plane before.
+// Makes tables for squares of phases_ to stride_ + 1 half cells: the sizes that points need which move by 0
+// to stride_ cells. Zeros surround the planes, as wide as all blocks of a window, so sums need no bounds
+// check. The zeros before a row also end the row before, and those before a plane end the plane before.
 void BoundLevel::make_tables(int first_x, int first_y, int end_x, int end_y) {
   const int margin = stride_;  // half cells below the first that still have scores in their squares
   HalfCells half = halved(lattice_.grid().finest(), {first_x, first_y}, {end_x, end_y}, margin);
@@ -168,9 +169,8 @@ void BoundLevel::make_offsets(int number, Layer& layer) const {
         column + columns_ > 0 && column < plane_columns_ && row + rows_ > 0 && row < plane_rows_;
     if (!may_score) continue;
     const int plane = (y & (phases_ - 1)) * phases_ + (x & (phases_ - 1));
-    layer.offsets.push_back(
-        static_cast<std::int32_t>((side - phases_) * table_bytes_ + plane * plane_bytes_ +
-                                  (rows_ + row) * row_bytes_ + columns_ + column));
+    layer.offsets.push_back(static_cast<std::int32_t>((side - phases_) * table_bytes_ + plane * plane_bytes_ +
+                                                      (rows_ + row) * row_bytes_ + columns_ + column));
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Upper bounds of the sums of whole blocks of poses, for branch and bound. As in Hess et al. 2016, the maximum
-// of the scores in a square bounds the score of a point at all shifts of a block. Here the block also spans
-// several headings, and the square of a point grows with the distance that the point moves in between.
+// Upper bounds of the sums of whole blocks of poses, for branch and bound. As in Hess et al. 2016, the
+// maximum of the scores in a square bounds the score of a point at all shifts of a block. Here the block also
+// spans several headings, and the square of a point grows with the distance that the point moves in between.
 #pragma once
 
 #include <cstddef>
@@ -49,7 +49,7 @@ class BoundLevel {
 
   const SearchLattice& lattice_;
   int stride_;
-  int phases_;      // planes of a table along each axis: half a stride
+  int phases_;          // planes of a table along each axis: half a stride
   int log_phases_ = 0;  // binary logarithm of phases_
   int headings_ = 1;
   int columns_;

@@ -96,8 +96,8 @@ class ExactSearch::BranchAndBound {
       top.add_bounds(layer, {0, 0}, top.columns(), top.rows(), top_bounds(layer, 0), top_row_);
       std::uint32_t highest = 0;
       for (int row = 0; row < top.rows(); ++row)
-        highest = std::max(highest, *std::max_element(top_bounds(layer, row),
-                                                      top_bounds(layer, row) + top.columns()));
+        highest = std::max(highest,
+                           *std::max_element(top_bounds(layer, row), top_bounds(layer, row) + top.columns()));
       layers_.emplace_back(highest, layer);
     }
     std::stable_sort(layers_.begin(), layers_.end(),
@@ -167,8 +167,8 @@ class ExactSearch::BranchAndBound {
   }
 
   // Expands blocks of one row of a level, ordered by columns: appends the children whose bounds reach
-  // best.least() to `children`, ordered by layers, rows and columns. The children of the last level are poses,
-  // which `best` considers.
+  // best.least() to `children`, ordered by layers, rows and columns. The children of the last level are
+  // poses, which `best` considers.
   void expand_row(const Block* first, const Block* last, std::size_t level, BestPose& best,
                   std::vector<Block>& children) {
     if (level + 1 == levels_.size()) {
@@ -234,8 +234,8 @@ class ExactSearch::BranchAndBound {
   const SearchLattice& lattice_;
   const SearchWindow& window_;
   std::vector<BoundLevel> levels_;
-  std::vector<std::uint32_t> top_bounds_;  // bounds of the first level by layer, row and column
-  std::ptrdiff_t top_row_ = 0;             // elements of top_bounds_ from one row to the next
+  std::vector<std::uint32_t> top_bounds_;              // bounds of the first level by layer, row and column
+  std::ptrdiff_t top_row_ = 0;                         // elements of top_bounds_ from one row to the next
   std::vector<std::pair<std::uint32_t, int>> layers_;  // highest bound and number of each layer
   std::vector<std::uint32_t> bounds_;
   ShiftSums sums_;

@@ -49,11 +49,12 @@ struct ExactBenchmark {
   double scores_per_ns = 0;     ///< scores that the sum kernel adds when all its lanes are used
 };
 
-/// Maps each log, draws its cases and searches them in this thread. Throws UserError as map_log().
+/// Maps each log, draws its cases and searches them in this thread. Kinds without any case have no rows.
+/// Throws UserError as map_log(), and if there is no case at all.
 ExactBenchmark run_exact_benchmark(const std::vector<BenchmarkLog>& logs,
                                    const ExactBenchmarkOptions& options, const ProgressObserver& observer);
 
-/// Searches the cases with one threshold, `repeats` times, and adds them to the row.
+/// Searches the cases with one threshold, each `repeats` times, and returns their row. There must be a case.
 ExactBenchmarkRow search_exactly(const std::vector<LoopCase>& cases, const CaseOptions& options,
                                  const MapperOptions& mapper, double min_response, std::size_t repeats,
                                  double scores_per_ns);

@@ -16,6 +16,12 @@ namespace {
 // Windows with at most this many poses are searched exhaustively, because the tables of bounds cost more than
 // they save.
 constexpr std::int64_t kExhaustivePoses = 60'000;
+// In windows with more poses than this, another level of large blocks saves more than its tables cost.
+constexpr std::int64_t kHugePoses = 150'000'000;
+
+std::int64_t poses_of(const SearchWindow& window) {
+  return static_cast<std::int64_t>(2 * window.n_x + 1) * (2 * window.n_y + 1) * (2 * window.n_theta + 1);
+}
 
 // Keeps the best candidate of a search.
 class BestPose {
@@ -68,7 +74,8 @@ class ExactSearch::BranchAndBound {
  public:
   explicit BranchAndBound(const SearchLattice& lattice) : lattice_(lattice), window_(lattice.window()) {
     levels_.reserve(kStrides.size());
-    for (const int stride : kStrides) levels_.emplace_back(lattice, stride);
+    for (const int stride : kStrides)
+      if (stride != kStrides.front() || poses_of(window_) > kHugePoses) levels_.emplace_back(lattice, stride);
   }
 
   SearchOutcome find(std::uint32_t min_sum, const std::optional<ExcludedRegion>& excluded) {
@@ -83,8 +90,8 @@ class ExactSearch::BranchAndBound {
   }
 
  private:
-  // Sides of the blocks, from coarse to fine. Single poses follow.
-  static constexpr std::array<int, 2> kStrides = {8, 4};
+  // Sides of the blocks, from coarse to fine. Single poses follow. Only huge windows use the first.
+  static constexpr std::array<int, 3> kStrides = {16, 8, 4};
 
   // Bounds all blocks of the first level, and sorts its layers by descending bounds.
   void bound_top_level() {
@@ -241,14 +248,6 @@ class ExactSearch::BranchAndBound {
   ShiftSums sums_;
   std::int64_t evaluations_ = 0;
 };
-
-namespace {
-
-std::int64_t poses_of(const SearchWindow& window) {
-  return static_cast<std::int64_t>(2 * window.n_x + 1) * (2 * window.n_y + 1) * (2 * window.n_theta + 1);
-}
-
-}  // namespace
 
 ExactSearch::ExactSearch(const SearchLattice& lattice) : lattice_(lattice) {}
 ExactSearch::~ExactSearch() = default;

@@ -202,6 +202,22 @@ TEST(BranchAndBound, equals_the_exhaustive_search_at_any_threshold_and_around_an
   EXPECT_LT(found, 290);
 }
 
+// Windows with more than 150 million poses have one more level of blocks.
+TEST(BranchAndBound, equals_the_exhaustive_search_in_a_huge_window) {
+  std::mt19937_64 random(49);
+  ScoreGrid grid(-10, -10, 0.05, 400, 400);
+  for (int i = 0; i < 3000; ++i)
+    *grid.finest().cell(static_cast<int>(random() % 400), static_cast<int>(random() % 400)) =
+        static_cast<std::uint8_t>(1 + random() % 255);
+  const ScanPoints scan = random_points(random, 5, 4.0);
+  const SearchLattice lattice(grid, scan, {1, 2, 0.5}, window_of_steps(301, 302, 207, 0.015));
+  const SearchOutcome exhaustive = exhaustive_search(lattice, 0);
+  const SearchOutcome fast = branch_and_bound_search(lattice, 0);
+  EXPECT_TRUE(same(fast.best, exhaustive.best)) << to_text(fast.best) << ", not " << to_text(exhaustive.best);
+  EXPECT_GT(exhaustive.evaluations, 150'000'000);
+  EXPECT_LT(fast.evaluations, exhaustive.evaluations / 10);
+}
+
 // Large windows are searched by branch and bound, small ones exhaustively.
 TEST(ExactSearch, later_searches_of_a_window_do_not_depend_on_the_first) {
   std::mt19937_64 random(48);

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "matching/sum_kernel.h"
 
@@ -107,9 +110,12 @@ void BoundLevel::make_tables(int first_x, int first_y, int end_x, int end_y) {
   plane_bytes_ = row_bytes_ * (rows_ + plane_rows_);
   table_bytes_ = plane_bytes_ * phases_ * phases_;
   const int tables = stride_ + 2 - phases_;
-  tables_.assign(static_cast<std::size_t>(table_bytes_ * tables + row_bytes_ * (rows_ + 1) + columns_ +
-                                          ScoreLevel::kRunPadding),
-                 0);
+  const std::ptrdiff_t size =
+      table_bytes_ * tables + row_bytes_ * (rows_ + 1) + columns_ + ScoreLevel::kRunPadding;
+  if (size > std::numeric_limits<std::int32_t>::max())
+    throw std::invalid_argument("no bounds for a window of " + std::to_string(columns_ * stride_) + " x " +
+                                std::to_string(rows_ * stride_) + " cells: expected tables of at most 2 GB");
+  tables_.assign(static_cast<std::size_t>(size), 0);
   const auto row_of = [&](int table, int plane_y, int plane_x, int y) {
     return tables_.data() + table * table_bytes_ + (plane_y * phases_ + plane_x) * plane_bytes_ +
            (rows_ + y) * row_bytes_ + columns_;

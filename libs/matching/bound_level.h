@@ -22,7 +22,9 @@ namespace psi_slam {
 /// (i, j) modulo half a stride. So the squares of a point in neighbouring blocks are neighbouring bytes.
 class BoundLevel {
  public:
-  /// Makes the tables. Keeps a reference to the lattice. `stride_cells` is a power of two, at least 4.
+  /// Makes the tables. Keeps a reference to the lattice. `stride_cells` is a power of two, at least 4. Throws
+  /// std::invalid_argument if the tables take more than 2 GB, as in windows of more than 10,000 cells on
+  /// grids of that size.
   BoundLevel(const SearchLattice& lattice, int stride_cells);
 
   int stride_cells() const { return stride_; }

@@ -2,175 +2,298 @@
 #include "matching/exact_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <stdexcept>
+#include <utility>
 #include <vector>
+
+#include "matching/bound_level.h"
+#include "matching/sum_kernel.h"
 
 namespace psi_slam {
 namespace {
 
-// Windows with at most this many poses are searched exhaustively, because the pyramid costs more than it
-// saves.
+// Windows with at most this many poses are searched exhaustively, because the tables of bounds cost more than
+// they save.
 constexpr std::int64_t kExhaustivePoses = 60'000;
-constexpr int kCoarse = ScoreGrid::kStrides[1];
-constexpr int kMiddle = ScoreGrid::kStrides[0];
+// In windows with more poses than this, another level of large blocks saves more than its tables cost.
+constexpr std::int64_t kHugePoses = 150'000'000;
 
-// A block of shifts at one heading. It begins at `pose`, and its side is the stride of its pyramid level.
-struct Block {
-  std::uint32_t bound;
-  LatticePose pose;
-};
+std::int64_t poses_of(const SearchWindow& window) {
+  return static_cast<std::int64_t>(2 * window.n_x + 1) * (2 * window.n_y + 1) * (2 * window.n_theta + 1);
+}
 
-// Base class of both searches. Keeps the best candidate.
-class SearchBase {
+// Keeps the best candidate of a search.
+class BestPose {
  public:
-  SearchBase(const SearchLattice& lattice, std::uint32_t min_sum,
-             const std::optional<ExcludedRegion>& excluded)
-      : lattice_(lattice), window_(lattice.window()), excluded_(excluded) {
-    best_.sum = min_sum;
-  }
+  BestPose(std::uint32_t min_sum, const std::optional<ExcludedRegion>& excluded)
+      : least_(min_sum), excluded_(excluded) {}
 
- protected:
+  // Smallest sum of a candidate that may still be the best.
+  std::uint32_t least() const { return least_; }
+  const std::optional<Candidate>& best() const { return best_; }
+
   void consider(const Candidate& candidate) {
-    if (candidate.sum < best_.sum) return;
-    if (outcome_.best && !candidate.better_than(best_)) return;
+    if (candidate.sum < least_) return;
+    if (best_ && !candidate.better_than(*best_)) return;
     if (excluded_ && excluded_->contains(candidate.pose)) return;
     best_ = candidate;
-    outcome_.best = candidate;
+    least_ = candidate.sum;
+  }
+
+  // Considers all poses of a block of sums at one heading.
+  void consider(const ShiftSums& sums, const ShiftBlock& shifts, int theta) {
+    for (int y = 0; y < shifts.height; ++y) {
+      const std::uint32_t* row = sums.row(y);
+      for (int x = 0; x < shifts.width; ++x)
+        if (row[x] >= least_) consider({row[x], {shifts.first.x + x, shifts.first.y + y, theta}});
+    }
+  }
+
+ private:
+  std::uint32_t least_;
+  const std::optional<ExcludedRegion>& excluded_;
+  std::optional<Candidate> best_;
+};
+
+// A block of poses, by its place in its BoundLevel.
+struct Block {
+  std::uint32_t bound;
+  int layer;
+  int row;
+  int column;
+};
+
+bool lower_bound_first(const Block& a, const Block& b) {
+  return a.bound < b.bound;
+}
+
+}  // namespace
+
+class ExactSearch::BranchAndBound {
+ public:
+  explicit BranchAndBound(const SearchLattice& lattice) : lattice_(lattice), window_(lattice.window()) {
+    levels_.reserve(kStrides.size());
+    for (const int stride : kStrides)
+      if (stride != kStrides.front() || poses_of(window_) > kHugePoses) levels_.emplace_back(lattice, stride);
+  }
+
+  SearchOutcome find(std::uint32_t min_sum, const std::optional<ExcludedRegion>& excluded) {
+    evaluations_ = 0;
+    if (top_bounds_.empty()) bound_top_level();
+    BestPose best(min_sum, excluded);
+    for (const auto& [bound, layer] : layers_) {
+      if (bound < best.least()) break;
+      search(top_blocks(layer, best.least(), excluded), best);
+    }
+    return {best.best(), evaluations_};
+  }
+
+ private:
+  // Sides of the blocks, from coarse to fine. Single poses follow. Only huge windows use the first.
+  static constexpr std::array<int, 3> kStrides = {16, 8, 4};
+
+  // Bounds all blocks of the first level, and sorts its layers by descending bounds.
+  void bound_top_level() {
+    BoundLevel& top = levels_.front();
+    top_row_ = (top.columns() + kSumLanes - 1) / kSumLanes * kSumLanes;
+    const std::size_t size = static_cast<std::size_t>(top_row_) * static_cast<std::size_t>(top.rows());
+    top_bounds_.assign(size * static_cast<std::size_t>(top.layers()), 0);
+    for (int layer = 0; layer < top.layers(); ++layer) {
+      top.add_bounds(layer, {0, 0}, top.columns(), top.rows(), top_bounds(layer, 0), top_row_);
+      std::uint32_t highest = 0;
+      for (int row = 0; row < top.rows(); ++row)
+        highest = std::max(highest,
+                           *std::max_element(top_bounds(layer, row), top_bounds(layer, row) + top.columns()));
+      layers_.emplace_back(highest, layer);
+    }
+    std::stable_sort(layers_.begin(), layers_.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    evaluations_ += std::int64_t{top.layers()} * top.rows() * top.columns();
+  }
+
+  std::uint32_t* top_bounds(int layer, int row) {
+    return top_bounds_.data() + (std::ptrdiff_t{layer} * levels_.front().rows() + row) * top_row_;
+  }
+
+  // Returns the blocks of a layer whose bounds reach `least` and which the excluded region does not contain.
+  std::vector<Block> top_blocks(int layer, std::uint32_t least,
+                                const std::optional<ExcludedRegion>& excluded) {
+    const BoundLevel& top = levels_.front();
+    std::vector<Block> blocks;
+    for (int row = 0; row < top.rows(); ++row) {
+      const std::uint32_t* bounds = top_bounds(layer, row);
+      for (int column = 0; column < top.columns(); ++column) {
+        const Block block = {bounds[column], layer, row, column};
+        if (block.bound >= least && !(excluded && contains(*excluded, block))) blocks.push_back(block);
+      }
+    }
+    return blocks;
+  }
+
+  // Returns whether the region contains a whole block of the first level.
+  bool contains(const ExcludedRegion& excluded, const Block& block) const {
+    const BoundLevel& top = levels_.front();
+    const LatticePose first = {block.column * top.stride_cells() - window_.n_x,
+                               block.row * top.stride_cells() - window_.n_y,
+                               block.layer * top.headings() - window_.n_theta};
+    const int to_last = top.stride_cells() - 1;
+    return excluded.contains(first) &&
+           excluded.contains({first.x + to_last, first.y + to_last, first.theta + top.headings() - 1});
+  }
+
+  // Searches blocks of the first level: descends to the best pose of the most promising block, then expands
+  // all blocks whose bounds reach its sum. Repeats this with their children, level by level.
+  void search(std::vector<Block> blocks, BestPose& best) {
+    std::vector<Block> children;
+    for (std::size_t level = 0; level < levels_.size() && !blocks.empty(); ++level) {
+      descend(*std::max_element(blocks.begin(), blocks.end(), lower_bound_first), level, best);
+      blocks.erase(std::remove_if(blocks.begin(), blocks.end(),
+                                  [&](const Block& block) { return block.bound < best.least(); }),
+                   blocks.end());
+      children.clear();
+      for (auto first = blocks.cbegin(); first != blocks.cend();) {
+        const auto last = std::find_if(first, blocks.cend(), [&](const Block& block) {
+          return block.layer != first->layer || block.row != first->row;
+        });
+        expand_row(&*first, &*first + (last - first), level, best, children);
+        first = last;
+      }
+      blocks.swap(children);
+    }
+  }
+
+  void descend(Block block, std::size_t level, BestPose& best) {
+    std::vector<Block> children;
+    for (; level < levels_.size(); ++level) {
+      children.clear();
+      expand_row(&block, &block + 1, level, best, children);
+      if (children.empty()) return;
+      block = *std::max_element(children.begin(), children.end(), lower_bound_first);
+    }
+  }
+
+  // Expands blocks of one row of a level, ordered by columns: appends the children whose bounds reach
+  // best.least() to `children`, ordered by layers, rows and columns. The children of the last level are
+  // poses, which `best` considers.
+  void expand_row(const Block* first, const Block* last, std::size_t level, BestPose& best,
+                  std::vector<Block>& children) {
+    if (level + 1 == levels_.size()) {
+      score_row(first, last, best);
+      return;
+    }
+    const BoundLevel& parents = levels_[level];
+    BoundLevel& finer = levels_[level + 1];
+    const int side = parents.stride_cells() / finer.stride_cells();
+    const int row = first->row * side;
+    const int height = std::min(side, finer.rows() - row);
+    const int layers = parents.headings() / finer.headings();
+    const std::ptrdiff_t bounds_row = finer.columns() + kSumLanes;
+    for (int layer = first->layer * layers; layer < std::min((first->layer + 1) * layers, finer.layers());
+         ++layer) {
+      bounds_.assign(static_cast<std::size_t>(bounds_row * height), 0);
+      for_each_run(first, last, side, finer.columns(), [&](int column, int width) {
+        finer.add_bounds(layer, {column, row}, width, height, bounds_.data() + column, bounds_row);
+        evaluations_ += std::int64_t{width} * height;
+      });
+      const int end = std::min((last[-1].column + 1) * side, finer.columns());
+      for (int y = 0; y < height; ++y)
+        for (int x = first->column * side; x < end; ++x)
+          if (const std::uint32_t bound = bounds_[static_cast<std::size_t>(y * bounds_row + x)];
+              bound >= best.least())
+            children.push_back({bound, layer, row + y, x});
+    }
+  }
+
+  // Scores the poses of blocks of one row of the last level.
+  void score_row(const Block* first, const Block* last, BestPose& best) {
+    const BoundLevel& level = levels_.back();
+    const int side = level.stride_cells();
+    const int row = first->row * side;
+    const int height = std::min(side, 2 * window_.n_y + 1 - row);
+    const int turn = first->layer * level.headings();
+    for (int theta = turn - window_.n_theta;
+         theta < std::min(turn + level.headings() - window_.n_theta, window_.n_theta + 1); ++theta) {
+      for_each_run(first, last, side, 2 * window_.n_x + 1, [&](int column, int width) {
+        const ShiftBlock shifts = {{column - window_.n_x, row - window_.n_y}, width, height};
+        sums_.compute(lattice_.grid().finest(), lattice_.cells(theta), lattice_.points(), shifts.first, width,
+                      height);
+        best.consider(sums_, shifts, theta);
+        evaluations_ += std::int64_t{width} * height;
+      });
+    }
+  }
+
+  // Covers the children of blocks of one row by few runs of at most kSumLanes columns, which the sum kernel
+  // evaluates together. Calls visit(column, width) for each run. `side` is the number of children of a block
+  // along each axis, `columns` that of all children in the row.
+  template <class Visit>
+  static void for_each_run(const Block* first, const Block* last, int side, int columns, const Visit& visit) {
+    while (first != last) {
+      const Block* end = first;
+      while (end != last && (end->column + 1 - first->column) * side <= kSumLanes) ++end;
+      const int column = first->column * side;
+      visit(column, std::min((end[-1].column + 1) * side, columns) - column);
+      first = end;
+    }
   }
 
   const SearchLattice& lattice_;
   const SearchWindow& window_;
-  const std::optional<ExcludedRegion>& excluded_;
-  Candidate best_;
+  std::vector<BoundLevel> levels_;
+  std::vector<std::uint32_t> top_bounds_;              // bounds of the first level by layer, row and column
+  std::ptrdiff_t top_row_ = 0;                         // elements of top_bounds_ from one row to the next
+  std::vector<std::pair<std::uint32_t, int>> layers_;  // highest bound and number of each layer
+  std::vector<std::uint32_t> bounds_;
   ShiftSums sums_;
-  SearchOutcome outcome_;
+  std::int64_t evaluations_ = 0;
 };
 
-class ExhaustiveSearch : private SearchBase {
- public:
-  using SearchBase::SearchBase;
+ExactSearch::ExactSearch(const SearchLattice& lattice) : lattice_(lattice) {}
+ExactSearch::~ExactSearch() = default;
 
-  SearchOutcome run() {
-    const ShiftBlock all = {{-window_.n_x, -window_.n_y}, 2 * window_.n_x + 1, 2 * window_.n_y + 1};
-    for (int theta = -window_.n_theta; theta <= window_.n_theta; ++theta) {
-      if (!excluded_) {
-        score(theta, all);
-        continue;
-      }
-      for (const ShiftBlock& strip : outside(*excluded_, theta, all)) score(theta, strip);
-    }
-    return outcome_;
-  }
+SearchOutcome ExactSearch::find(std::uint32_t min_sum, const std::optional<ExcludedRegion>& excluded) {
+  if (poses_of(lattice_.window()) <= kExhaustivePoses) return exhaustive_search(lattice_, min_sum, excluded);
+  if (!branch_and_bound_) branch_and_bound_ = std::make_unique<BranchAndBound>(lattice_);
+  return branch_and_bound_->find(min_sum, excluded);
+}
 
- private:
-  void score(int theta, const ShiftBlock& shifts) {
-    if (shifts.width <= 0 || shifts.height <= 0) return;
-    sums_.compute(lattice_.grid().finest(), lattice_.cells(theta), lattice_.points(), shifts.first,
-                  shifts.width, shifts.height);
-    for (int y = 0; y < shifts.height; ++y) {
-      const std::uint32_t* row = sums_.row(y);
-      for (int x = 0; x < shifts.width; ++x)
-        if (row[x] >= best_.sum) consider({row[x], {shifts.first.x + x, shifts.first.y + y, theta}});
-    }
-    outcome_.evaluations += static_cast<std::int64_t>(shifts.width) * shifts.height;
-  }
-};
-
-class BranchAndBound : private SearchBase {
- public:
-  using SearchBase::SearchBase;
-
-  SearchOutcome run() {
-    for (const Block& block : coarse_blocks()) {
-      if (block.bound < best_.sum) break;
-      expand(block);
-    }
-    return outcome_;
-  }
-
- private:
-  // Returns all blocks of the window whose bound reaches the smallest sum, in descending order of bounds.
-  std::vector<Block> coarse_blocks() {
-    const int width = (2 * window_.n_x + kCoarse) / kCoarse;
-    const int height = (2 * window_.n_y + kCoarse) / kCoarse;
-    std::vector<Block> blocks;
-    for (int theta = -window_.n_theta; theta <= window_.n_theta; ++theta) {
-      sums_.compute(lattice_.grid().pyramid(1), lattice_.cells(theta), lattice_.points(),
-                    {-window_.n_x, -window_.n_y}, width, height);
-      for (int y = 0; y < height; ++y) {
-        const std::uint32_t* row = sums_.row(y);
-        for (int x = 0; x < width; ++x)
-          if (row[x] >= best_.sum)
-            blocks.push_back({row[x], {x * kCoarse - window_.n_x, y * kCoarse - window_.n_y, theta}});
-      }
-      outcome_.evaluations += static_cast<std::int64_t>(width) * height;
-    }
-    std::stable_sort(blocks.begin(), blocks.end(),
-                     [](const Block& a, const Block& b) { return a.bound > b.bound; });
-    return blocks;
-  }
-
-  void expand(const Block& block) {
-    constexpr int kSide = kCoarse / kMiddle;
-    sums_.compute(lattice_.grid().pyramid(0), lattice_.cells(block.pose.theta), lattice_.points(),
-                  {block.pose.x, block.pose.y}, kSide, kSide);
-    outcome_.evaluations += kSide * kSide;
-    Block children[kSide * kSide];
-    int count = 0;
-    for (int y = 0; y < kSide; ++y) {
-      for (int x = 0; x < kSide; ++x) {
-        const LatticePose pose = {block.pose.x + x * kMiddle, block.pose.y + y * kMiddle, block.pose.theta};
-        if (sums_.row(y)[x] < best_.sum || pose.x > window_.n_x || pose.y > window_.n_y) continue;
-        children[count++] = {sums_.row(y)[x], pose};
-      }
-    }
-    std::stable_sort(children, children + count,
-                     [](const Block& a, const Block& b) { return a.bound > b.bound; });
-    for (int i = 0; i < count && children[i].bound >= best_.sum; ++i) score(children[i]);
-  }
-
-  void score(const Block& block) {
-    sums_.compute(lattice_.grid().finest(), lattice_.cells(block.pose.theta), lattice_.points(),
-                  {block.pose.x, block.pose.y}, kMiddle, kMiddle);
-    outcome_.evaluations += kMiddle * kMiddle;
-    for (int y = 0; y < kMiddle && block.pose.y + y <= window_.n_y; ++y)
-      for (int x = 0; x < kMiddle && block.pose.x + x <= window_.n_x; ++x)
-        consider({sums_.row(y)[x], {block.pose.x + x, block.pose.y + y, block.pose.theta}});
-  }
-};
-
-}  // namespace
+void ExactSearch::find_next(const PeakRequest& request, FoundPeaks& peaks) {
+  if (!peaks.best || !request.next) return;
+  const ExcludedRegion around = {peaks.best->pose, request.next->cells, request.next->turns};
+  const auto least = static_cast<std::uint32_t>(std::ceil(request.next->share * peaks.best->sum));
+  const SearchOutcome next = find(least, around);
+  peaks.next = next.best;
+  peaks.evaluations += next.evaluations;
+}
 
 SearchOutcome exhaustive_search(const SearchLattice& lattice, std::uint32_t min_sum,
                                 const std::optional<ExcludedRegion>& excluded) {
-  return ExhaustiveSearch(lattice, min_sum, excluded).run();
+  const SearchWindow& window = lattice.window();
+  const ShiftBlock all = {{-window.n_x, -window.n_y}, 2 * window.n_x + 1, 2 * window.n_y + 1};
+  BestPose best(min_sum, excluded);
+  ShiftSums sums;
+  std::int64_t evaluations = 0;
+  const auto score = [&](int theta, const ShiftBlock& shifts) {
+    if (shifts.width <= 0 || shifts.height <= 0) return;
+    sums.compute(lattice.grid().finest(), lattice.cells(theta), lattice.points(), shifts.first, shifts.width,
+                 shifts.height);
+    best.consider(sums, shifts, theta);
+    evaluations += static_cast<std::int64_t>(shifts.width) * shifts.height;
+  };
+  for (int theta = -window.n_theta; theta <= window.n_theta; ++theta) {
+    if (!excluded) {
+      score(theta, all);
+      continue;
+    }
+    for (const ShiftBlock& strip : outside(*excluded, theta, all)) score(theta, strip);
+  }
+  return {best.best(), evaluations};
 }
 
 SearchOutcome branch_and_bound_search(const SearchLattice& lattice, std::uint32_t min_sum,
                                       const std::optional<ExcludedRegion>& excluded) {
-  if (!lattice.grid().has_pyramid())
-    throw std::invalid_argument("branch and bound needs the score grid's pyramid");
-  return BranchAndBound(lattice, min_sum, excluded).run();
-}
-
-SearchOutcome exact_search(const SearchLattice& lattice, std::uint32_t min_sum,
-                           const std::optional<ExcludedRegion>& excluded) {
-  const SearchWindow& window = lattice.window();
-  const std::int64_t poses =
-      static_cast<std::int64_t>(2 * window.n_x + 1) * (2 * window.n_y + 1) * (2 * window.n_theta + 1);
-  const bool exhaustive = poses <= kExhaustivePoses || !lattice.grid().has_pyramid();
-  return exhaustive ? exhaustive_search(lattice, min_sum, excluded)
-                    : branch_and_bound_search(lattice, min_sum, excluded);
-}
-
-void find_next_exactly(const SearchLattice& lattice, const PeakRequest& request, FoundPeaks& peaks) {
-  if (!peaks.best || !request.next) return;
-  const ExcludedRegion around = {peaks.best->pose, request.next->cells, request.next->turns};
-  const auto least = static_cast<std::uint32_t>(std::ceil(request.next->share * peaks.best->sum));
-  const SearchOutcome next = exact_search(lattice, least, around);
-  peaks.next = next.best;
-  peaks.evaluations += next.evaluations;
+  return ExactSearch::BranchAndBound(lattice).find(min_sum, excluded);
 }
 
 bool needs_exact_next(const SearchWindow& window) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "matching/search_lattice.h"
@@ -22,21 +23,35 @@ struct SearchOutcome {
 SearchOutcome exhaustive_search(const SearchLattice& lattice, std::uint32_t min_sum,
                                 const std::optional<ExcludedRegion>& excluded = {});
 
-/// Finds the same pose as exhaustive_search(), by branch and bound on the score grid's pyramid (Olson 2009;
-/// Hess et al. 2016). Unlike the depth-first searches of these papers, it first sums the coarsest level for
-/// the whole window. It then visits the blocks in descending order of their bounds, and expands each block
-/// into 16 children. Throws std::invalid_argument if the lattice's grid has no pyramid.
+/// Finds the same pose as exhaustive_search(), by branch and bound (Olson 2009; Hess et al. 2016). Unlike the
+/// depth-first searches of these papers, it bounds blocks of shifts and headings. It bounds all blocks of the
+/// coarsest level first, then expands the layers of headings in descending order of their bounds, each level
+/// by level.
 SearchOutcome branch_and_bound_search(const SearchLattice& lattice, std::uint32_t min_sum,
                                       const std::optional<ExcludedRegion>& excluded = {});
 
-/// Finds the same pose as exhaustive_search(). Uses branch and bound if the window is large and the grid has
-/// a pyramid.
-SearchOutcome exact_search(const SearchLattice& lattice, std::uint32_t min_sum,
-                           const std::optional<ExcludedRegion>& excluded = {});
+/// Exact searches of one window. Later searches reuse the bounds of the first.
+class ExactSearch {
+ public:
+  class BranchAndBound;
 
-/// Finds the second peak that `request` asks for, by an exact search around `peaks.best`. Does nothing
-/// without a best peak, or if `request.next` is empty.
-void find_next_exactly(const SearchLattice& lattice, const PeakRequest& request, FoundPeaks& peaks);
+  /// Keeps a reference to the lattice.
+  explicit ExactSearch(const SearchLattice& lattice);
+  ~ExactSearch();
+  ExactSearch(const ExactSearch&) = delete;
+  ExactSearch& operator=(const ExactSearch&) = delete;
+
+  /// Finds the same pose as exhaustive_search(). Uses branch and bound if the window is large.
+  SearchOutcome find(std::uint32_t min_sum, const std::optional<ExcludedRegion>& excluded = {});
+
+  /// Finds the second peak that `request` asks for, around `peaks.best`. Does nothing without a best peak, or
+  /// if `request.next` is empty.
+  void find_next(const PeakRequest& request, FoundPeaks& peaks);
+
+ private:
+  const SearchLattice& lattice_;
+  std::unique_ptr<BranchAndBound> branch_and_bound_;  // made by the first search of a large window
+};
 
 /// Returns whether the half-widths of a window are at most 32 steps along x and y. In such windows, loops are
 /// verified by the ratio of the two best peaks. So the genetic matchers find the second peak exactly too.

@@ -81,7 +81,7 @@ class GeneticMatcher : public WindowMatcher {
  private:
   FoundPeaks find_peaks(const SearchLattice& lattice, const PeakRequest& request) const override {
     FoundPeaks peaks = search(lattice, request);
-    if (needs_exact_next(lattice.window())) find_next_exactly(lattice, request, peaks);
+    if (needs_exact_next(lattice.window())) ExactSearch(lattice).find_next(request, peaks);
     return peaks;
   }
 };
@@ -117,11 +117,12 @@ class CoarseToGeneticMatcher : public GeneticMatcher {
 }  // namespace
 
 FoundPeaks CorrelativeMatcher::find_peaks(const SearchLattice& lattice, const PeakRequest& request) const {
-  const SearchOutcome outcome = exact_search(lattice, request.min_sum);
+  ExactSearch search(lattice);
+  const SearchOutcome outcome = search.find(request.min_sum);
   FoundPeaks peaks;
   peaks.best = outcome.best;
   peaks.evaluations = outcome.evaluations;
-  find_next_exactly(lattice, request, peaks);
+  search.find_next(request, peaks);
   return peaks;
 }
 

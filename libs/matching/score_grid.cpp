@@ -18,18 +18,29 @@ ScoreLevel pool(const ScoreLevel& fine, int stride) {
   const int blocks_x = ceil_divide(fine.width(), stride);
   const int blocks_y = ceil_divide(fine.height(), stride);
   ScoreLevel blocks(blocks_x, blocks_y, stride);
-  for (int y = 0; y < fine.height(); ++y) {
-    const std::uint8_t* row = fine.cell(0, y);
-    std::uint8_t* block = blocks.cell(0, y / stride);
-    for (int x = 0; x < fine.width(); ++x) block[x / stride] = std::max(block[x / stride], row[x]);
+  std::vector<std::uint8_t> highest(static_cast<std::size_t>(fine.width()));  // cells of a row of blocks
+  for (int row = 0; row < blocks_y; ++row) {
+    std::fill(highest.begin(), highest.end(), std::uint8_t{0});
+    for (int y = row * stride; y < std::min((row + 1) * stride, fine.height()); ++y)
+      std::transform(highest.begin(), highest.end(), fine.cell(0, y), highest.begin(),
+                     [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
+    std::uint8_t* block = blocks.cell(0, row);
+    for (auto first = highest.cbegin(); first != highest.cend(); ++block) {
+      const auto last = first + std::min<std::ptrdiff_t>(stride, highest.cend() - first);
+      *block = *std::max_element(first, last);
+      first = last;
+    }
   }
   // Cells with x or y = -1 lie in the margin. They cover points just left of or below the grid, so they
   // include the first blocks.
   ScoreLevel pooled(blocks_x, blocks_y, stride);
-  for (int y = -1; y < blocks_y; ++y)
-    for (int x = -1; x < blocks_x; ++x)
-      *pooled.cell(x, y) =
-          std::max({blocks.at(x, y), blocks.at(x + 1, y), blocks.at(x, y + 1), blocks.at(x + 1, y + 1)});
+  for (int y = -1; y < blocks_y; ++y) {
+    const std::uint8_t* low = blocks.cell(-1, y);
+    const std::uint8_t* high = blocks.cell(-1, y + 1);
+    std::uint8_t* cell = pooled.cell(-1, y);
+    for (int i = 0; i <= blocks_x; ++i)
+      cell[i] = std::max(std::max(low[i], low[i + 1]), std::max(high[i], high[i + 1]));
+  }
   return pooled;
 }
 

@@ -72,6 +72,15 @@ void describe_log(OptionTable& table, Settings& settings) {
       .text("odometry", log.odometry,
             "Odometry to use. auto: the log's odometry, or none if it has none. none: scans only. ROS bags: "
             "a topic of odometry, or /tf.")
+      .optional_number("odometry_scale", log.odometry_scale, between(0.01, 100), "",
+                       "True distance divided by the distance that odometry measures. auto: 1, or the "
+                       "estimate of calibrate.")
+      .optional_number("scan_delay_s", log.scan_delay_s, between(-1, 1), "s",
+                       "Time by which scans are stamped later than odometry. auto: 0, or the estimate of "
+                       "calibrate.")
+      .flag("calibrate", log.calibrate,
+            "Estimates the scale of odometry, the delay of scans and the pose of the laser from the scans "
+            "before mapping, and uses what the log determines well.")
       .text("imu", log.imu,
             "Gyroscope that predicts the heading where there is no odometry. auto: the only one of the log. "
             "none: no gyroscope. Otherwise a topic (ROS) or a sensor label (rawlog).")

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <random>
-#include <stdexcept>
 
 #include "real_scans.h"
 #include "score_grids.h"
@@ -164,12 +163,85 @@ TEST(BranchAndBound, finds_nothing_when_all_is_excluded) {
   EXPECT_FALSE(branch_and_bound_search(lattice, 0, ExcludedRegion{{0, 0, 0}, 10, 5}).best);
 }
 
-TEST(BranchAndBound, needs_the_pyramid) {
+TEST(BranchAndBound, needs_no_pyramid) {
   std::mt19937_64 random(45);
-  const ScoreGrid grid(0, 0, 0.05, 10, 10);
-  const ScanPoints scan = random_points(random, 3, 1.0);
-  const SearchLattice lattice(grid, scan, {0, 0, 0}, window_of_steps(1, 1, 1, 0.05));
-  EXPECT_THROW(branch_and_bound_search(lattice, 0), std::invalid_argument);
+  ScoreGrid grid = random_grid(random, 50, 50, 256);
+  grid.drop_pyramid();
+  const ScanPoints scan = random_points(random, 12, 1.0);
+  const SearchLattice lattice(grid, scan, {0, 0, 0}, window_of_steps(20, 18, 4, 0.05));
+  ASSERT_NO_FATAL_FAILURE(expect_equal_outcomes(lattice, "without pyramid"));
+}
+
+// Random thresholds and excluded regions, also such as contain or cut the best poses.
+TEST(BranchAndBound, equals_the_exhaustive_search_at_any_threshold_and_around_any_region) {
+  std::mt19937_64 random(47);
+  std::uniform_int_distribution<int> steps(1, 25);
+  std::uniform_int_distribution<int> extent(1, 12);
+  std::uniform_real_distribution<double> metres(-2, 3);
+  std::uniform_real_distribution<double> share(0, 1.1);
+  int found = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const ScoreGrid grid = random_grid(random, 60, 50, trial % 2 == 0 ? 2 : 256);
+    const ScanPoints scan = random_points(random, 1 + random() % 20, 1.5);
+    const int turns = steps(random) / 2 + 1;
+    const SearchLattice lattice(grid, scan, {metres(random), metres(random), metres(random)},
+                                window_of_steps(steps(random), steps(random), turns, 0.02));
+    const SearchWindow& window = lattice.window();
+    const auto shift = [&random](int n) { return std::uniform_int_distribution<int>(-n, n)(random); };
+    const ExcludedRegion region = {
+        {shift(window.n_x), shift(window.n_y), shift(window.n_theta)}, extent(random), extent(random)};
+    const auto least =
+        static_cast<std::uint32_t>(share(random) * exhaustive_search(lattice, 0).best.value().sum);
+    const SearchOutcome expected = exhaustive_search(lattice, least, region);
+    const SearchOutcome outcome = branch_and_bound_search(lattice, least, region);
+    ASSERT_TRUE(same(outcome.best, expected.best))
+        << "trial " << trial << ": " << to_text(outcome.best) << ", not " << to_text(expected.best);
+    found += outcome.best ? 1 : 0;
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_LT(found, 290);
+}
+
+// Windows with more than 150 million poses have one more level of blocks.
+TEST(BranchAndBound, equals_the_exhaustive_search_in_a_huge_window) {
+  std::mt19937_64 random(49);
+  ScoreGrid grid(-10, -10, 0.05, 400, 400);
+  for (int i = 0; i < 3000; ++i)
+    *grid.finest().cell(static_cast<int>(random() % 400), static_cast<int>(random() % 400)) =
+        static_cast<std::uint8_t>(1 + random() % 255);
+  const ScanPoints scan = random_points(random, 5, 4.0);
+  const SearchLattice lattice(grid, scan, {1, 2, 0.5}, window_of_steps(301, 302, 207, 0.015));
+  const SearchOutcome exhaustive = exhaustive_search(lattice, 0);
+  const SearchOutcome fast = branch_and_bound_search(lattice, 0);
+  EXPECT_TRUE(same(fast.best, exhaustive.best)) << to_text(fast.best) << ", not " << to_text(exhaustive.best);
+  EXPECT_GT(exhaustive.evaluations, 150'000'000);
+  EXPECT_LT(fast.evaluations, exhaustive.evaluations / 10);
+}
+
+// Large windows are searched by branch and bound, small ones exhaustively.
+TEST(ExactSearch, later_searches_of_a_window_do_not_depend_on_the_first) {
+  std::mt19937_64 random(48);
+  for (const int n : {6, 30}) {
+    for (int trial = 0; trial < 5; ++trial) {
+      const ScoreGrid grid = random_grid(random, 80, 80, 256);
+      const ScanPoints scan = random_points(random, 15, 1.5);
+      const SearchLattice lattice(grid, scan, {0.2, 0.1, 0.3}, window_of_steps(n, n, 10, 0.02));
+      const Candidate best = exhaustive_search(lattice, 0).best.value();
+      ExactSearch search(lattice);
+      EXPECT_FALSE(search.find(best.sum + 1).best);
+      EXPECT_TRUE(same(search.find(0).best, best));
+      PeakRequest request;
+      request.next = {3, 2, 0.5};
+      FoundPeaks peaks;
+      search.find_next(request, peaks);
+      EXPECT_FALSE(peaks.next) << "no best peak, no next one";
+      peaks.best = best;
+      search.find_next(request, peaks);
+      const auto least = static_cast<std::uint32_t>(std::ceil(0.5 * best.sum));
+      const auto expected = exhaustive_search(lattice, least, ExcludedRegion{best.pose, 3, 2}).best;
+      EXPECT_TRUE(same(peaks.next, expected)) << to_text(peaks.next) << ", not " << to_text(expected);
+    }
+  }
 }
 
 TEST(BranchAndBound, equals_the_exhaustive_search_on_real_scans) {

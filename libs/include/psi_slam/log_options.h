@@ -22,7 +22,7 @@ enum class BeamAngles {
 
 /// Order in time in which a laser measures the beams of a scan, compared with their order in the log.
 enum class SweepDirection {
-  kAuto,      ///< as the scans of the log determine it in turns, otherwise forward
+  kAuto,      ///< as the scans of the log determine it in turns, otherwise as the log states
   kForward,   ///< the first beam is measured first
   kBackward,  ///< the last beam is measured first: drivers of RPLIDAR lasers reverse the beams
 };
@@ -82,6 +82,18 @@ struct LogOptions {
   /// (nav_msgs/Odometry), or a topic of transforms ("/tf"), which selects the transform from odom_frame to
   /// base_frame. An empty text means "auto".
   std::string odometry = "auto";
+
+  /// True distance divided by the distance that odometry measures, > 0: distances of odometry are multiplied
+  /// by it. Default: 1, or with `calibrate` the estimate.
+  std::optional<double> odometry_scale;
+
+  /// Time by which the time stamps of scans are later than the measurement, compared with the stamps of
+  /// odometry, seconds, in [-1, 1]. Default: 0, or with `calibrate` the estimate.
+  std::optional<double> scan_delay_s;
+
+  /// Estimates odometry_scale, scan_delay_s and the pose of the laser on the robot from the scans before
+  /// mapping, and uses the values that the log determines well and that no other option states.
+  bool calibrate = false;
 
   /// Gyroscope that predicts the heading of scans without odometry. "auto": the only one of the log. "none":
   /// no gyroscope. Otherwise a topic (sensor_msgs/Imu) or a sensor label of a rawlog (CObservationIMU).

@@ -151,7 +151,9 @@ SearchOutcome branch_and_bound_search(const SearchLattice& lattice, std::uint32_
                                       const std::optional<ExcludedRegion>& excluded) {
   if (!lattice.grid().has_pyramid())
     throw std::invalid_argument("branch and bound needs the score grid's pyramid");
-  return BranchAndBound(lattice, min_sum, excluded).run();
+  SearchOutcome outcome = BranchAndBound(lattice, min_sum, excluded).run();
+  outcome.search = SearchKind::kBranchAndBound;
+  return outcome;
 }
 
 SearchOutcome exact_search(const SearchLattice& lattice, std::uint32_t min_sum,

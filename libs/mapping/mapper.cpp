@@ -235,6 +235,7 @@ void Mapper::Implementation::close_loops(std::size_t node, FrameRecord& record) 
   const NodeLoops loops = back_end_.close(node, keyframes_, graph_);
   place_joined_runs(constraints_before, keyframes_.nodes[node].frame);
   record.matcher = loops.matcher;
+  record.searched_loops = loops.searched;
   for (std::size_t i = 0; i < record.searches.size(); ++i)
     record.searches[i] = static_cast<int>(loops.effort.by_search[i].attempts);
   record.loops_tried = static_cast<int>(loops.effort.attempts);

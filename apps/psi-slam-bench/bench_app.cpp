@@ -14,6 +14,8 @@
 #include "false_loops/false_loop_benchmark.h"
 #include "match/exact_benchmark.h"
 #include "match/match_benchmark.h"
+#include "paper/paper_benchmark.h"
+#include "psi/psi_benchmark.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
 #include "robustness/robustness_benchmark.h"
@@ -243,6 +245,51 @@ void add_sparse_command(CLI::App& app, const Streams& streams) {
       });
 }
 
+void add_paper_command(CLI::App& app, const Streams& streams) {
+  const auto arguments = std::make_shared<Arguments<PaperOptions>>();
+  PaperOptions& options = arguments->options;
+  CLI::App& command = *app.add_subcommand(
+      "paper", "Repeat the experiment of the paper: fixed windows, and a deadline of one scan period");
+  add_data_options(command, *arguments);
+  add_logs_option(command, *arguments);
+  std::vector<std::string> names;
+  for (const PaperCandidate& candidate : paper_candidates()) names.push_back(candidate.name);
+  command.add_option("--matchers", options.matchers, "Matchers to run, separated by commas; default: all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names))
+      ->type_name("NAMES");
+  add_seed_option(command, options.seed, "Seed of the genetic searches");
+  run_on_logs(
+      command, arguments, streams,
+      [](const BenchArguments& given) {
+        return find_sparse_logs(given.data, ini_folder_of(given), given.names);
+      },
+      [](const SparseLogs& logs, const PaperOptions& how, const ProgressObserver& progress) {
+        return paper_report(run_paper_benchmark(logs, how, progress), how, machine_text());
+      });
+}
+
+void add_psi_command(CLI::App& app, const Streams& streams) {
+  const auto arguments = std::make_shared<Arguments<PsiBenchmarkOptions>>();
+  PsiBenchmarkOptions& options = arguments->options;
+  CLI::App& command =
+      *app.add_subcommand("psi", "Compare the matchers in whole runs, divided by the factor Psi");
+  add_data_options(command, *arguments);
+  add_logs_option(command, *arguments);
+  command.add_option("--matchers", options.matchers, "Matchers to run, separated by commas; default: all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(PsiBenchmarkOptions().matchers))
+      ->type_name("NAMES");
+  add_seed_option(command, options.seed, "Seed of the genetic searches");
+  run_on_logs(
+      command, arguments, streams, [&](const auto& data) { return chosen_logs(data, streams); },
+      [](const ChosenLogs& chosen, const PsiBenchmarkOptions& how, const ProgressObserver& progress) {
+        PsiBenchmark benchmark = run_psi_benchmark(chosen.logs, how, progress);
+        benchmark.without_relations = chosen.without_relations;
+        return psi_report(benchmark, how, machine_text());
+      });
+}
+
 /// Returns the arguments in the order that CLI11 expects, last first. Replaces old names of options.
 std::vector<std::string> for_parser(const std::vector<std::string>& arguments) {
   constexpr std::string_view kOld = "--rival";
@@ -265,6 +312,8 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_false_loops_command(app, streams);
     add_robustness_command(app, streams);
     add_sparse_command(app, streams);
+    add_paper_command(app, streams);
+    add_psi_command(app, streams);
     app.require_subcommand(1);
     app.set_version_flag("--version", "psi-slam-bench " PSI_SLAM_VERSION, "Print the version and exit");
     add_document_options(app);

@@ -55,7 +55,7 @@ LoopTable::Cell LoopTable::cell(const LoopRecord& loop, std::size_t column) cons
   if (column == kFrame) return number(loop.frame, 0);
   if (column == kNode) return number(loop.node, 0);
   if (column == kLocalMap) return number(loop.local_map, 0);
-  if (column == kMatcher) return {0, std::string(name(loop.matcher)) + manner};
+  if (column == kMatcher) return {0, searched_by(loop) + manner};
   if (column == kResponse) return number(loop.response, 3);
   if (column == kAmbiguity) return number(loop.ambiguity, 3);
   if (column == kMoved) return number(loop.moved_m, 2);

@@ -13,11 +13,18 @@ constexpr const char* kFramesHeader =
     "frame,time_s,odom_x_m,odom_y_m,odom_theta_rad,front_end_x_m,front_end_y_m,front_end_theta_rad,"
     "map_x_m,map_y_m,map_theta_rad,node,response,window_x_m,window_y_m,window_theta_rad,"
     "psi,eta,mean_loops,loops_tried,loops_accepted,matcher,loop_evaluations,evaluations,front_end_ms,"
-    "loop_matching_ms,loop_closing_ms,pose_graph_ms,matched\n";
+    "loop_matching_ms,loop_closing_ms,pose_graph_ms,matched,searched_loops";
 constexpr const char* kLoopsHeader =
     "frame,node,local_map,anchor,verdict,reason,matcher,in_last_pass,by_hand,x_m,y_m,theta_rad,std_x_m,"
     "std_y_m,std_theta_rad,window_x_m,window_y_m,window_theta_rad,response,ambiguity,observed_share,"
-    "neighbours_agree,reverse_agree,moved_m,evaluations,milliseconds\n";
+    "neighbours_agree,reverse_agree,moved_m,evaluations,milliseconds,search\n";
+
+/// Returns the header of frames.csv. Its last columns have the number of searches of each kind.
+std::string frames_header() {
+  std::string header = kFramesHeader;
+  for (const SearchKind search : kSearchKinds) header += std::string(",") + name(search) + "_searches";
+  return header + '\n';
+}
 
 /// Values with a fixed number of decimals, each preceded by a comma.
 std::string values(std::initializer_list<double> numbers, int decimals) {
@@ -35,6 +42,8 @@ const char* matched_text(ScanMatch match) {
 }
 
 std::string frame_row(std::size_t index, const FrameRecord& frame) {
+  std::string searches;
+  for (const int count : frame.searches) searches += ',' + std::to_string(count);
   return std::to_string(index) + ',' + format_seconds(frame.time_us) + values(frame.odom_T_robot) +
          values(frame.front_end_T_robot) + values(frame.map_T_robot) + ',' +
          (frame.node ? std::to_string(*frame.node) : "") +
@@ -45,7 +54,7 @@ std::string frame_row(std::size_t index, const FrameRecord& frame) {
          (frame.matcher ? name(*frame.matcher) : "") + ',' + std::to_string(frame.loop_evaluations) + ',' +
          std::to_string(frame.evaluations) +
          values({frame.front_end_ms, frame.loop_matching_ms, frame.loop_closing_ms, frame.pose_graph_ms}, 4) +
-         ',' + matched_text(frame.match) + '\n';
+         ',' + matched_text(frame.match) + (frame.searched_loops ? ",1" : ",0") + searches + '\n';
 }
 
 std::string loop_row(const LoopRecord& loop) {
@@ -58,7 +67,8 @@ std::string loop_row(const LoopRecord& loop) {
          values({loop.window.x_m, loop.window.y_m, loop.window.theta_rad, loop.response, loop.ambiguity,
                  loop.observed_share, loop.neighbours_agree, loop.reverse_agree, loop.moved_m},
                 4) +
-         ',' + std::to_string(loop.evaluations) + values({loop.milliseconds}, 4) + '\n';
+         ',' + std::to_string(loop.evaluations) + values({loop.milliseconds}, 4) + ',' + name(loop.search) +
+         '\n';
 }
 
 }  // namespace
@@ -71,7 +81,7 @@ std::string csv_field(const std::string& text) {
 }
 
 std::string frames_csv(const std::vector<FrameRecord>& frames) {
-  std::string text = kFramesHeader;
+  std::string text = frames_header();
   text.reserve(text.size() + frames.size() * 220);
   for (std::size_t i = 0; i < frames.size(); ++i) text += frame_row(i, frames[i]);
   return text;

@@ -16,10 +16,14 @@ std::string csv_field(const std::string& text);
 /// Returns frames.csv: one row per scan in the order of the log, with its poses, match, loop closure factor
 /// Psi, loops and times. `node` and `matcher` may be empty. `matched` is 1 if the scan matched a local map
 /// and 0 if not. For the first scan of a run, which has no local map to match with, `matched` is empty.
+/// `matcher` is the matcher that was chosen. `searched_loops` is 1 if the scan searched for loops. The last
+/// columns have the number of searches of each kind that it ran, such as `branch_and_bound_searches`; see
+/// SearchKind.
 std::string frames_csv(const std::vector<FrameRecord>& frames);
 
 /// Returns loops.csv: one row per attempt to close a loop in the order of the records, with its match,
-/// verdict and reason. `reason` is empty for accepted loops.
+/// verdict and reason. `reason` is empty for accepted loops. `matcher` is the matcher that was chosen, and
+/// `search` the search that it ran.
 std::string loops_csv(const std::vector<LoopRecord>& loops);
 
 }  // namespace psi_slam

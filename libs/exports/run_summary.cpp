@@ -139,20 +139,33 @@ Json loop_counts_json(const LoopCounts& loops) {
           {"by_hand", loops.by_hand},   {"reasons", reasons}};
 }
 
-Json effort_json(const LoopEffort& effort, std::size_t accepted) {
-  return {{"attempts", effort.attempts},
-          {"found", effort.found},
+Json cost_json(const SearchCost& cost, std::size_t accepted) {
+  return {{"attempts", cost.attempts},
+          {"found", cost.found},
           {"accepted", accepted},
-          {"evaluations", effort.evaluations},
-          {"milliseconds", number(effort.milliseconds, 3)}};
+          {"evaluations", cost.evaluations},
+          {"milliseconds", number(cost.milliseconds, 3)}};
+}
+
+/// The searches that a matcher ran, without kinds of searches that it did not run.
+Json searches_json(const LoopMatcherRecord& matcher) {
+  Json list = Json::array();
+  for (const SearchKind search : kSearchKinds) {
+    const SearchCost& cost = matcher.effort.of(search);
+    if (cost.attempts == 0) continue;
+    Json& entry = list.emplace_back(Json{{"search", name(search)}});
+    entry.update(cost_json(cost, matcher.accepted_by_search[static_cast<std::size_t>(search)]));
+  }
+  return list;
 }
 
 Json loop_matchers_json(const std::map<MatcherKind, LoopMatcherRecord>& matchers) {
   Json list = Json::array();
   for (const auto& [kind, matcher] : matchers) {
     Json entry = {{"matcher", name(kind)}};
-    entry.update(effort_json(matcher.effort, matcher.accepted));
-    entry["last_pass"] = effort_json(matcher.final_search_effort, matcher.accepted_in_final_search);
+    entry.update(cost_json(matcher.effort, matcher.accepted));
+    entry["last_pass"] = cost_json(matcher.final_search_effort, matcher.accepted_in_final_search);
+    entry["searches"] = searches_json(matcher);
     list.push_back(std::move(entry));
   }
   return list;

@@ -31,10 +31,8 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   const auto start = std::chrono::steady_clock::now();
   const MatchResult match = matcher.matcher.match(problem);
   const auto time = std::chrono::steady_clock::now() - start;
-  attempt.effort.attempts = 1;
-  attempt.effort.found = match.found ? 1 : 0;
-  attempt.effort.evaluations = match.evaluations;
-  attempt.effort.milliseconds = std::chrono::duration<double, std::milli>(time).count();
+  const double milliseconds = std::chrono::duration<double, std::milli>(time).count();
+  attempt.effort.add(match.search, {1, match.found ? std::size_t{1} : 0, match.evaluations, milliseconds});
 
   LoopRecord& loop = attempt.loop.emplace();
   loop.frame = here.frame;
@@ -42,10 +40,11 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   loop.local_map = candidate.local_map;
   loop.anchor = local_map.anchor;
   loop.matcher = matcher.kind;
+  loop.search = match.search;
   loop.anchor_T_predicted = candidate.anchor_T_node;
   loop.window = candidate.extent;
   loop.evaluations = match.evaluations;
-  loop.milliseconds = attempt.effort.milliseconds;
+  loop.milliseconds = milliseconds;
   if (!match.found) {
     loop.anchor_T_node = candidate.anchor_T_node;
     loop.verdict = LoopVerdict::kNotFound;

@@ -98,6 +98,7 @@ LoopCloser::Outcome LoopCloser::close(std::size_t node, const KeyframeStore& key
                                       WorkerPool& pool) {
   Outcome outcome;
   if (!begins_stretch(node, keyframes.nodes, options_.attempt_distance_m)) return outcome;
+  outcome.searched = true;
   const std::vector<LoopCandidate> candidates = this->candidates(node, keyframes, graph);
   std::vector<std::size_t> local_maps;
   for (const LoopCandidate& candidate : candidates) local_maps.push_back(candidate.local_map);

@@ -34,6 +34,9 @@ class LoopCloser {
       : options_(options), run_seed_(run_seed) {}
 
   struct Outcome {
+    /// Whether the node searched for loops: only the first node of each stretch does. True also if the search
+    /// had no candidates.
+    bool searched = false;
     std::vector<LoopRecord> loops;  ///< all attempts, in the order of the local maps
     LoopEffort effort;
   };

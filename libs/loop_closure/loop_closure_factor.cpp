@@ -23,7 +23,7 @@ LoopClosureFactor::Value LoopClosureFactor::value() const {
   return value;
 }
 
-void LoopClosureFactor::add_frame(int loops) {
+void LoopClosureFactor::add_search(int loops) {
   loops_.push_back(loops);
   if (loops_.size() > static_cast<std::size_t>(options_.window_frames)) loops_.pop_front();
 }

@@ -2,11 +2,12 @@
 // The factor Psi, equations 13 and 14: the recent rate of closed loops times the ratio of travelled path to
 // distance from the start.
 //
-//     Psi_k = eta_k * (1/K) sum of C_i over the K frames before k,
+//     Psi_k = eta_k * (1/K) sum of C_i over the K loop searches before k,
 //     eta_k = (sum of d_j over all j <= k) / |t'_k - t_0|
 //
-// The mean is over nodes of the pose graph, because a mean over all frames would depend on the number of
-// scans per node. The path lengths d_j are summed over all scans.
+// The mean is over the nodes that searched for loops, because a mean over all nodes or scans would depend on
+// their spacing. A search without any local map nearby counts, with C_i = 0. The path lengths d_j are summed
+// over all scans.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -22,7 +23,7 @@ struct PsiOptions {
   /// windows the other matchers find the same loops in a tenth of the time (psi-slam-bench match).
   double psi_1 = -1;
   double psi_2 = 1;        ///< kGa searches for Psi >= psi_2, and kCsmGa between psi_1 and psi_2
-  int window_frames = 20;  ///< K of equation 13: number of nodes in the mean, >= 1
+  int window_frames = 20;  ///< K of equation 13: number of loop searches in the mean, >= 1
   double eta_max = 20;     ///< upper bound of eta, which is infinite at the start
 };
 
@@ -37,20 +38,21 @@ class LoopClosureFactor {
   struct Value {
     double psi = 0;
     double eta = 0;
-    double mean_loops = 0;  ///< mean of C_i over the last K nodes; 0 before the first node
+    double mean_loops = 0;  ///< mean of C_i over the last K loop searches; 0 before the first search
   };
   /// Returns the factor for the next node. eta is at most eta_max, also at the start.
   Value value() const;
 
-  /// Adds C_i, the number of new loop constraints of a node. Call after loop closing at every node.
-  void add_frame(int loops);
+  /// Adds C_i, the number of new loop constraints of a node. Call after loop closing at every node that
+  /// searched for loops.
+  void add_search(int loops);
 
  private:
   PsiOptions options_;
   std::optional<mrpt::math::TPoint2D> start_;
   double from_start_m_ = 0;
   double path_m_ = 0;
-  std::deque<int> loops_;  ///< C_i of the last K nodes
+  std::deque<int> loops_;  ///< C_i of the last K loop searches
 };
 
 }  // namespace psi_slam

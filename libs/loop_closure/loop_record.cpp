@@ -64,6 +64,10 @@ std::string text_of(const std::optional<LoopRefusal>& refusal) {
   }
 }
 
+std::string searched_by(const LoopRecord& loop) {
+  return std::string(name(loop.matcher)) + " (" + name(loop.search) + ')';
+}
+
 std::string text_of(const LoopEdit& edit) {
   const std::string pair =
       "scan " + std::to_string(edit.frame) + " with local map " + std::to_string(edit.local_map);

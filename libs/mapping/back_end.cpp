@@ -29,6 +29,7 @@ NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& keyframes, Pose
   LoopCloser::Outcome outcome = closer_.close(node, keyframes, graph, matcher, pool_);
   NodeLoops loops;
   loops.matcher = matcher.kind;
+  loops.searched = outcome.searched;
   loops.effort = outcome.effort;
   for (LoopRecord& loop : outcome.loops) {
     const bool waits = loop.verdict == LoopVerdict::kPending;
@@ -40,7 +41,7 @@ NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& keyframes, Pose
       schedule_.add_residual(waits ? std::max(*residual, OptimizationSchedule::kUrgentResidual) : *residual);
     }
   }
-  factor_.add_frame(loops.accepted);
+  if (loops.searched) factor_.add_search(loops.accepted);
   return loops;
 }
 

@@ -45,7 +45,8 @@ struct BackEndOptions {
 
 /// Result of a node's search for loops.
 struct NodeLoops {
-  MatcherKind matcher = MatcherKind::kCsm;
+  MatcherKind matcher = MatcherKind::kCsm;  ///< matcher chosen for the node, also if it does not search
+  bool searched = false;                    ///< whether the node searched for loops
   LoopEffort effort;
   int accepted = 0;  ///< number of new constraints, including pending loops of earlier nodes now confirmed
   double milliseconds = 0;

@@ -235,6 +235,9 @@ void Mapper::Implementation::close_loops(std::size_t node, FrameRecord& record) 
   const NodeLoops loops = back_end_.close(node, keyframes_, graph_);
   place_joined_runs(constraints_before, keyframes_.nodes[node].frame);
   record.matcher = loops.matcher;
+  record.searched_loops = loops.searched;
+  for (std::size_t i = 0; i < record.searches.size(); ++i)
+    record.searches[i] = static_cast<int>(loops.effort.by_search[i].attempts);
   record.loops_tried = static_cast<int>(loops.effort.attempts);
   record.loops_accepted = loops.accepted;
   record.loop_evaluations = loops.effort.evaluations;
@@ -255,8 +258,10 @@ void Mapper::Implementation::finish_loops(FinalProgress& progress) {
 void Mapper::Implementation::count_accepted_loops() {
   for (const LoopRecord& loop : back_end_.loops()) {
     if (loop.verdict != LoopVerdict::kAccepted) continue;
-    ++result_.loop_matchers[loop.matcher].accepted;
-    if (loop.in_final_search) ++result_.loop_matchers[loop.matcher].accepted_in_final_search;
+    LoopMatcherRecord& matcher = result_.loop_matchers[loop.matcher];
+    ++matcher.accepted;
+    ++matcher.accepted_by_search[static_cast<std::size_t>(loop.search)];
+    if (loop.in_final_search) ++matcher.accepted_in_final_search;
   }
 }
 

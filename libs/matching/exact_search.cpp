@@ -86,7 +86,7 @@ class ExactSearch::BranchAndBound {
       if (bound < best.least()) break;
       search(top_blocks(layer, best.least(), excluded), best);
     }
-    return {best.best(), evaluations_};
+    return {best.best(), evaluations_, SearchKind::kBranchAndBound};
   }
 
  private:
@@ -288,7 +288,7 @@ SearchOutcome exhaustive_search(const SearchLattice& lattice, std::uint32_t min_
     }
     for (const ShiftBlock& strip : outside(*excluded, theta, all)) score(theta, strip);
   }
-  return {best.best(), evaluations};
+  return {best.best(), evaluations, SearchKind::kExhaustive};
 }
 
 SearchOutcome branch_and_bound_search(const SearchLattice& lattice, std::uint32_t min_sum,

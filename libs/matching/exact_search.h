@@ -15,6 +15,7 @@ namespace psi_slam {
 struct SearchOutcome {
   std::optional<Candidate> best;  ///< empty if no pose reaches the smallest sum
   std::int64_t evaluations = 0;   ///< number of poses scored, on all levels of the grid
+  SearchKind search = SearchKind::kExhaustive;
 };
 
 /// Scores every pose of the window outside `excluded`. Returns the best pose in Candidate's order, if its sum

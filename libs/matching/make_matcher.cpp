@@ -21,6 +21,11 @@ FoundPeaks evolve_cells(const SearchLattice& lattice, const std::vector<Tile>& c
   return evolve_tiles(lattice, space, first_generation, options.pooled_fitness, request, options, random);
 }
 
+// Returns `genetic` if the search ran generations, and `without` otherwise.
+SearchKind search_of(const GeneticEffort& effort, SearchKind genetic, SearchKind without) {
+  return effort.generations > 0 ? genetic : without;
+}
+
 // The paper's variant of csm_ga: runs a genetic search in each of the best cells. The chromosomes of equation
 // 10 cover the small window of a cell. Each search scores a quarter as many poses as the cell has. With many
 // more, an exhaustive search would be cheaper.
@@ -72,8 +77,11 @@ class GeneticMatcher : public WindowMatcher {
 
  protected:
   virtual FoundPeaks search(const SearchLattice& lattice, const PeakRequest& request) const {
-    return genetic_.variant == GeneticVariant::kPaper ? paper_genetic_search(lattice, request, genetic_.paper)
-                                                      : memetic_search(lattice, request, genetic_.memetic);
+    FoundPeaks peaks = genetic_.variant == GeneticVariant::kPaper
+                           ? paper_genetic_search(lattice, request, genetic_.paper)
+                           : memetic_search(lattice, request, genetic_.memetic);
+    peaks.search = search_of(peaks.genetic, SearchKind::kGenetic, SearchKind::kLocal);
+    return peaks;
   }
 
   GeneticOptions genetic_;
@@ -100,7 +108,7 @@ class CoarseToGeneticMatcher : public GeneticMatcher {
     const MemeticGeneticOptions& memetic = genetic_.memetic;
     const bool by_paper = genetic_.variant == GeneticVariant::kPaper;
     const WindowTiles tiles(lattice.window(), memetic.gray_code);
-    if (!by_paper && tiles.columns() * tiles.rows() == 1) return memetic_search(lattice, request, memetic);
+    if (!by_paper && tiles.columns() * tiles.rows() == 1) return GeneticMatcher::search(lattice, request);
     const CoarseCells coarse =
         rank_coarse_cells(lattice, memetic.heading_stride, genetic_.coarse.cells, request.min_sum);
     FoundPeaks peaks;
@@ -109,6 +117,7 @@ class CoarseToGeneticMatcher : public GeneticMatcher {
                                                genetic_.paper)
                        : evolve_cells(lattice, coarse.best, request, memetic);
     }
+    peaks.search = search_of(peaks.genetic, SearchKind::kCoarseGenetic, SearchKind::kCoarse);
     peaks.evaluations += coarse.evaluations;
     return peaks;
   }
@@ -121,6 +130,7 @@ FoundPeaks CorrelativeMatcher::find_peaks(const SearchLattice& lattice, const Pe
   const SearchOutcome outcome = search.find(request.min_sum);
   FoundPeaks peaks;
   peaks.best = outcome.best;
+  peaks.search = outcome.search;
   peaks.evaluations = outcome.evaluations;
   search.find_next(request, peaks);
   return peaks;

@@ -15,6 +15,7 @@
 #include "matching/scan_points.h"
 #include "matching/score_grid.h"
 #include "matching/search_window.h"
+#include "psi_slam/matching.h"
 
 namespace psi_slam {
 
@@ -55,7 +56,9 @@ struct MatchResult {
   /// Response of the second-best distinct pose of the window (see MatcherOptions), divided by `response`.
   /// Empty if not measured. 0 if no distinct pose reaches MatcherOptions::ambiguity_floor.
   std::optional<double> ambiguity;
-  SearchWindow window;           ///< window that was searched
+  SearchWindow window;  ///< window that was searched
+  /// Search that ran. In narrow windows, genetic matchers also search for the second peak exactly.
+  SearchKind search = SearchKind::kExhaustive;
   std::int64_t evaluations = 0;  ///< number of poses scored, on all levels of the grid
   GeneticEffort genetic;
 };

@@ -51,6 +51,7 @@ MatchResult WindowMatcher::match(const MatchProblem& problem) const {
                     steps_to(options_.distinct_rad, result.window.angular_step_rad),
                     options_.ambiguity_floor};
   const FoundPeaks peaks = find_peaks(lattice, request);
+  result.search = peaks.search;
   result.evaluations = peaks.evaluations;
   result.genetic = peaks.genetic;
   if (!peaks.best) return result;

@@ -40,9 +40,10 @@ struct PeakRequest {
 };
 
 struct FoundPeaks {
-  std::optional<Candidate> best;  ///< empty if no pose reaches PeakRequest::min_sum
-  std::optional<Candidate> next;  ///< second peak; empty if none meets the conditions
-  std::int64_t evaluations = 0;   ///< number of poses scored, on all levels of the grid
+  std::optional<Candidate> best;                ///< empty if no pose reaches PeakRequest::min_sum
+  std::optional<Candidate> next;                ///< second peak; empty if none meets the conditions
+  SearchKind search = SearchKind::kExhaustive;  ///< search that found `best`
+  std::int64_t evaluations = 0;                 ///< number of poses scored, on all levels of the grid
   GeneticEffort genetic;
 };
 

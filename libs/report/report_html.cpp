@@ -106,7 +106,7 @@ std::string report_html(const MappingResult& result, const RunInfo& info, const 
   html += card("Map", "", report_map(result, summary.unmatched, grid));
   html += card("Response of the front end", response_key(summary),
                response_plot(result, summary.unmatched) + unmatched_table(summary.unmatched));
-  html += card("The factor Ψ and the matcher in use", psi_key(result), psi_plot(result));
+  html += card("The factor Ψ and the searches that ran", psi_key(result), psi_plot(result));
   html += card("Loop matching time per node", kKey, loop_matching_plot(result));
   html += card("Time per stage", "", stages_table(result.stages, result.wall_s));
   html += card("Processing time per scan", kKey, work_plot(result));

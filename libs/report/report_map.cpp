@@ -133,7 +133,7 @@ std::string unmatched_layer(const MappingResult& result, const UnmatchedScans& u
 std::string loop_title(const LoopRecord& loop) {
   std::string title = "node " + std::to_string(loop.node) + " to local map " +
                       std::to_string(loop.local_map) + ", response " + fixed_text(loop.response, 2) + ", " +
-                      name(loop.matcher);
+                      searched_by(loop);
   if (loop.refusal) title += ": " + text_of(loop.refusal);
   return title;
 }

@@ -204,41 +204,37 @@ std::string duration_plot(const std::string& label, const Series& series, double
           (limit_ms > 0 ? level(axes, limit_ms, "limit", limit_text, "limit", kWidth - kRight - 4, -5) : ""));
 }
 
-/// Draws the strip below the plot: for each stretch of time, the share of nodes for which each matcher was in
-/// use.
-std::string matcher_strip(const std::vector<FrameRecord>& frames, const Series& series, const Axes& axes) {
+/// Draws the strip below the plot: for each stretch of time, the shares of the searches that ran. Stretches
+/// without searches stay empty.
+std::string search_strip(const std::vector<FrameRecord>& frames, const Series& series, const Axes& axes) {
   constexpr std::size_t kStretches = 320;
   constexpr double kStripTop = kHeight - kBottom + 4;
   constexpr double kStripHeight = 8;
-  std::vector<std::array<int, kMatcherKinds.size()>> nodes(kStretches);
+  std::vector<std::array<int, kSearchKinds.size()>> searches(kStretches);
   for (const FrameRecord& frame : frames) {
-    if (!frame.matcher) continue;
     const double place =
         series.since_first(frame.time_us) / series.length_s * static_cast<double>(kStretches);
-    ++nodes[std::min(static_cast<std::size_t>(place), kStretches - 1)]
-           [static_cast<std::size_t>(*frame.matcher)];
+    auto& stretch = searches[std::min(static_cast<std::size_t>(place), kStretches - 1)];
+    for (std::size_t i = 0; i < stretch.size(); ++i) stretch[i] += frame.searches[i];
   }
-  std::array<std::string, kMatcherKinds.size()> paths;
-  // A stretch of time without nodes, in which the robot stood still, repeats the stretch before it.
-  std::array<int, kMatcherKinds.size()> last{};
+  std::array<std::string, kSearchKinds.size()> paths;
   for (std::size_t i = 0; i < kStretches; ++i) {
-    if (std::accumulate(nodes[i].begin(), nodes[i].end(), 0) > 0) last = nodes[i];
-    const int all = std::accumulate(last.begin(), last.end(), 0);
+    const int all = std::accumulate(searches[i].begin(), searches[i].end(), 0);
     const double x = axes.x(static_cast<double>(i) / kStretches * axes.last_s);
     const double width = axes.x(static_cast<double>(i + 1) / kStretches * axes.last_s) - x;
     double y = kStripTop;
-    for (std::size_t m = 0; m < kMatcherKinds.size(); ++m) {
-      if (last[m] == 0) continue;
-      const double height = kStripHeight * last[m] / all;
-      paths[m] += 'M' + point(x, y) + 'h' + fixed_text(width, 2) + 'v' + fixed_text(height, 2) + 'h' +
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+      if (searches[i][k] == 0) continue;
+      const double height = kStripHeight * searches[i][k] / all;
+      paths[k] += 'M' + point(x, y) + 'h' + fixed_text(width, 2) + 'v' + fixed_text(height, 2) + 'h' +
                   fixed_text(-width, 2) + 'z';
       y += height;
     }
   }
   std::string svg;
-  for (std::size_t m = 0; m < kMatcherKinds.size(); ++m)
-    if (!paths[m].empty())
-      svg += "<path class=\"matcher " + std::string(name(kMatcherKinds[m])) + "\" d=\"" + paths[m] + "\"/>\n";
+  for (std::size_t k = 0; k < paths.size(); ++k)
+    if (!paths[k].empty())
+      svg += "<path class=\"search " + std::string(name(kSearchKinds[k])) + "\" d=\"" + paths[k] + "\"/>\n";
   return svg;
 }
 
@@ -293,15 +289,16 @@ std::string psi_plot(const MappingResult& result) {
   for (const auto& [name, threshold] : {std::pair("Ψ₁ = ", result.psi.psi_1), {"Ψ₂ = ", result.psi.psi_2}})
     if (threshold > 0)
       svg += level(axes, threshold, "limit", name + trimmed_text(threshold, 2), "limit early", kLeft + 4, -5);
-  return figure("The factor Ψ over time", svg + matcher_strip(result.frames, series, axes));
+  return figure("The factor Ψ over time", svg + search_strip(result.frames, series, axes));
 }
 
 std::string psi_key(const MappingResult& result) {
   std::string key;
-  for (const MatcherKind kind : kMatcherKinds)
+  for (std::size_t i = 0; i < kSearchKinds.size(); ++i)
     if (std::any_of(result.frames.begin(), result.frames.end(),
-                    [&](const FrameRecord& frame) { return frame.matcher == kind; }))
-      key += "<span class=\"key matcher " + std::string(name(kind)) + "\"></span>" + name(kind);
+                    [&](const FrameRecord& frame) { return frame.searches[i] > 0; }))
+      key += "<span class=\"key search " + std::string(name(kSearchKinds[i])) + "\"></span>" +
+             name(kSearchKinds[i]);
   return key;
 }
 

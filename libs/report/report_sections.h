@@ -28,10 +28,10 @@ std::string report_map(const MappingResult& result, const UnmatchedScans& unmatc
 std::string response_plot(const MappingResult& result, const UnmatchedScans& unmatched);
 /// Table of the stretches of unmatched scans, collapsed; empty if there are none.
 std::string unmatched_table(const UnmatchedScans& unmatched);
-/// Plot of the factor Psi over time with its thresholds on a logarithmic axis, and below it the matcher in
-/// use.
+/// Plot of the factor Psi over time with its thresholds on a logarithmic axis, and below it the searches
+/// that ran.
 std::string psi_plot(const MappingResult& result);
-/// Legend with the colours of the matchers that were used.
+/// Legend with the colours of the searches that ran.
 std::string psi_key(const MappingResult& result);
 /// Plot of the time to match the loops of each node, on a logarithmic axis, over the time of the log.
 std::string loop_matching_plot(const MappingResult& result);
@@ -47,7 +47,8 @@ std::string log_table(const MappedLogFacts& log, const std::string& name);
 std::string reasons_table(const LoopCounts& loops);
 /// Table of the time spent in each stage, also as a share of `wall_s`, the time of the whole run in seconds.
 std::string stages_table(const std::vector<StageTiming>& stages, double wall_s);
-/// Table of the attempts, results and time of each loop matcher; empty if no matcher was used.
+/// Table of the attempts, results and time of each loop matcher and of each search that it ran. Empty if no
+/// matcher was used.
 std::string loop_matchers_table(const MappingResult& result);
 /// Table of the first 100 loops of each verdict, collapsed. loops.csv has all loops.
 std::string loops_table(const MappingResult& result);

@@ -58,7 +58,7 @@ std::string loop_row(const LoopRecord& loop) {
                           : loop.verdict == LoopVerdict::kRefused ? "bad"
                                                                   : "warn";
   return "<tr><td><span class=\"badge " + css + "\">" + verdict_text(loop.verdict) + "</span></td>" +
-         cells({grouped(loop.frame), grouped(loop.node), grouped(loop.local_map), name(loop.matcher),
+         cells({grouped(loop.frame), grouped(loop.node), grouped(loop.local_map), searched_by(loop),
                 fixed_text(loop.response, 3), fixed_text(loop.ambiguity, 2),
                 fixed_text(loop.observed_share, 2), fixed_text(loop.neighbours_agree, 2),
                 fixed_text(loop.reverse_agree, 2), fixed_text(loop.moved_m, 2),
@@ -171,17 +171,26 @@ std::string stages_table(const std::vector<StageTiming>& stages, double wall_s) 
 
 std::string loop_matchers_table(const MappingResult& result) {
   if (result.loop_matchers.empty()) return {};
-  std::string html = table_begin("wide", {"Matcher", "tried", "found", "closed", "poses scored per try",
-                                          "ms per try", "total time", "time in the final search"});
+  const auto row = [](const std::string& matcher, const std::string& search, const SearchCost& cost,
+                      std::size_t closed, const std::string& final_search) {
+    const double tries = static_cast<double>(std::max<std::size_t>(cost.attempts, 1));
+    return "<tr><th>" + matcher + "</th>" +
+           cells({search, grouped(cost.attempts), grouped(cost.found), grouped(closed),
+                  grouped(static_cast<double>(cost.evaluations) / tries, 0),
+                  milliseconds_text(cost.milliseconds / tries), duration_text(cost.milliseconds * 1e-3),
+                  final_search}) +
+           "</tr>\n";
+  };
+  std::string html =
+      table_begin("wide", {"Matcher chosen", "search that ran", "tried", "found", "closed",
+                           "poses scored per try", "ms per try", "total time", "time in the final search"});
   for (const auto& [kind, matcher] : result.loop_matchers) {
-    const LoopEffort& effort = matcher.effort;
-    const double tries = static_cast<double>(std::max<std::size_t>(effort.attempts, 1));
-    html += "<tr><th>" + std::string(name(kind)) + "</th>" +
-            cells({grouped(effort.attempts), grouped(effort.found), grouped(matcher.accepted),
-                   grouped(static_cast<double>(effort.evaluations) / tries, 0),
-                   milliseconds_text(effort.milliseconds / tries), duration_text(effort.milliseconds * 1e-3),
-                   duration_text(matcher.final_search_effort.milliseconds * 1e-3)}) +
-            "</tr>\n";
+    html += row(name(kind), "all", matcher.effort, matcher.accepted,
+                duration_text(matcher.final_search_effort.milliseconds * 1e-3));
+    for (const SearchKind search : kSearchKinds)
+      if (const SearchCost& cost = matcher.effort.of(search); cost.attempts > 0)
+        html += row({}, name(search), cost, matcher.accepted_by_search[static_cast<std::size_t>(search)],
+                    duration_text(matcher.final_search_effort.of(search).milliseconds * 1e-3));
   }
   return html + kTableEnd + "\n";
 }
@@ -206,8 +215,8 @@ std::string loops_table(const MappingResult& result) {
   const std::size_t left = found - shown;
   return "<details><summary>" + counted(found, "match found", "matches found") + "</summary>" +
          table_begin("wide tall",
-                     {"Verdict", "scan", "node", "local map", "matcher", "response", "ambiguity", "observed",
-                      "neighbours", "reverse", "moved, m", "ms"},
+                     {"Verdict", "scan", "node", "local map", "matcher (search)", "response", "ambiguity",
+                      "observed", "neighbours", "reverse", "moved, m", "ms"},
                      "<th class=\"text\">why</th>") +
          rows + kTableEnd +
          (left > 0 ? "<p class=\"none\">" + counted(left, "more is", "more are") +

@@ -227,8 +227,8 @@ void describe_psi(OptionTable& table, PsiOptions& psi) {
           "negative, so a negative value never uses csm.")
       .number("psi_2", psi.psi_2, any_number(), "",
               "From this value of Psi on, ga searches for loops; for smaller values, csm_ga or csm.")
-      .integer("window_frames", psi.window_frames, between(1, 1'000'000), "nodes",
-               "Number of previous nodes whose loops are averaged: K of equation 13.")
+      .integer("window_frames", psi.window_frames, between(1, 1'000'000), "searches",
+               "Number of previous loop searches whose loops are averaged: K of equation 13.")
       .number("eta_max", psi.eta_max, at_least(1), "",
               "Upper bound of eta, which is path length over distance from the start. It matters near the "
               "start.");

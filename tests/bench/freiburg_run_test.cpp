@@ -74,6 +74,11 @@ TEST_F(FreiburgRuns, each_matcher_and_seed_has_its_own_settings) {
   const std::string paper = settings_text(settings_of(run("adaptive_paper")));
   EXPECT_THAT(paper, HasSubstr("loop_closure.matcher = adaptive\n"));
   EXPECT_THAT(paper, HasSubstr("genetic.variant = paper\n"));
+  const PsiOptions psi = settings_of(run("adaptive_paper")).mapper.back_end.psi;
+  EXPECT_GE(psi.psi_1, 0)
+      << "the paper searches exhaustively where loops are rare, and Psi is 0 without loops";
+  EXPECT_EQ(matcher_kind({}, psi, 0), MatcherKind::kCsm);
+  EXPECT_EQ(matcher_kind({}, psi, psi.psi_2), MatcherKind::kGa);
   EXPECT_THAT(settings_text(settings_of(run("adaptive"))), HasSubstr("genetic.variant = memetic\n"));
 }
 

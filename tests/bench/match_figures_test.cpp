@@ -71,6 +71,7 @@ TEST(MatchFigures, agree_with_hand_computed_ones) {
   tally.add(positive_case(), {true, false, false}, match, 1);
   match.evaluations = 70;
   match.genetic = {3, 200, 10};
+  match.search = SearchKind::kGenetic;
   tally.add(positive_case(), {false, false, false}, match, 2);
   tally.add(LoopCase(), {false, false, true}, match, 5);
   tally.add(LoopCase(), {}, match, 3);
@@ -81,6 +82,8 @@ TEST(MatchFigures, agree_with_hand_computed_ones) {
   EXPECT_DOUBLE_EQ(*figures.success_rate, 2.0 / 3);
   EXPECT_DOUBLE_EQ(*figures.same_optimum_rate, 1.0 / 3);
   EXPECT_DOUBLE_EQ(*figures.false_accept_rate, 0.5);
+  EXPECT_EQ(figures.searches[static_cast<std::size_t>(SearchKind::kExhaustive)], 2U);
+  EXPECT_EQ(figures.searches[static_cast<std::size_t>(SearchKind::kGenetic)], 3U);
   EXPECT_DOUBLE_EQ(figures.evaluations, (2 * 10 + 3 * 70) / 5.0);
   EXPECT_DOUBLE_EQ(figures.time_ms.mean, 3);
   EXPECT_DOUBLE_EQ(figures.time_ms.p50, 3);

@@ -26,6 +26,7 @@ MatchSeries series_of(double csm_ms, double ga_ms) {
   csm.add(positive, {true, true, false}, match, csm_ms);
   MatchTally ga;
   match.genetic = {1, 8, 2};
+  match.search = SearchKind::kGenetic;
   ga.add(positive, {true, false, false}, match, ga_ms);
   series.rows = {{"csm", csm}, {"ga", ga}};
   return series;
@@ -50,11 +51,13 @@ TEST(MatchReport, json_has_a_row_for_each_matcher) {
   const OrderedJson json = OrderedJson::parse(match_report(benchmark(), {}, "a machine").json);
   ASSERT_EQ(json["matchers"].size(), 2U);
   const OrderedJson& row = json["matchers"][1];
-  EXPECT_THAT(keys_of(row),
-              testing::ElementsAre("series", "matcher", "cases", "success_rate", "same_optimum_rate",
-                                   "false_accept_rate", "evaluations", "time_ms", "repaired_share"));
+  EXPECT_THAT(keys_of(row), testing::ElementsAre("series", "matcher", "cases", "success_rate",
+                                                 "same_optimum_rate", "false_accept_rate", "evaluations",
+                                                 "time_ms", "repaired_share", "searches"));
   EXPECT_THAT(keys_of(row["time_ms"]), testing::ElementsAre("mean", "p50", "p95", "p99"));
   EXPECT_EQ(row["matcher"], "ga");
+  EXPECT_EQ(row["searches"]["genetic"], 1);
+  EXPECT_EQ(row["searches"]["branch_and_bound"], 0);
   EXPECT_EQ(row["cases"], 1);
   EXPECT_EQ(row["success_rate"], 1.0);
   EXPECT_EQ(row["same_optimum_rate"], 0.0);
@@ -81,12 +84,15 @@ TEST(MatchReport, json_names_machine_options_and_logs) {
 
 TEST(MatchReport, markdown_has_the_rows_and_the_ratios) {
   const std::string page = match_report(benchmark(), {}, "a machine").markdown;
-  EXPECT_THAT(page,
-              AllOf(HasSubstr("a machine"), HasSubstr("| intel | `0123` | 0.019 | 250 | 250 |  |\n"),
-                    HasSubstr("| odd | `4567` | – | 0 | 0 | left out: why |\n"),
-                    HasSubstr("| csm | 1 | 100.0 | 100.0 | – | 1000 | 4.000 | 4.000 | 4.000 | 4.000 | – |\n"),
-                    HasSubstr("| ga | 1 | 100.0 | 0.0 | – | 1000 | 1.000 | 1.000 | 1.000 | 1.000 | 25.0 |\n"),
-                    HasSubstr("| ga | × 1.000 | × 0.25 | × 0.25 |\n"), Not(HasSubstr("half-width |"))));
+  EXPECT_THAT(
+      page,
+      AllOf(
+          HasSubstr("a machine"), HasSubstr("| intel | `0123` | 0.019 | 250 | 250 |  |\n"),
+          HasSubstr("| odd | `4567` | – | 0 | 0 | left out: why |\n"),
+          HasSubstr(
+              "| csm | 1 | 100.0 | 100.0 | – | 1000 | 4.000 | 4.000 | 4.000 | 4.000 | – | exhaustive |\n"),
+          HasSubstr("| ga | 1 | 100.0 | 0.0 | – | 1000 | 1.000 | 1.000 | 1.000 | 1.000 | 25.0 | genetic |\n"),
+          HasSubstr("| ga | × 1.000 | × 0.25 | × 0.25 |\n"), Not(HasSubstr("half-width |"))));
 }
 
 TEST(MatchReport, sizes_have_tables_and_plots) {

@@ -11,6 +11,7 @@
 namespace psi_slam {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -48,6 +49,10 @@ TEST(FramesCsv, has_one_row_per_scan_below_the_header) {
     EXPECT_NEAR(std::stod(row[column("mean_loops")]), frame.mean_loops, 1e-4);
     EXPECT_NEAR(std::stod(row[column("loop_matching_ms")]), frame.loop_matching_ms, 1e-4);
     EXPECT_EQ(row[column("matched")], &frame == &result.frames.front() ? "" : "1");
+    EXPECT_EQ(row[column("searched_loops")], frame.node ? "1" : "0");
+    EXPECT_EQ(row[column("branch_and_bound_searches")], frame.matcher == MatcherKind::kCsm ? "1" : "0");
+    EXPECT_EQ(row[column("local_searches")], frame.matcher && frame.matcher != MatcherKind::kCsm ? "1" : "0");
+    EXPECT_EQ(row[column("genetic_searches")], "0");
   }
   EXPECT_FALSE(std::getline(text, line));
 }
@@ -58,9 +63,10 @@ TEST(FramesCsv, tells_unmatched_scans_from_those_without_a_map_to_match_with) {
   frames[2].match = ScanMatch::kUnmatched;
   std::istringstream text(frames_csv(frames));
   std::string line;
-  for (const char* expected : {",matched", ",", ",1", ",0"}) {
+  for (const char* expected : {"matched", "", "1", "0"}) {
     ASSERT_TRUE(std::getline(text, line));
-    EXPECT_EQ(line.substr(line.rfind(',')), expected);
+    const std::vector<std::string> row = split(line);
+    EXPECT_EQ(row.at(row.size() - 2 - kSearchKinds.size()), expected);
   }
 }
 
@@ -81,6 +87,9 @@ TEST(LoopsCsv, has_one_row_per_attempt_with_verdict_and_reason) {
               StartsWith("25,5,0,0,refused,\"the response is too low: 0.41, minimum 0.55\",csm,0,0,"));
   EXPECT_THAT(accepted, StartsWith("45,9,0,0,accepted,,csm,0,0,"));
   EXPECT_THAT(accepted, HasSubstr(",0.010000,0.010000,0.010000,"));
+  EXPECT_THAT(header, EndsWith(",milliseconds,search"));
+  EXPECT_THAT(accepted, EndsWith(",branch_and_bound"));
+  EXPECT_THAT(refused, EndsWith(",exhaustive"));
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(accepted.begin(), accepted.end(), ','));
   EXPECT_FALSE(std::getline(text, header));
 }

@@ -169,6 +169,13 @@ TEST(SummaryJson, has_schema_and_figures) {
   EXPECT_EQ(matcher["milliseconds"], 45.25);
   EXPECT_EQ(matcher["last_pass"]["attempts"], 2);
   EXPECT_EQ(matcher["last_pass"]["accepted"], 0);
+  ASSERT_EQ(matcher["searches"].size(), 2U) << "only the searches that ran";
+  EXPECT_EQ(matcher["searches"][0]["search"], "exhaustive");
+  EXPECT_EQ(matcher["searches"][0]["attempts"], 9);
+  EXPECT_EQ(matcher["searches"][0]["accepted"], 0);
+  EXPECT_EQ(matcher["searches"][1]["search"], "branch_and_bound");
+  EXPECT_EQ(matcher["searches"][1]["evaluations"], 400);
+  EXPECT_EQ(matcher["searches"][1]["accepted"], 1);
   EXPECT_EQ(json["stages"][0]["calls"], 50);
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -240,6 +241,13 @@ TEST(Mapper, counts_attempts_without_a_match) {
   EXPECT_EQ(accepted, accepted_loops(result));
   EXPECT_GT(final_search.attempts, 0U);
 
+  SearchCost by_search;
+  for (const SearchKind search : kSearchKinds) by_search += sum.of(search);
+  EXPECT_EQ(by_search.attempts, sum.attempts);
+  EXPECT_EQ(by_search.evaluations, sum.evaluations);
+  EXPECT_GT(sum.of(SearchKind::kLocal).attempts, 0U) << "small windows of genetic matchers";
+  EXPECT_EQ(sum.of(SearchKind::kExhaustive).attempts, 0U) << "no csm by default";
+
   LoopEffort of_frames;
   for (const FrameRecord& frame : result.frames) {
     of_frames.attempts += static_cast<std::size_t>(frame.loops_tried);
@@ -247,6 +255,7 @@ TEST(Mapper, counts_attempts_without_a_match) {
     of_frames.milliseconds += frame.loop_matching_ms;
     EXPECT_GE(frame.evaluations, frame.loop_evaluations);
     EXPECT_EQ(frame.loops_tried > 0, frame.loop_evaluations > 0);
+    EXPECT_EQ(std::accumulate(frame.searches.begin(), frame.searches.end(), 0), frame.loops_tried);
   }
   EXPECT_EQ(of_frames.attempts, sum.attempts - final_search.attempts);
   EXPECT_EQ(of_frames.evaluations, sum.evaluations - final_search.evaluations);
@@ -256,8 +265,8 @@ TEST(Mapper, counts_attempts_without_a_match) {
   EXPECT_GT(sum.evaluations, of_loops);
 }
 
-// Computes Psi directly from equations 13 and 14. Checks the mean of accepted loops at every frame, and eta
-// at the frames before the first loop moves the map.
+// Computes Psi directly from equations 13 and 14. Checks the mean of accepted loops over the last searches at
+// every frame, and eta at the frames before the first loop moves the map.
 TEST(Mapper, records_the_factor_of_loop_closing) {
   const MappingResult& result = office_map();
   const auto window = static_cast<std::size_t>(PsiOptions().window_frames);
@@ -279,11 +288,35 @@ TEST(Mapper, records_the_factor_of_loop_closing) {
       const double from_start_m = distance_m(frame.front_end_T_robot, result.frames[0].front_end_T_robot);
       ASSERT_NEAR(frame.eta, std::min(path_m / from_start_m, PsiOptions().eta_max), 1e-9) << "scan " << i;
     }
-    if (frame.node) loops.push_back(frame.loops_accepted);
+    if (frame.searched_loops) loops.push_back(frame.loops_accepted);
     any_loop = any_loop || frame.loops_accepted > 0;
     largest_psi = std::max(largest_psi, frame.psi);
   }
   EXPECT_GT(largest_psi, 1);
+}
+
+TEST(Mapper, the_factor_does_not_depend_on_the_distance_between_nodes) {
+  const auto mean_psi = [](double node_distance_m) {
+    MapperOptions options;
+    options.front_end.node_distance_m = node_distance_m;
+    const MappingResult result = map_of(office_drive().frames, options);
+    double sum = 0;
+    std::size_t nodes = 0;
+    std::size_t searches = 0;
+    for (const FrameRecord& frame : result.frames) {
+      sum += frame.psi;
+      nodes += frame.node ? 1 : 0;
+      searches += frame.searched_loops ? 1 : 0;
+      EXPECT_TRUE(frame.node || !frame.searched_loops);
+      EXPECT_TRUE(frame.searched_loops || frame.loops_tried == 0);
+    }
+    EXPECT_GT(nodes, searches);
+    return std::pair(sum / static_cast<double>(result.frames.size()), nodes);
+  };
+  const auto [psi_of_many, many] = mean_psi(0.1);
+  const auto [psi_of_few, few] = mean_psi(0.25);
+  ASSERT_GT(static_cast<double>(many), 1.5 * static_cast<double>(few)) << "the test needs other distances";
+  EXPECT_NEAR(psi_of_few / psi_of_many, 1, 0.3);
 }
 
 TEST(Mapper, uses_the_matcher_chosen_by_psi_in_the_final_search_too) {

@@ -97,6 +97,42 @@ TEST_P(EveryMatcher, returns_the_response_of_its_pose_and_a_covariance) {
   EXPECT_EQ(match.genetic.decoded > 0, GetParam().kind != MatcherKind::kCsm);
 }
 
+// The window of 0.3 m has fewer poses than branch and bound is worth, and it is one block of the memetic
+// search.
+TEST_P(EveryMatcher, names_the_search_that_ran) {
+  std::mt19937_64 random(127);
+  const ScanPoints scan = scan_of(walls, {4, 3, 0.3}, 120, 0.01, random);
+  const auto search_in = [&](double half_m, double half_rad) {
+    return matcher()->match({grid, scan, {4.1, 2.9, 0.25}, {half_m, half_m, half_rad}}).search;
+  };
+  const std::string& name = GetParam().name;
+  const SearchKind narrow = search_in(0.3, 0.1);
+  const SearchKind wide = search_in(3, 0.5);
+  EXPECT_EQ(narrow, name == "csm"            ? SearchKind::kExhaustive
+                    : name == "csm_ga_paper" ? SearchKind::kCoarseGenetic
+                    : name == "ga_paper"     ? SearchKind::kGenetic
+                                             : SearchKind::kLocal);
+  EXPECT_EQ(wide, name == "csm"               ? SearchKind::kBranchAndBound
+                  : name.rfind("csm_ga") == 0 ? SearchKind::kCoarseGenetic
+                                              : SearchKind::kGenetic);
+}
+
+TEST(MakeMatcher, a_genetic_matcher_without_generations_is_named_a_local_or_coarse_search) {
+  SimulatedWalls walls = furnished_room();
+  const ScoreGrid grid = grid_of(walls);
+  std::mt19937_64 random(128);
+  const ScanPoints scan = scan_of(walls, {4, 3, 0.3}, 120, 0.01, random);
+  GeneticOptions genetic;
+  genetic.memetic.generations = 0;
+  const MatchProblem problem{grid, scan, {4.5, 2.6, 0.2}, {3, 3, 0.4}};
+  EXPECT_EQ(make_matcher(MatcherKind::kGa, {}, genetic)->match(problem).search, SearchKind::kLocal);
+  EXPECT_EQ(make_matcher(MatcherKind::kCsmGa, {}, genetic)->match(problem).search, SearchKind::kCoarse);
+  MatchProblem hopeless{grid, scan, {400, 3, 0.3}, {3, 3, 0.4}};
+  hopeless.min_response = 0.4;
+  EXPECT_EQ(make_matcher(MatcherKind::kCsmGa, {}, {})->match(hopeless).search, SearchKind::kCoarse)
+      << "no coarse cell is worth a generation";
+}
+
 // In a corridor with doors 1.2 m apart, a scan also matches 1.2 m farther along. Verification rejects such
 // matches by their ambiguity, which must not depend on the matcher.
 TEST_P(EveryMatcher, finds_the_second_peak_of_a_narrow_window_exactly) {

@@ -92,19 +92,29 @@ TEST(ReportHtml, shows_the_figures) {
     EXPECT_THAT(html, HasSubstr(shown));
 }
 
-TEST(ReportHtml, shows_the_factor_and_the_matchers) {
+TEST(ReportHtml, shows_the_factor_and_the_searches_that_ran) {
   const std::string html = report_of_the_room();
-  for (const char* shown :
-       {"Ψ₁ = 2", "Ψ₂ = 6", "<path class=\"matcher csm\"", "<path class=\"matcher csm_ga\"",
-        "<path class=\"matcher ga\"", "key matcher csm_ga"})
+  for (const char* shown : {"Ψ₁ = 2", "Ψ₂ = 6", "<path class=\"search branch_and_bound\"",
+                            "<path class=\"search local\"", "key search local", "csm (branch_and_bound)"})
     EXPECT_THAT(html, HasSubstr(shown));
+  EXPECT_THAT(html, Not(HasSubstr("<path class=\"search genetic\"")));
   MappingResult one = walk_around_the_room();
-  for (FrameRecord& frame : one.frames)
-    if (frame.node) frame.matcher = MatcherKind::kGa;
+  for (FrameRecord& frame : one.frames) {
+    frame.searches = {};
+    if (frame.node) frame.searches[static_cast<std::size_t>(SearchKind::kGenetic)] = 3;
+  }
   const std::string of_one = report_of(one, {});
-  EXPECT_THAT(of_one, HasSubstr("<path class=\"matcher ga\""));
-  EXPECT_THAT(of_one, Not(HasSubstr("<path class=\"matcher csm\"")));
-  EXPECT_THAT(of_one, Not(HasSubstr("key matcher csm\"")));
+  EXPECT_THAT(of_one, HasSubstr("<path class=\"search genetic\""));
+  EXPECT_THAT(of_one, Not(HasSubstr("<path class=\"search local\"")));
+  EXPECT_THAT(of_one, Not(HasSubstr("key search local")));
+}
+
+TEST(ReportHtml, splits_the_matchers_by_the_searches_that_ran) {
+  const std::string html = without_style_and_script(report_of_the_room());
+  EXPECT_THAT(html, HasSubstr("<tr><th>csm</th><td>all</td><td>12</td><td>2</td><td>1</td>"));
+  EXPECT_THAT(html, HasSubstr("<tr><th></th><td>exhaustive</td><td>9</td><td>1</td><td>0</td>"));
+  EXPECT_THAT(html, HasSubstr("<tr><th></th><td>branch_and_bound</td><td>3</td><td>1</td><td>1</td>"));
+  EXPECT_THAT(html, Not(HasSubstr("<td>genetic</td>")));
 }
 
 TEST(ReportHtml, shows_unmatched_scans_in_figures_map_and_plot) {

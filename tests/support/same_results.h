@@ -48,6 +48,7 @@ inline std::string summary_without_times(const std::string& text) {
   for (nlohmann::json& matcher : summary.at("loop_matchers")) {
     matcher.erase("milliseconds");
     matcher.at("last_pass").erase("milliseconds");
+    for (nlohmann::json& search : matcher.at("searches")) search.erase("milliseconds");
   }
   summary.at("settings").erase("run.threads");
   summary.at("log").erase("name");
@@ -60,7 +61,7 @@ inline std::string report_without_times(const std::string& html) {
   std::string text;
   for (std::size_t at = html.find(begin); at != std::string::npos; at = html.find(begin, at + 1)) {
     const std::string card = html.substr(at, html.find("</section>", at) - at);
-    for (const char* title : {"Map", "Response of the front end", "The factor Ψ and the matcher in use"})
+    for (const char* title : {"Map", "Response of the front end", "The factor Ψ and the searches that ran"})
       if (card.rfind(begin + title, 0) == 0) text += card;
   }
   const std::string log = "<tr><th>Scans</th>";
@@ -72,7 +73,7 @@ inline std::string report_without_times(const std::string& html) {
 /// The contents of a result file that must be equal in equal runs. Leaves out entries that may differ, such
 /// as times.
 inline std::string comparable(const std::filesystem::path& file) {
-  constexpr int kTimesOfLoops = 1;
+  constexpr int kTimesOfLoops = 2;  // and the search, which is the last column
   const std::string bytes = read_file(file);
   if (file.filename() == "frames.csv") return without_times_of_frames(bytes);
   if (file.filename() == "loops.csv") return without_last_columns(bytes, kTimesOfLoops);

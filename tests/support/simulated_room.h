@@ -82,10 +82,13 @@ inline MappingResult walk_around_the_room(int scans = 50) {
     record.front_end_ms = 1.5;
     if (i % 5 == 0) {
       record.node = result.node_frames.size();
+      record.searched_loops = true;
       record.loops_tried = 1;
       record.matcher = record.psi < 2   ? MatcherKind::kCsm
                        : record.psi < 6 ? MatcherKind::kCsmGa
                                         : MatcherKind::kGa;
+      record.searches[static_cast<std::size_t>(
+          record.matcher == MatcherKind::kCsm ? SearchKind::kBranchAndBound : SearchKind::kLocal)] = 1;
       record.loop_evaluations = 40;
       record.loop_matching_ms = 3.5;
       record.loop_closing_ms = 4;
@@ -101,6 +104,7 @@ inline MappingResult walk_around_the_room(int scans = 50) {
   accepted.frame = result.node_frames.back();
   accepted.anchor_T_node = result.frames[accepted.frame].map_T_robot - result.frames[0].map_T_robot;
   accepted.covariance = Eigen::Matrix3d::Identity() * 1e-4;
+  accepted.search = SearchKind::kBranchAndBound;
   accepted.response = 0.83;
   accepted.ambiguity = 0.2;
   accepted.verdict = LoopVerdict::kAccepted;
@@ -112,7 +116,11 @@ inline MappingResult walk_around_the_room(int scans = 50) {
   refused.refusal = LoopRefusal{LoopRefusal::Reason::kLowResponse, 0.41, 0.55};
   result.loops = {refused, accepted};
   result.frames[accepted.frame].loops_accepted = 1;
-  result.loop_matchers[MatcherKind::kCsm] = {{12, 2, 600, 45.25}, {2, 0, 200, 10.25}, 1, 0};
+  LoopMatcherRecord& csm = result.loop_matchers[MatcherKind::kCsm];
+  csm.effort.add(SearchKind::kExhaustive, {9, 1, 200, 15.25});
+  csm.effort.add(SearchKind::kBranchAndBound, {3, 1, 400, 30});
+  csm.final_search_effort.add(SearchKind::kExhaustive, {2, 0, 200, 10.25});
+  csm.accepted = csm.accepted_by_search[static_cast<std::size_t>(SearchKind::kBranchAndBound)] = 1;
   result.psi = {2, 6};
   result.stages = {{"match scan to local map", 50, 1.5, 0.2, 1.1, 2.4, 0.075},
                    {"close loops", 10, 4, 1, 2, 9, 0.04}};

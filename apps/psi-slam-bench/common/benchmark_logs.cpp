@@ -66,6 +66,10 @@ Settings benchmark_settings(const fs::path& ini, const std::vector<std::string>&
   return bound.settings;
 }
 
+std::vector<std::string> paper_switch_settings() {
+  return {"loop_closure.matcher=adaptive", "psi.psi_1=0.5", "psi.psi_2=1"};
+}
+
 MappingResult map_source(FrameSource& source, const MapperOptions& options,
                          const std::function<void(double)>& progress) {
   Mapper mapper(options);

@@ -107,11 +107,15 @@ bool draws_random_numbers(const std::string& matcher) {
 }
 
 Settings settings_of(const FreiburgRun& run) {
-  const bool paper = run.matcher == "adaptive_paper";
-  std::vector<std::string> assignments{"loop_closure.matcher=" + (paper ? "adaptive" : run.matcher),
-                                       "run.seed=" + std::to_string(run.seed),
+  std::vector<std::string> assignments{"run.seed=" + std::to_string(run.seed),
                                        "run.threads=" + std::to_string(run.threads)};
-  if (paper) assignments.emplace_back("genetic.variant=paper");
+  if (run.matcher == "adaptive_paper") {
+    const std::vector<std::string> paper = paper_switch_settings();
+    assignments.insert(assignments.end(), paper.begin(), paper.end());
+    assignments.emplace_back("genetic.variant=paper");
+  } else {
+    assignments.push_back("loop_closure.matcher=" + run.matcher);
+  }
   return benchmark_settings(run.ini, assignments);
 }
 

@@ -35,7 +35,7 @@ struct FreiburgRun {
 };
 
 /// Names of the matchers: the values "csm", "csm_ga", "ga" and "adaptive" of loop_closure.matcher, and
-/// "adaptive_paper", the adaptive matcher with the genetic search of the paper.
+/// "adaptive_paper", the paper's switch (see paper_switch_settings()) with the genetic search of the paper.
 const std::vector<std::string>& freiburg_matchers();
 
 /// True for all matchers except csm, whose search is exact. No other part of a run draws random numbers.

@@ -32,7 +32,7 @@ PublishedErrors errors_of(const PathErrors& errors, std::size_t failed_runs = 0)
   PublishedErrors published;
   for (std::size_t i = 0; i < published.size(); ++i) {
     const MeanAndStd& one = errors.*kPathFigures[i].errors;
-    published[i] = PublishedFigure{one.mean, one.std, false, failed_runs};
+    published[i] = PublishedFigure{one.mean, one.std, failed_runs};
   }
   return published;
 }
@@ -66,7 +66,6 @@ void mark_best(ComparisonRow& row) {
   for (const auto& value : row.values) row.best.push_back(value && value->mean == *least);
 }
 
-constexpr const char* kUncheckedMark = " †";
 constexpr const char* kFailedMark = " ‡";
 
 ReportCell cell_of(const std::optional<PublishedFigure>& value, bool best) {
@@ -74,19 +73,15 @@ ReportCell cell_of(const std::optional<PublishedFigure>& value, bool best) {
   constexpr int kDecimals = 4;
   return {fixed_text(value->mean, kDecimals) +
               (value->std ? " ± " + fixed_text(*value->std, kDecimals) : "") +
-              (value->unchecked ? kUncheckedMark : "") + (value->failed_runs > 0 ? kFailedMark : ""),
+              (value->failed_runs > 0 ? kFailedMark : ""),
           {},
           best};
 }
 
-/// Footnotes that explain the marks in the table.
-std::string footnotes(const std::string& table) {
-  std::string text;
-  if (table.find(kUncheckedMark) != std::string::npos)
-    text += "\n† quoted from memory and not checked against the source.\n";
-  if (table.find(kFailedMark) != std::string::npos)
-    text += "\n‡ some runs failed; the mean is over the successful runs.\n";
-  return text;
+/// Footnote that explains the mark in the table; empty without a mark.
+std::string footnote(const std::string& table) {
+  if (table.find(kFailedMark) == std::string::npos) return {};
+  return "\n‡ some runs failed; the mean is over the successful runs.\n";
 }
 
 }  // namespace
@@ -118,7 +113,7 @@ std::string comparison_table(const Comparison& comparison) {
     for (std::size_t i = 0; i < row.values.size(); ++i) cells.push_back(cell_of(row.values[i], row.best[i]));
   }
   const std::string text = table.markdown();
-  return text + footnotes(text);
+  return text + footnote(text);
 }
 
 std::string comparison_plot(const Comparison& comparison, const std::string& log) {

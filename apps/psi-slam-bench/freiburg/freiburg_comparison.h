@@ -17,7 +17,6 @@ namespace psi_slam {
 struct PublishedFigure {
   double mean = 0;
   std::optional<double> std;
-  bool unchecked = false;       ///< quoted from memory and not checked against the source
   std::size_t failed_runs = 0;  ///< failed runs of psi-slam, which the mean leaves out
 };
 
@@ -69,8 +68,8 @@ struct Comparison {
 /// was not run. Rows are the logs of the Freiburg benchmark, then all other mapped logs.
 Comparison compare_with_others(const FreiburgBenchmark& benchmark);
 
-/// Markdown table with the best figure of each row in bold. Footnotes explain two marks: figures of psi-slam
-/// with failed runs, and unchecked published figures.
+/// Markdown table with the best figure of each row in bold. A footnote explains the mark of figures of
+/// psi-slam with failed runs.
 std::string comparison_table(const Comparison& comparison);
 
 /// Bars of the mean translational error on the log with this title ("Intel"), as SVG. Empty without figures

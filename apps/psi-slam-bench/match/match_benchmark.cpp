@@ -184,6 +184,7 @@ void MatchTally::add(const LoopCase& loop_case, const Judgement& judgement, cons
   successes_ += judgement.success ? 1 : 0;
   same_optima_ += judgement.same_optimum ? 1 : 0;
   false_accepts_ += judgement.false_accept ? 1 : 0;
+  ++searches_[static_cast<std::size_t>(match.search)];
   evaluations_ += match.evaluations;
   genetic_.decoded += match.genetic.decoded;
   genetic_.repaired += match.genetic.repaired;
@@ -195,6 +196,7 @@ MatchFigures MatchTally::figures() const {
   figures.cases = times_ms_.size();
   figures.positive = positive_;
   figures.negative = negative_;
+  figures.searches = searches_;
   figures.success_rate = share(successes_, positive_);
   figures.same_optimum_rate = share(same_optima_, positive_);
   figures.false_accept_rate = share(false_accepts_, negative_);

@@ -3,6 +3,7 @@
 // one step switched off. Runs every candidate on every case.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -48,7 +49,9 @@ struct MatchFigures {
   std::optional<double> success_rate;       ///< share of the positive cases; empty without positive cases
   std::optional<double> same_optimum_rate;  ///< share of the positive cases; empty without positive cases
   std::optional<double> false_accept_rate;  ///< share of the negative cases; empty without negative cases
-  double evaluations = 0;                   ///< mean number of scored poses
+  /// Number of cases by the search that the matcher ran, in the order of kSearchKinds.
+  std::array<std::size_t, kSearchKinds.size()> searches{};
+  double evaluations = 0;  ///< mean number of scored poses
   TimeFigures time_ms;
   /// Share of the decoded chromosomes that lay outside the window; empty for matchers without chromosomes.
   std::optional<double> repaired_share;
@@ -68,6 +71,7 @@ class MatchTally {
   std::size_t successes_ = 0;
   std::size_t same_optima_ = 0;
   std::size_t false_accepts_ = 0;
+  std::array<std::size_t, kSearchKinds.size()> searches_{};
   std::int64_t evaluations_ = 0;
   GeneticEffort genetic_;
   std::vector<double> times_ms_;

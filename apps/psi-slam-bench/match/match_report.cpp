@@ -6,6 +6,7 @@
 #include "base/number_text.h"
 #include "batch/kept_run.h"
 #include "common/log_plots.h"
+#include "common/search_shares.h"
 
 namespace psi_slam {
 namespace {
@@ -72,7 +73,9 @@ ReportTable table_of_series(const std::vector<MatchSeries>& all_series, const st
        time("p50 ms", "time_ms.p50", &TimeFigures::p50),
        time("p95 ms", "time_ms.p95", &TimeFigures::p95),
        time("p99 ms", "time_ms.p99", &TimeFigures::p99),
-       share("repaired %", "repaired_share", &MatchFigures::repaired_share)},
+       share("repaired %", "repaired_share", &MatchFigures::repaired_share),
+       {{"search that ran", "searches", true},
+        [](const Row& row) { return searches_cell(row.figures.searches); }}},
       rows_of(all_series));
 }
 
@@ -173,6 +176,7 @@ std::string markdown_of(const MatchBenchmark& benchmark, const MatchBenchmarkOpt
       "with no match by either\n"
       "- false accepts: share of the negative cases (the scan was taken elsewhere) with a response that loop "
       "closing would accept before it verifies the match\n"
+      "- search that ran: matchers choose it by the size of the window; see matchers.md for the names\n"
       "- evaluations: mean number of poses scored, on all levels of the score grid; times are over all "
       "cases\n"
       "- repaired: share of the codes decoded to poses that lay outside the window\n"

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <ctime>
 #include <memory>
 #include <utility>
 
 #include "base/number_text.h"
+#include "common/measured_map.h"
 #include "exports/mapped_trajectory.h"
 #include "exports/unmatched_scans.h"
 #include "psi_slam/grid_map.h"
@@ -22,35 +21,6 @@ namespace {
 constexpr std::array<const char*, 2> kEveryNthLogs = {"fr079", "mit-csail"};
 constexpr std::array<std::size_t, 2> kEveryNth = {3, 5};
 constexpr int kPictureSide_px = 1200;
-
-/// Processor time of this process, in seconds.
-double cpu_s() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
-/// A map with the time that mapping took.
-struct MeasuredMap {
-  MappingResult result;
-  std::vector<double> add_ms;  ///< processor time of Mapper::add for each frame
-  double wall_s = 0;
-  double cpu_s = 0;
-};
-
-MeasuredMap map_measured(FrameSource& source, const Settings& settings) {
-  MeasuredMap map;
-  const auto begin = std::chrono::steady_clock::now();
-  const double cpu_begin_s = cpu_s();
-  Mapper mapper(mapper_options(settings));
-  while (std::optional<Frame> frame = source.next()) {
-    const double before_s = cpu_s();
-    mapper.add(*std::move(frame));
-    map.add_ms.push_back(1e3 * (cpu_s() - before_s));
-  }
-  map.result = mapper.finish();
-  map.cpu_s = cpu_s() - cpu_begin_s;
-  map.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return map;
-}
 
 /// Figures of a mapped log. `path` holds the poses to evaluate.
 SparseRow row_of(const BenchmarkLog& log, const Settings& settings, const MeasuredMap& map,
@@ -132,7 +102,8 @@ class Benchmark {
     for (const std::uint64_t seed : options_.seeds.all()) {
       show(log.name + ", " + kept);
       const Settings settings = sparse_settings(log, options_, seed, every_nth);
-      const MeasuredMap map = map_measured(*open_log(log.log, log_options(settings)), settings);
+      const MeasuredMap map =
+          map_measured(*open_log(log.log, log_options(settings)), mapper_options(settings));
       SparseRow row = row_of(log, settings, map, trajectory_of(map.result.frames));
       row.kept = kept;
       benchmark_.rows.push_back(std::move(row));
@@ -173,7 +144,7 @@ Settings sparse_settings(const BenchmarkLog& log, const SparseOptions& options, 
 
 SparseRow run_thinned(const BenchmarkLog& log, const Settings& settings, const ThinningStep& step) {
   StepThinnedSource source(open_log(log.log, log_options(settings)), step);
-  const MeasuredMap map = map_measured(source, settings);
+  const MeasuredMap map = map_measured(source, mapper_options(settings));
   SparseRow row = row_of(log, settings, map, put_poses_back(source.scans(), mapped_poses(map.result)));
   row.kept = step_text(step);
   return row;

@@ -73,8 +73,9 @@ struct LoopRecord {
   std::size_t node = 0;       ///< number of the node in the pose graph
   std::size_t local_map = 0;  ///< number of the matched local map
   std::size_t anchor = 0;     ///< anchor node of the local map; the constraint leads from anchor to node
-  MatcherKind matcher = MatcherKind::kCsm;  ///< matcher that searched the window
-  bool in_final_search = false;             ///< whether the final loop search found this match
+  MatcherKind matcher = MatcherKind::kCsm;      ///< matcher chosen for the window, by Psi or by a setting
+  SearchKind search = SearchKind::kExhaustive;  ///< search that the matcher ran in the window
+  bool in_final_search = false;                 ///< whether the final loop search found this match
 
   mrpt::math::TPose2D anchor_T_predicted;  ///< predicted pose of the node: centre of the search window
   mrpt::math::TPose2D anchor_T_node;       ///< matched pose of the node
@@ -95,19 +96,44 @@ struct LoopRecord {
   bool by_hand = false;  ///< whether a person deleted, forced or matched the loop, see LoopEdit
 };
 
-/// Cost of searching for loops, successful or not.
-struct LoopEffort {
+/// Returns the chosen matcher and the search that it ran: "csm_ga (local)".
+std::string searched_by(const LoopRecord& loop);
+
+/// Cost of a number of searches.
+struct SearchCost {
   std::size_t attempts = 0;      ///< number of windows searched
   std::size_t found = 0;         ///< windows in which a match was found
   std::int64_t evaluations = 0;  ///< number of poses scored
   double milliseconds = 0;       ///< time of matching without verification, summed over the attempts
 
   /// Adds the cost of further searches.
-  LoopEffort& operator+=(const LoopEffort& other) {
+  SearchCost& operator+=(const SearchCost& other) {
     attempts += other.attempts;
     found += other.found;
     evaluations += other.evaluations;
     milliseconds += other.milliseconds;
+    return *this;
+  }
+};
+
+/// Cost of searching for loops, successful or not.
+struct LoopEffort : SearchCost {
+  /// The same cost, split by the search that ran, in the order of kSearchKinds.
+  std::array<SearchCost, kSearchKinds.size()> by_search{};
+
+  /// Cost of the searches of one kind.
+  const SearchCost& of(SearchKind search) const { return by_search[static_cast<std::size_t>(search)]; }
+
+  /// Adds searches of one kind.
+  void add(SearchKind search, const SearchCost& cost) {
+    SearchCost::operator+=(cost);
+    by_search[static_cast<std::size_t>(search)] += cost;
+  }
+
+  /// Adds the cost of further searches.
+  LoopEffort& operator+=(const LoopEffort& other) {
+    SearchCost::operator+=(other);
+    for (std::size_t i = 0; i < by_search.size(); ++i) by_search[i] += other.by_search[i];
     return *this;
   }
 };

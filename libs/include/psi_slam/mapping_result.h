@@ -5,6 +5,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -39,18 +40,23 @@ struct FrameRecord {
 
   ScanMatch match = ScanMatch::kNoMap;  ///< whether the scan was matched with a local map
 
-  double response = 0;    ///< response of the front end's match, in [0, 1]; 0 without a match
-  SearchExtent window;    ///< half-widths of the front end's search window
-  double psi = 0;         ///< factor Psi (equation 13), computed before the loops of this frame
-  double eta = 0;         ///< factor eta (equation 14)
-  double mean_loops = 0;  ///< mean of C_i (see loops_accepted) over the last frames, equation 13
-  int loops_tried = 0;    ///< number of local maps matched with this frame to close loops
+  double response = 0;  ///< response of the front end's match, in [0, 1]; 0 without a match
+  SearchExtent window;  ///< half-widths of the front end's search window
+  double psi = 0;       ///< factor Psi (equation 13), computed before the loops of this frame
+  double eta = 0;       ///< factor eta (equation 14)
+  /// Mean of C_i (see loops_accepted) over the last nodes that searched for loops, equation 13.
+  double mean_loops = 0;
+  int loops_tried = 0;  ///< number of local maps matched with this frame to close loops
   /// C_i of equation 13: number of loops that became constraints at this frame. Includes pending loops of
   /// earlier frames that this frame confirmed, and loops that are switched off later.
   int loops_accepted = 0;
-  std::optional<MatcherKind> matcher;  ///< matcher for the loops of this frame; empty without loop search
-  std::int64_t loop_evaluations = 0;   ///< number of poses scored to close loops
-  std::int64_t evaluations = 0;        ///< number of poses scored by loop closing and the front end
+  bool searched_loops = false;  ///< whether this frame searched for loops, possibly without candidates
+  /// Matcher that Psi or a setting chose for the loops of this frame; empty if it is no node.
+  std::optional<MatcherKind> matcher;
+  /// Number of searches that the matcher ran for the loops of this frame, in the order of kSearchKinds.
+  std::array<int, kSearchKinds.size()> searches{};
+  std::int64_t loop_evaluations = 0;  ///< number of poses scored to close loops
+  std::int64_t evaluations = 0;       ///< number of poses scored by loop closing and the front end
 
   double front_end_ms = 0;      ///< time of matching and of insertion into the local maps
   double loop_matching_ms = 0;  ///< time of loop matching, summed over matches that may run in parallel
@@ -64,6 +70,8 @@ struct LoopMatcherRecord {
   LoopEffort final_search_effort;            ///< part of `effort` spent in the final search
   std::size_t accepted = 0;                  ///< accepted loops in the finished graph
   std::size_t accepted_in_final_search = 0;  ///< part of `accepted` found in the final search
+  /// `accepted` by the search that found the loop, in the order of kSearchKinds.
+  std::array<std::size_t, kSearchKinds.size()> accepted_by_search{};
 };
 
 /// Node numbers of one local map.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/file_checksum.h"
+#include "doctor/gyroscope_check.h"
 #include "doctor/quick_check.h"
 #include "exports/interruptions.h"
 #include "exports/unmatched_scans.h"
@@ -214,9 +215,12 @@ std::optional<Frame> MappingSession::Members::read() {
 void MappingSession::Members::check_log() {
   if (std::exchange(scans_checked, result.log.size()) == result.log.size()) return;
   faults.clear();
-  for (const FrameSpan& of_log : logs_of(result))
-    for (std::string& fault : quick_check(result.log, of_log.begin, of_log.end, log_options(settings)))
+  for (const FrameSpan& of_log : logs_of(result)) {
+    std::vector<std::string> found = quick_check(result.log, of_log.begin, of_log.end, log_options(settings));
+    if (auto rejected = rejected_gyroscope(result, of_log)) found.push_back(*std::move(rejected));
+    for (std::string& fault : found)
       if (std::find(faults.begin(), faults.end(), fault) == faults.end()) faults.push_back(std::move(fault));
+  }
 }
 
 void MappingSession::finish() {

@@ -275,22 +275,29 @@ void compare_distances(const std::vector<Distances>& rows,
   }
 }
 
-SweepDirectionStudy LaserSamples::study() const {
+SweepDirectionStudy study_of(const std::vector<Distances>& rows) {
   SweepDirectionStudy study;
-  study.scans = scans_;
-  study.stated_sweep_time_s = stated_sweep_time_s_;
+  study.pairs = rows.size();
+  if (!rows.empty()) compare_distances(rows, {&study.forward, &study.backward, &study.at_once});
+  return study;
+}
+
+/// Compares pairs of scans, those with the largest bends first, until they determine the direction.
+SweepDirectionStudy LaserSamples::study() const {
   std::vector<Distances> rows;
+  double bends_rad = 0;
   for (const Candidate& pair : candidates()) {
     double bend_rad = 0;
     const auto row = distances_m(pair, bend_rad);
     if (!row) continue;
-    study.mean_bend_rad += bend_rad;
+    bends_rad += bend_rad;
     rows.push_back(*row);
+    if (rows.size() % kFewestPairs == 0 && study_of(rows).direction() != SweepDirection::kAuto) break;
   }
-  study.pairs = rows.size();
-  if (rows.empty()) return study;
-  study.mean_bend_rad /= static_cast<double>(rows.size());
-  compare_distances(rows, {&study.forward, &study.backward, &study.at_once});
+  SweepDirectionStudy study = study_of(rows);
+  study.scans = scans_;
+  study.stated_sweep_time_s = stated_sweep_time_s_;
+  if (!rows.empty()) study.mean_bend_rad = bends_rad / static_cast<double>(rows.size());
   return study;
 }
 

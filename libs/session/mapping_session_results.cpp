@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a mapping session leaves behind: the exported map and the session file.
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "base/file_checksum.h"

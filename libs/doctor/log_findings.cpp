@@ -87,10 +87,7 @@ class Judge {
     if (jumps.empty()) return;
     const ClockJump& first = jumps.front();
     std::string sentence = "the clock jumps by " + fixed(first.jump_s, 1) + " s, " + moment(first.frame - 1);
-    if (jumps.size() > 1)
-      sentence += ", and at " + counted(jumps.size() - 1, "later scan");
-    else if (first.jump_s > 0)
-      sentence += ", although the robot moves on as before and after";
+    if (jumps.size() > 1) sentence += ", and at " + counted(jumps.size() - 1, "later scan");
     warn("clock_jumps", sentence,
          "correct the time stamps of the log, or record it again with a clock that is not set meanwhile");
   }

@@ -139,15 +139,15 @@ TEST(ScanAlignment, of_full_circles_matches_points_across_their_ends) {
   run.bearings_rad = make_bearings_rad(BeamAngles::kLeftOpen, 360, 2 * M_PI);
   const TPose2D motion{0, 0, DEG2RAD(4.0)};
   run.truth = {{2.5, 2, 0.3}, TPose2D{2.5, 2, 0.3} + motion};
-  // Walls just beside the seam in each scan; nothing else.
-  const auto behind = [&](std::size_t i) {
+  // Walls just beside the seam only.
+  const auto behind = [&](std::size_t i, std::size_t beams_on_each_side) {
     LaserScan scan = run.scan(i);
-    for (std::size_t beam = 30; beam < 330; ++beam)
+    for (std::size_t beam = beams_on_each_side; beam < 360 - beams_on_each_side; ++beam)
       scan.ranges_m[beam] = std::numeric_limits<float>::quiet_NaN();
     return AlignableScan(scan, 30, 400);
   };
-  const ScanAlignment alignment = align_scans(behind(0), behind(1), motion);
-  EXPECT_EQ(alignment.matched_share, 1);
+  const ScanAlignment alignment = align_scans(behind(0, 30), behind(1, 20), motion);
+  EXPECT_GT(alignment.matched_share, 0.95);
   EXPECT_LT(alignment.cost_m, 0.03);
 }
 

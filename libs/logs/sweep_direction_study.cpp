@@ -41,6 +41,10 @@ constexpr double kStill_m = 1e-3;
 constexpr double kStill_rad = 1e-3;
 constexpr std::size_t kStillStepsKept = 3;
 
+// Scans without odometry are aligned one after the other for guesses only, which need fewer points.
+constexpr double kFarthest_m = 30.0;
+constexpr std::size_t kPointsForGuess = 100;
+
 constexpr double kBentCost_m = 0.08;  // largest cost of a reliable alignment of scans as recorded
 
 // An order is ruled out if its distances to walls exceed those of the best order by both limits.
@@ -122,8 +126,8 @@ class LaserSamples {
   }
 
   bool align_to(const Sample& last, Sample& sample) {
-    const AlignableScan reference(last.scan);
-    const AlignableScan scan(sample.scan);
+    const AlignableScan reference(last.scan, kFarthest_m, kPointsForGuess);
+    const AlignableScan scan(sample.scan, kFarthest_m, kPointsForGuess);
     ScanAlignment alignment = align_scans(reference, scan, last_step_);
     if (!alignment.is_reliable(kBentCost_m)) {
       std::vector<TPose2D> guesses;

@@ -10,10 +10,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/number_text.h"
 #include "icons.h"
 #include "main_menu.h"
 #include "progress_line.h"
-#include "report/html_text.h"
 
 namespace psi_slam {
 namespace {

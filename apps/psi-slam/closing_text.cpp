@@ -7,7 +7,6 @@
 #include <system_error>
 
 #include "base/number_text.h"
-#include "report/html_text.h"
 
 namespace psi_slam {
 std::string closing_text(const RunSummary& summary, const std::string& log_name, const OutputFolder& folder) {

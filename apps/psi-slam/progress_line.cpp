@@ -5,7 +5,7 @@
 
 #include <ostream>
 
-#include "report/html_text.h"
+#include "base/number_text.h"
 
 namespace psi_slam {
 namespace {

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "base/degrees.h"
@@ -82,6 +83,14 @@ std::string trimmed_text(double value, int max_decimals) {
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text == "-0" ? "0" : text;
+}
+
+std::string minutes_text(double duration_s) {
+  const auto whole = static_cast<std::int64_t>(std::llround(duration_s));
+  const auto two = [](std::int64_t value) { return (value < 10 ? "0" : "") + std::to_string(value); };
+  return (whole < 3600 ? std::to_string(whole / 60)
+                       : std::to_string(whole / 3600) + ':' + two(whole / 60 % 60)) +
+         ':' + two(whole % 60);
 }
 
 std::string counted(std::size_t count, const std::string& noun) {

@@ -36,6 +36,9 @@ std::string exact_degrees_text(double radians);
 /// == "0.5".
 std::string trimmed_text(double value, int max_decimals);
 
+/// Returns a duration as minutes and seconds, from one hour on with hours: "0:07", "12:30", "1:02:03".
+std::string minutes_text(double duration_s);
+
 /// Returns a count and its noun: "1 loop", "3 loops".
 std::string counted(std::size_t count, const std::string& noun);
 

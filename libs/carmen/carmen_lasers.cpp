@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "base/text_parts.h"
@@ -69,6 +67,11 @@ std::optional<CarmenLaserMessage> readable_laser(CarmenFields& fields) {
   }
 }
 
+void set_mount_by_robotlaser(const std::filesystem::path& path, CarmenLaser& laser) {
+  if (!starts_with(laser.message_name(), "ROBOTLASER")) return;
+  if (const auto mount = mount_by_robotlaser(path, laser.message_name())) laser.set_mount_by_poses(*mount);
+}
+
 /// Names of the messages that may hold the scans of each chosen laser. "all" stands for the front laser, the
 /// rear laser, RAWLASER3 and RAWLASER4. A laser with several kinds of messages is thus read once.
 std::vector<std::vector<std::string>> messages_wanted(const LaserChoice& choice) {
@@ -81,6 +84,24 @@ std::vector<std::vector<std::string>> messages_wanted(const LaserChoice& choice)
   if (choice.names.empty()) return {carmen_laser_messages("")};
   for (const std::string& name : choice.names) wanted.push_back(carmen_laser_messages(name));
   return wanted;
+}
+
+/// Pose of a laser on the robot, if the user or the first lines of the log state it.
+std::optional<TPose2D> stated_mount(const std::filesystem::path& path, const std::string& message,
+                                    const LogOptions& options) {
+  CarmenLaser laser(message, options);
+  set_mount_by_robotlaser(path, laser);
+  LineReader lines(path);
+  std::string_view line;
+  for (std::size_t i = 0; i < kLinesOfHead && lines.next_readable(line); ++i) {
+    CarmenFields fields(line, lines);
+    if (fields.message() != "PARAM") continue;
+    try {
+      laser.take_parameter(fields);
+    } catch (const MalformedLine&) {  // the reader reports this line later
+    }
+  }
+  return laser.stated_mount();
 }
 
 }  // namespace
@@ -136,8 +157,9 @@ bool CarmenLaser::has_mount_parameters() const {
   return offset_m_ || side_offset_m_ || angular_offset_rad_;
 }
 
-bool CarmenLaser::knows_mount() const {
-  return options_.robot_T_laser || has_mount_parameters() || mount_by_poses_;
+std::optional<TPose2D> CarmenLaser::stated_mount() const {
+  if (options_.robot_T_laser || has_mount_parameters() || mount_by_poses_) return robot_T_laser();
+  return std::nullopt;
 }
 
 TPose2D CarmenLaser::robot_T_laser() const {
@@ -247,10 +269,12 @@ double max_range_by_readings_m(const std::filesystem::path& path, std::string_vi
 CarmenLasers::CarmenLasers(const std::filesystem::path& path, const LogOptions& options)
     : path_(path), options_(options) {
   const LaserChoice choice = laser_choice("log.laser", options.laser);
-  for (auto& candidates : messages_wanted(choice)) slots_.push_back({std::move(candidates), {}});
   for (const StatedMount& mount : stated_mounts(options))
     carmen_laser_messages(mount.name, "log.laser_mounts");
   Messages found = messages_in(path, kLinesOfHead);
+  const bool states_none = !choice.all && choice.names.empty() && !options.robot_T_laser;
+  for (auto& candidates : states_none ? usual_candidates(found) : messages_wanted(choice))
+    slots_.push_back({std::move(candidates), {}});
   const auto is_missing = [&](const Slot& slot) { return first_of(slot.candidates, found).empty(); };
   const bool names_several = choice.names.size() > 1;
   if (names_several && std::any_of(slots_.begin(), slots_.end(), is_missing))
@@ -260,11 +284,40 @@ CarmenLasers::CarmenLasers(const std::filesystem::path& path, const LogOptions& 
   if (names_several) require_all(choice);
 }
 
+/// Chooses lasers by the messages in the first lines of the log, for a user who selects none.
+CarmenLasers::Candidates CarmenLasers::usual_candidates(const Messages& found) {
+  std::vector<std::string> chosen;
+  std::vector<std::string> left_out;
+  std::vector<std::optional<TPose2D>> mounts;  // of the chosen lasers
+  for (const auto& candidates : messages_wanted(LaserChoice{true, {}})) {
+    const std::string message = first_of(candidates, found);
+    if (message.empty()) continue;
+    const auto mount = stated_mount(path_, message, options_);
+    const bool can_join = mount && std::all_of(mounts.begin(), mounts.end(), [&](const auto& other) {
+                            return other && !same_mount(*mount, *other);
+                          });
+    if (chosen.empty() || can_join) {
+      chosen.push_back(message);
+      mounts.push_back(mount);
+    } else {
+      left_out.push_back(message);
+    }
+  }
+  assumption_ = choice_of_lasers(chosen, left_out);
+  if (chosen.size() < 2) return {carmen_laser_messages("")};
+  Candidates wanted;
+  for (const std::string& message : chosen) wanted.push_back({message});
+  return wanted;
+}
+
+std::string CarmenLasers::first_message() const {
+  return slots_.front().laser ? slots_.front().laser->laser.message_name() : "";
+}
+
 void CarmenLasers::choose(Slot& slot, const std::string& message) {
   const auto number = static_cast<std::size_t>(&slot - slots_.data());
   slot.laser = Laser{CarmenLaser(message, options_), number, parameters_.size(), false};
-  if (starts_with(message, "ROBOTLASER"))
-    if (const auto mount = mount_by_robotlaser(path_, message)) slot.laser->laser.set_mount_by_poses(*mount);
+  set_mount_by_robotlaser(path_, slot.laser->laser);
   if (!options_.max_range_m) slot.laser->laser.set_max_range(max_range_by_readings_m(path_, message));
 }
 

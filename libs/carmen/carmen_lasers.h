@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -47,8 +49,8 @@ class CarmenLaser {
   const std::string& message_name() const { return message_name_; }
   const std::string& position() const { return position_; }  ///< "front", "rear", or empty for others
 
-  /// Returns whether the user or the log states the pose of the laser on the robot.
-  bool knows_mount() const;
+  /// Returns the pose of the laser on the robot if the user or the log states it.
+  std::optional<mrpt::math::TPose2D> stated_mount() const;
 
   /// Reads name and value of a PARAM line; `fields` begin after the word "PARAM". Ignores parameters that do
   /// not describe this laser. Throws MalformedLine for an invalid value, and then changes nothing.
@@ -88,6 +90,9 @@ class CarmenLaser {
 /// Lasers of a log that are read. If several kinds of messages can hold the scans of a laser, the first 500
 /// lines of the log decide. If these lines contain none of the messages, the first such message to appear
 /// decides.
+///
+/// If the user selects no laser, the first 500 lines decide also how many lasers are read: all of them whose
+/// mounts are stated and differ, or one laser if the mount of the preferred laser is not stated.
 class CarmenLasers {
  public:
   struct Laser {
@@ -122,12 +127,21 @@ class CarmenLasers {
   /// Names of all messages that may hold scans of the selected lasers, in order of preference.
   std::vector<std::string> candidates() const;
 
+  /// Says which lasers were selected, if the user selects none and the log has several; otherwise empty.
+  const std::string& assumption() const { return assumption_; }
+
+  /// Name of the messages of the preferred laser; empty if its scans have not appeared.
+  std::string first_message() const;
+
  private:
   struct Slot {
     std::vector<std::string> candidates;
     std::optional<Laser> laser;
   };
 
+  using Candidates = std::vector<std::vector<std::string>>;  // for each laser
+
+  Candidates usual_candidates(const std::set<std::string, std::less<>>& found);
   void choose(Slot& slot, const std::string& message);
   void require_all(const LaserChoice& choice) const;
 
@@ -135,6 +149,7 @@ class CarmenLasers {
   LogOptions options_;
   std::vector<Slot> slots_;
   std::deque<std::string> parameters_;
+  std::string assumption_;
 };
 
 }  // namespace psi_slam

@@ -3,8 +3,9 @@
 //
 // The scans of a laser come from one kind of message. By default the front laser is read: ROBOTLASER1, else
 // FLASER, else RAWLASER1, depending on the first 500 lines of the log. If these lines have none of the three,
-// the rear laser is read (ROBOTLASER2, RLASER, RAWLASER2), else RAWLASER3 or RAWLASER4. The reader counts all
-// messages, and ignores the scans of other lasers.
+// the rear laser is read (ROBOTLASER2, RLASER, RAWLASER2), else RAWLASER3 or RAWLASER4. If the log states
+// different mounts of this laser and of others, these are read, too. The reader counts all messages, and
+// ignores the scans of other lasers.
 //
 // A scan line states the odometry at the time of the scan, except RAWLASER lines: their odometry is
 // interpolated between ODOM lines. Without ODOM lines among the first 1000 scans, RAWLASER scans have no
@@ -34,6 +35,9 @@ class CarmenReader : public LogReader {
   CarmenReader(const std::filesystem::path& path, const LogOptions& options)
       : lasers_(path, options), lines_(path), with_odometry_(!ignores_odometry(options)) {
     if (!with_odometry_) interpolator_.expect_no_odometry();
+    contents_.several_lasers = lasers_.several();
+    if (lasers_.several()) contents_.first_laser = lasers_.first_message();
+    if (!lasers_.assumption().empty()) contents_.assumptions.push_back(lasers_.assumption());
   }
 
   double progress() const override { return lines_.progress(); }
@@ -63,7 +67,7 @@ class CarmenReader : public LogReader {
     if (lines == nullptr) {
       lines = &contents_.messages[std::string(message)];
       contents_.laser += (contents_.laser.empty() ? "" : ", ") + std::string(message);
-      contents_.states_beam_angles = contents_.laser != "FLASER" && contents_.laser != "RLASER";
+      if (message == "FLASER" || message == "RLASER") contents_.states_beam_angles = false;
     }
     ++*lines;
   }
@@ -151,7 +155,7 @@ class CarmenReader : public LogReader {
         skip(error);
       }
     }
-    if (lasers_.several() && !laser.laser.knows_mount()) fail_without_mount(laser.laser);
+    if (lasers_.several() && !laser.laser.stated_mount()) fail_without_mount(laser.laser);
   }
 
   void end_of_log() {

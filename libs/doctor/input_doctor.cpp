@@ -59,14 +59,15 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
 /// Selects the first laser, since only scans of one laser are compared with each other.
 LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions options) {
   const LogFormat format = detect_log_format(path);
-  const bool selects_several = reads_several_lasers(options, format);
+  reads_several_lasers(options, format);  // rejects a mount of one laser for several
   if (is_bag(format)) {
     options.scan_topic = plan_bag(path, options).scan_topics.front();
-  } else if (selects_several) {
-    options.scan_topic.clear();  // the option applies to bags only
-    const LaserChoice choice = laser_choice("log.laser", options.laser);
-    if (choice.several()) options.laser = choice.all ? "" : choice.names.front();
+    return options;
   }
+  const LaserChoice choice = laser_choice("log.laser", options.laser);
+  if (choice.several()) options.laser = choice.all ? "" : choice.names.front();
+  const std::string first_laser = open_log_reader(path, options)->contents().first_laser;
+  if (!first_laser.empty()) options.laser = first_laser;
   return options;
 }
 

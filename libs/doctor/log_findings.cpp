@@ -7,8 +7,10 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/number_text.h"
+#include "doctor/clock_jumps.h"
 #include "doctor/input_doctor.h"
 
 namespace psi_slam {
@@ -79,7 +81,19 @@ class Judge {
     for (const std::string& assumption : facts_.contents.assumptions) note("assumption", assumption);
   }
 
+  void judge_clock() {
+    const std::vector<ClockJump> jumps = clock_jumps(diagnosis_.marks, facts_.time.median_period_s,
+                                                     /*has_odometry=*/facts_.scans_without_odometry == 0);
+    if (jumps.empty()) return;
+    const ClockJump& first = jumps.front();
+    std::string sentence = "the clock jumps by " + fixed(first.jump_s, 1) + " s, " + moment(first.frame - 1);
+    if (jumps.size() > 1) sentence += ", and at " + counted(jumps.size() - 1, "later scan");
+    warn("clock_jumps", sentence,
+         "correct the time stamps of the log, or record it again with a clock that is not set meanwhile");
+  }
+
   void judge_time() {
+    judge_clock();
     const TimeFacts& time = facts_.time;
     if (time.backward_steps > 0) {
       note("time_backwards", "time runs backwards at " + counted(time.backward_steps, "scan") +

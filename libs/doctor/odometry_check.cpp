@@ -74,7 +74,8 @@ std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vect
     now = alignment.reference_T_scan;
     track.by_scans = now;
     track.by_odometry = odometry_between(marks, {frames.front(), frames[k]});
-    track.length_deviation_m = alignment.deviation_along_m(std::atan2(now.y, now.x));
+    const double laser_heading_rad = reference.robot_T_laser().phi;  // the covariance is in the laser's frame
+    track.length_deviation_m = alignment.deviation_along_m(std::atan2(now.y, now.x) - laser_heading_rad);
     track.steps.push_back({last_step.phi, wrapToPi(odometry_step.phi)});
     if (now.norm() > kTrackLength_m || std::abs(now.phi) > kTrackTurn_rad) break;
   }

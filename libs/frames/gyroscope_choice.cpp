@@ -19,7 +19,8 @@ GyroscopeChoice choose_gyroscope(const LogOptions& options, const std::vector<st
   const bool is_named = names_gyroscope(options);
   if (is_named && !contains(gyroscopes, options.imu))
     throw UserError("log.imu is \"" + options.imu + "\", expected " + expected + ": " +
-                    (gyroscopes.empty() ? "it has none" : quoted_list(gyroscopes)));
+                    (gyroscopes.empty() ? "it has none. Map without a gyroscope with log.imu=none"
+                                        : quoted_list(gyroscopes)));
   GyroscopeChoice choice;
   if (has_odometry) {
     if (is_named)

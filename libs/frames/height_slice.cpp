@@ -53,8 +53,8 @@ LaserScan scan_of_slice(const std::vector<mrpt::math::TPoint3Df>& points,
   const double yaw_rad = std::atan2(rotation(1, 0), rotation(0, 0));
   LaserScan scan;
   scan.robot_T_laser = options.robot_T_laser.value_or(mrpt::math::TPose2D(mount.x(), mount.y(), yaw_rad));
-  scan.max_range_m = static_cast<float>(options.max_range_m.value_or(kUnstatedMaxRange_m));
   scan.ranges_m.assign(kBeams, std::numeric_limits<float>::quiet_NaN());
+  limit_ranges(scan, options, /*stated_max_range_m=*/0);
   std::vector<float> bearings_rad = make_bearings_rad(BeamAngles::kCentredHalfStep, kBeams, 2 * M_PI);
   for (const mrpt::math::TPoint3Df& point : points) {
     double ahead[3];  // from the sensor to the point, along the axes of the robot

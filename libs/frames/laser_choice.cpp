@@ -111,6 +111,19 @@ std::vector<std::string> ChosenLasers::names() const {
   return names;
 }
 
+std::string choice_of_lasers(const std::vector<std::string>& combined,
+                             const std::vector<std::string>& left_out) {
+  std::string text;
+  if (combined.size() > 1)
+    text = "the scans of " + name_list(combined) + " are combined, because their mounts are stated";
+  if (!left_out.empty())
+    text += (text.empty() ? "" : ", and ") + ("the scans of " + name_list(left_out)) +
+            " are not used, because no fixed and level mount of their own is stated by which to combine them "
+            "with " +
+            combined.front() + ". State mounts with log.laser_mounts";
+  return text.empty() ? text : text + ". Select lasers with log.laser";
+}
+
 std::vector<StatedMount> stated_mounts(const LogOptions& options) {
   std::vector<StatedMount> mounts;
   if (trimmed(options.laser_mounts).empty()) return mounts;

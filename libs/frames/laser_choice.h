@@ -52,6 +52,11 @@ class ChosenLasers {
   std::map<std::string, std::size_t> numbers_;
 };
 
+/// Says which lasers of a log are combined and which are left out if the user selects none; the first of
+/// `combined` opens frames. Empty for a single laser.
+std::string choice_of_lasers(const std::vector<std::string>& combined,
+                             const std::vector<std::string>& left_out);
+
 /// Pose of one laser on the robot as the user states it.
 struct StatedMount {
   std::string name;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "frames/log_format.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/log_options.h"
 
@@ -30,6 +31,7 @@ struct LogContents {
   std::string laser;
   bool states_beam_angles = true;
   bool several_lasers = false;  ///< whether frames may be scans of several lasers
+  std::string first_laser;      ///< name of the first of several lasers; may be empty before its first scan
   SkippedLines skipped;
   std::vector<std::string> assumptions;             ///< see FrameSource::assumptions()
   std::map<std::string, std::size_t> messages;      ///< CARMEN: lines of each kind, ignored ones included
@@ -61,6 +63,10 @@ class LogReader : public FrameSource {
  private:
   std::size_t frames_given_ = 0;
 };
+
+/// Returns whether open_log() combines the scans of several lasers of a log with these contents. Throws
+/// UserError as reads_several_lasers() does.
+bool combines_lasers(const LogContents& contents, const LogOptions& options, LogFormat format);
 
 /// Opens a log of any format with the reader of its format. Each frame is a scan of one laser as recorded;
 /// `every_nth_scan`, `sweep_time_s` and `sweep_direction` do not apply. Throws UserError as open_log() does.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "frames/scan_neighbours.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -112,15 +113,32 @@ std::string text_of(const std::vector<BodySector>& sectors) {
 }
 
 BearingBins::BearingBins(const std::vector<float>& bearings_rad)
-    : first_rad_(static_cast<double>(bearings_rad.front())), step_rad_(1), size_(bearings_rad.size()) {
+    : first_rad_(static_cast<double>(bearings_rad.front())),
+      step_rad_(1),
+      size_(bearings_rad.size()),
+      is_full_circle_(is_full_circle(bearings_rad)) {
   const double span_rad = static_cast<double>(bearings_rad.back()) - first_rad_;
   if (span_rad != 0) step_rad_ = span_rad / static_cast<double>(size_ - 1);
 }
 
 std::optional<std::size_t> BearingBins::bin_of(float bearing_rad) const {
-  const long bin = std::lround((static_cast<double>(bearing_rad) - first_rad_) / step_rad_);
+  double steps = (static_cast<double>(bearing_rad) - first_rad_) / step_rad_;
+  const auto last = static_cast<double>(size_ - 1);
+  if (is_full_circle_ && (steps < 0 || steps > last)) {
+    const double round = 2 * M_PI / std::abs(step_rad_);
+    steps -= round * std::floor(steps / round);
+    if (steps > last) steps = steps - last < round - steps ? last : 0;  // between the last and the first bin
+  }
+  const long bin = std::lround(steps);
   if (bin < 0 || static_cast<std::size_t>(bin) >= size_) return std::nullopt;
   return static_cast<std::size_t>(bin);
+}
+
+std::vector<std::size_t> BearingBins::around(std::size_t bin) const {
+  std::vector<std::size_t> bins{bin};
+  if (bin > 0 || is_full_circle_) bins.push_back((bin + size_ - 1) % size_);
+  if (bin + 1 < size_ || is_full_circle_) bins.push_back((bin + 1) % size_);
+  return bins;
 }
 
 void OwnBodyMask::add_laser(std::size_t laser, const mrpt::math::TPose2D& robot_T_laser,
@@ -145,7 +163,7 @@ void OwnBodyMask::add_laser(std::size_t laser, const mrpt::math::TPose2D& robot_
     sector.farthest_m = std::max(sector.farthest_m, range_m);
     const auto from_m = static_cast<float>(range_m - kMaskedTolerances * tolerance_m(range_m));
     const auto to_m = static_cast<float>(range_m + kMaskedTolerances * tolerance_m(range_m));
-    for (std::size_t i = bin == 0 ? 0 : bin - 1; i < std::min(bin + 2, bins.size()); ++i) {
+    for (const std::size_t i : bins.around(bin)) {
       Band& band = bands[i];
       const bool is_empty = band.to_m < band.from_m;
       band = is_empty ? Band{from_m, to_m} : Band{std::min(band.from_m, from_m), std::max(band.to_m, to_m)};

@@ -56,10 +56,15 @@ class BearingBins {
   /// Returns the nearest bin; empty for a bearing outside the first scan.
   std::optional<std::size_t> bin_of(float bearing_rad) const;
 
+  /// Returns the bins beside a bin and the bin itself. In a full circle, the first and the last bin are side
+  /// by side.
+  std::vector<std::size_t> around(std::size_t bin) const;
+
  private:
   double first_rad_;
   double step_rad_;
   std::size_t size_;
+  bool is_full_circle_;
 };
 
 /// Bearings and ranges at which the lasers of a robot see the robot itself.

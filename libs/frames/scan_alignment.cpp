@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "frames/pose_operations.h"
+#include "frames/scan_neighbours.h"
 
 namespace psi_slam {
 namespace {
@@ -23,31 +24,32 @@ constexpr double kHuber_m = 0.03;
 constexpr double kLeastNoise_m = 0.01;  // least noise of ranges: a perfect fit keeps a realistic covariance
 constexpr double kDamping_m = 1e-4;  // damping per matched point; holds the guess in directions without walls
 constexpr std::size_t kFewestMatches = 20;
-constexpr std::size_t kNeighbours = 2;  // points on either side of a point that define the normal of its wall
+constexpr std::ptrdiff_t kNeighbours = 2;  // points on either side that define the normal of a point's wall
+constexpr double kLargestBlindSector_rad = 5 * M_PI / 180;  // behind a laser whose scans are full circles
 
 /// Returns whether two neighbouring beams hit one surface. The limit of the distance between their points is
 /// the distance on a surface whose normal is 75 degrees from the beams, plus 5 cm.
 bool on_one_surface(const Point& a, const Point& b) {
   const double range = std::min(a.position_m.norm(), b.position_m.norm());
-  const double spacing = range * std::abs(b.bearing_rad - a.bearing_rad);
+  const double spacing = range * std::abs(std::remainder(b.bearing_rad - a.bearing_rad, 2 * M_PI));
   return (a.position_m - b.position_m).norm() < 4 * spacing + 0.05;
 }
 
-Eigen::Vector2d normal_at(const std::vector<Point>& points, std::size_t i) {
-  std::size_t first = i;
-  while (first > 0 && i - first < kNeighbours && on_one_surface(points[first - 1], points[first])) --first;
-  std::size_t last = i;
-  while (last + 1 < points.size() && last - i < kNeighbours && on_one_surface(points[last], points[last + 1]))
-    ++last;
-  const auto count = static_cast<double>(last - first + 1);
+/// Normal of the wall at a point. `is_ring`: the last point and the first are neighbours.
+Eigen::Vector2d normal_at(const std::vector<Point>& points, std::size_t i, bool is_ring) {
+  const Neighbourhood near =
+      neighbourhood(i, points.size(), kNeighbours, is_ring,
+                    [&](std::size_t a, std::size_t b) { return on_one_surface(points[a], points[b]); });
+  const auto at = [&](std::ptrdiff_t k) -> const Point& { return points[index_on_ring(k, points.size())]; };
+  const auto count = static_cast<double>(near.count());
   if (count < 3) return Eigen::Vector2d::Zero();
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (std::size_t k = first; k <= last; ++k) mean += points[k].position_m / count;
+  for (std::ptrdiff_t k = near.first; k <= near.last; ++k) mean += at(k).position_m / count;
   double xx = 0;
   double xy = 0;
   double yy = 0;
-  for (std::size_t k = first; k <= last; ++k) {
-    const Eigen::Vector2d d = points[k].position_m - mean;
+  for (std::ptrdiff_t k = near.first; k <= near.last; ++k) {
+    const Eigen::Vector2d d = at(k).position_m - mean;
     xx += d.x() * d.x();
     xy += d.x() * d.y();
     yy += d.y() * d.y();
@@ -64,21 +66,36 @@ struct Match {
 
 /// Returns the nearest point of the reference within a radius. Returns null if there is no such point or if
 /// it has no normal. A point at range r is at least r sin(d) away from beams at an angle d, which limits the
-/// beams to search.
-const Point* nearest_wall(const std::vector<Point>& reference, const Eigen::Vector2d& p, double radius_m) {
+/// beams to search: first by the radius, then by the distance of the nearest point found.
+const Point* nearest_wall(const AlignableScan& reference, const Eigen::Vector2d& p, double radius_m) {
+  const std::vector<Point>& walls = reference.points();
+  const auto size = static_cast<std::ptrdiff_t>(walls.size());
   const double range = p.norm();
   const double bearing = std::atan2(p.y(), p.x());
-  const double reach = range > radius_m ? std::asin(radius_m / range) : M_PI;
-  const auto begins_before = [](const Point& point, double value) { return point.bearing_rad < value; };
-  auto candidate = std::lower_bound(reference.begin(), reference.end(), bearing - reach, begins_before);
+  const auto reach = [&](double distance_m) {
+    return distance_m < range ? std::asin(distance_m / range) : M_PI;
+  };
+  const auto comes_before = [](const Point& point, double value) { return point.bearing_rad < value; };
+  const auto start = std::lower_bound(walls.begin(), walls.end(), bearing, comes_before) - walls.begin();
   const Point* nearest = nullptr;
   double nearest_squared = radius_m * radius_m;
-  for (; candidate != reference.end() && candidate->bearing_rad <= bearing + reach; ++candidate) {
-    const double squared = (candidate->position_m - p).squaredNorm();
-    if (squared >= nearest_squared) continue;
+  double limit_rad = reach(radius_m);
+  // Compares with point `k`, which may be up to one round away. Returns false beyond the limit.
+  const auto compare_with = [&](std::ptrdiff_t k) {
+    const bool is_beyond_an_end = k < 0 || k >= size;
+    if (is_beyond_an_end && !reference.is_full_circle()) return false;
+    const Point& wall = walls[index_on_ring(k, walls.size())];
+    const double round = is_beyond_an_end ? (k < 0 ? -2 * M_PI : 2 * M_PI) : 0;
+    if (std::abs(wall.bearing_rad + round - bearing) > limit_rad) return false;
+    const double squared = (wall.position_m - p).squaredNorm();
+    if (squared >= nearest_squared) return true;
+    nearest = &wall;
     nearest_squared = squared;
-    nearest = &*candidate;
-  }
+    limit_rad = reach(std::sqrt(squared));
+    return true;
+  };
+  for (std::ptrdiff_t k = start; k < start + size && compare_with(k); ++k) continue;
+  for (std::ptrdiff_t k = start - 1; k >= start - size && compare_with(k); --k) continue;
   return nearest != nullptr && nearest->normal != Eigen::Vector2d::Zero() ? nearest : nullptr;
 }
 
@@ -99,9 +116,11 @@ Matching match_points(const AlignableScan& reference, const AlignableScan& scan,
     const Eigen::Vector2d p{reference_T_scan.x + c * point.position_m.x() - s * point.position_m.y(),
                             reference_T_scan.y + s * point.position_m.x() + c * point.position_m.y()};
     const double bearing = std::atan2(p.y(), p.x());
-    if (bearing < walls.front().bearing_rad || bearing > walls.back().bearing_rad) continue;
+    const bool is_visible = reference.is_full_circle() ||
+                            (bearing >= walls.front().bearing_rad && bearing <= walls.back().bearing_rad);
+    if (!is_visible) continue;
     ++matching.visible;
-    const Point* wall = nearest_wall(walls, p, radius_m);
+    const Point* wall = nearest_wall(reference, p, radius_m);
     if (wall != nullptr) matching.matches.push_back({p, wall->normal.dot(p - wall->position_m), wall});
   }
   return matching;
@@ -151,16 +170,21 @@ AlignableScan::AlignableScan(const LaserScan& scan, double max_range_m, std::siz
   const std::size_t beams = scan.ranges_m.size();
   const std::size_t step = std::max<std::size_t>(1, (beams + max_points - 1) / max_points);
   points_.reserve(beams / step + 1);
+  double least_rad = 0;
+  double most_rad = 0;
   for (std::size_t i = 0; i < beams; i += step) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    if (!(range <= max_range_m)) continue;  // also skips beams without return
     const double bearing = mrpt::math::wrapToPi(static_cast<double>((*scan.bearings_rad)[i]));
+    least_rad = std::min(least_rad, bearing);
+    most_rad = std::max(most_rad, bearing);
+    if (!(range <= max_range_m)) continue;  // also skips beams without return
     points_.push_back(
         {range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)), Eigen::Vector2d::Zero(), bearing});
   }
   std::sort(points_.begin(), points_.end(),
             [](const Point& a, const Point& b) { return a.bearing_rad < b.bearing_rad; });
-  for (std::size_t i = 0; i < points_.size(); ++i) points_[i].normal = normal_at(points_, i);
+  is_full_circle_ = least_rad + 2 * M_PI - most_rad <= kLargestBlindSector_rad;
+  for (std::size_t i = 0; i < points_.size(); ++i) points_[i].normal = normal_at(points_, i, is_full_circle_);
 }
 
 double ScanAlignment::deviation_along_m(double heading_rad) const {

@@ -30,9 +30,12 @@ class AlignableScan {
 
   const std::vector<Point>& points() const { return points_; }
   const mrpt::math::TPose2D& robot_T_laser() const { return robot_T_laser_; }
+  /// Returns whether beams point in all directions. The first point and the last are then neighbours.
+  bool is_full_circle() const { return is_full_circle_; }
 
  private:
   std::vector<Point> points_;
+  bool is_full_circle_ = false;
   mrpt::math::TPose2D robot_T_laser_;
 };
 

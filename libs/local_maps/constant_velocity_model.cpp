@@ -64,13 +64,13 @@ void ConstantVelocityModel::learn_gyroscope(double passed_s, const Place& here) 
 }
 
 void ConstantVelocityModel::moved(TimeUs time_us, const TPose2D& local_T_robot, bool matched,
-                                  std::optional<double> imu_heading_rad) {
+                                  std::optional<double> imu_heading_rad, bool in_mid_sweep) {
   const double passed_s = this->passed_s(time_us);
   update_clock(time_us);
-  const Place here{clock_s_, local_T_robot, matched || !last_, imu_heading_rad};
+  const Place here{clock_s_, local_T_robot, matched || !last_, imu_heading_rad, in_mid_sweep};
   learn_gyroscope(passed_s, here);
   if (here.matched) {
-    if (last_matched_) {
+    if (last_matched_ && last_matched_->in_mid_sweep == in_mid_sweep) {
       const double matched_s = clock_s_ - last_matched_->clock_s;
       TPose2D motion = local_T_robot - last_matched_->local_T_robot;
       motion.phi = mrpt::math::wrapToPi(motion.phi);

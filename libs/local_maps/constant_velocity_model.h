@@ -38,9 +38,10 @@ class ConstantVelocityModel {
 
   /// Adds the pose of a scan, in any fixed frame. If `matched` is false, the pose is only a prediction and
   /// does not change the speed. The first pose always counts as matched. `imu_heading_rad` is the heading of
-  /// the scan by a gyroscope, see Frame::imu_heading_rad.
+  /// the scan by a gyroscope, see Frame::imu_heading_rad. `in_mid_sweep` says that the pose is that in the
+  /// middle of the sweep: speeds are measured between poses of one kind only.
   void moved(TimeUs time_us, const mrpt::math::TPose2D& local_T_robot, bool matched,
-             std::optional<double> imu_heading_rad = std::nullopt);
+             std::optional<double> imu_heading_rad = std::nullopt, bool in_mid_sweep = false);
 
   /// Returns whether scans are missing before the scan at `time_us`: whether the time since the last pose is
   /// at least 2 s and ten times as long as usual. False if time stamps are unreliable.
@@ -65,6 +66,7 @@ class ConstantVelocityModel {
     mrpt::math::TPose2D local_T_robot;
     bool matched = true;
     std::optional<double> imu_heading_rad;
+    bool in_mid_sweep = false;
   };
 
   PredictedMotion predict_steady(TimeUs time_us) const;

@@ -111,7 +111,8 @@ FrontEndStep FrontEnd::add(const Frame& frame, bool may_be_lost) {
   last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}, frame.has_odometry};
   // A wrong prediction bends a scan about the middle of its sweep, where the match is therefore right. Speeds
   // from the poses at the beginnings of sweeps would amplify the errors of predictions.
-  constant_velocity_.moved(frame.time_us, local_T_middle, step.matched, frame.imu_heading_rad);
+  const bool in_mid_sweep = !frame.has_odometry && frame.scan.sweep_time_s != 0;
+  constant_velocity_.moved(frame.time_us, local_T_middle, step.matched, frame.imu_heading_rad, in_mid_sweep);
   last_local_T_middle_ = local_T_middle;
   last_motion_ = step.local_T_robot - last_local_T_robot_;
   last_local_T_robot_ = step.local_T_robot;

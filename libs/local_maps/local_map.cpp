@@ -137,8 +137,8 @@ void LocalMap::draw_hits(const Beams& beams, std::vector<Way>& ways) {
     touched.y_end = std::max(touched.y_end, y + 1);
     if (beams.hits[i]) draw_hit(x, y);
     if (i < beams.joined.size() && beams.joined[i]) {
-      const Way& before = ways[ways.size() - 2];
-      draw_surface(before.to_x, before.to_y, x, y);
+      const mrpt::math::TPoint2D& before = i > 0 ? beams.ends[i - 1] : beams.ends.back();
+      draw_surface(grid_->x2idx(before.x), grid_->y2idx(before.y), x, y);
     }
   }
   add_to_dirty(touched);

@@ -36,7 +36,8 @@ struct Beams {
   mrpt::math::TPoint2D origin;
   std::vector<mrpt::math::TPoint2D> ends;
   std::vector<bool> hits;  ///< for each end, true: a return; false: the beam was cut at the largest range
-  /// For each end, whether it lies on one surface with the end before it. Empty: false for all ends.
+  /// For each end, whether it lies on one surface with the end before it; for the first end, with the last.
+  /// Empty: false for all ends.
   std::vector<bool> joined{};
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "frames/scan_neighbours.h"
 #include "local_maps/seen_surfaces.h"
 
 namespace psi_slam {
@@ -24,27 +25,25 @@ bool on_one_surface(const Point& a, const Point& b) {
 }
 
 // Returns the unit normal of the line through a point and its neighbours. Returns (0, 0) if these are fewer
-// than 4 points, or do not lie on a line.
-Point normal_at(const std::vector<Point>& points, std::size_t index) {
-  const auto size = static_cast<std::ptrdiff_t>(points.size());
-  const auto i = static_cast<std::ptrdiff_t>(index);
-  std::ptrdiff_t first = i;
-  std::ptrdiff_t last = i;
-  while (first > 0 && i - first < kReach && on_one_surface(points[first], points[first - 1])) --first;
-  while (last + 1 < size && last - i < kReach && on_one_surface(points[last], points[last + 1])) ++last;
-  const auto count = static_cast<float>(last - first + 1);
+// than 4 points, or do not lie on a line. `is_ring`: the last point and the first are neighbours.
+Point normal_at(const std::vector<Point>& points, std::size_t index, bool is_ring) {
+  const Neighbourhood near =
+      neighbourhood(index, points.size(), kReach, is_ring,
+                    [&](std::size_t a, std::size_t b) { return on_one_surface(points[a], points[b]); });
+  const auto at = [&](std::ptrdiff_t k) -> const Point& { return points[index_on_ring(k, points.size())]; };
+  const auto count = static_cast<float>(near.count());
   if (count < 4) return {0, 0};
   float mean_x = 0;
   float mean_y = 0;
-  for (std::ptrdiff_t k = first; k <= last; ++k) mean_x += points[k].x, mean_y += points[k].y;
+  for (std::ptrdiff_t k = near.first; k <= near.last; ++k) mean_x += at(k).x, mean_y += at(k).y;
   mean_x /= count;
   mean_y /= count;
   float xx = 0;
   float xy = 0;
   float yy = 0;
-  for (std::ptrdiff_t k = first; k <= last; ++k) {
-    const float dx = points[k].x - mean_x;
-    const float dy = points[k].y - mean_y;
+  for (std::ptrdiff_t k = near.first; k <= near.last; ++k) {
+    const float dx = at(k).x - mean_x;
+    const float dy = at(k).y - mean_y;
     xx += dx * dx;
     xy += dx * dy;
     yy += dy * dy;
@@ -80,10 +79,11 @@ ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
     farthest_squared = std::max(farthest_squared, x * x + y * y);
     result.points.emplace_back(static_cast<float>(x), static_cast<float>(y));
   }
+  const bool is_ring = !scan.ranges_m.empty() && is_full_circle(*scan.bearings_rad);
   result.points.shrink_to_fit();  // nodes keep these points
   result.normals.reserve(result.points.size());
   for (std::size_t i = 0; i < result.points.size(); ++i)
-    result.normals.push_back(normal_at(result.points, i));
+    result.normals.push_back(normal_at(result.points, i, is_ring));
   result.farthest_m = std::sqrt(farthest_squared);
   return result;
 }
@@ -113,10 +113,13 @@ Beams drawing_beams(const LaserScan& scan, const TPose2D& map_T_robot, const Dra
   beams.origin = {map_T_laser.x, map_T_laser.y};
   const std::vector<bool> joined =
       ends_on_one_surface(scan, options.max_range_m, options.min_surface_spacing_m);
-  bool drew_last = false;
+  const auto is_drawn = [&](float range_m) {
+    return static_cast<double>(range_m) >= options.min_range_m && std::isfinite(range_m);
+  };
+  bool drew_last = !scan.ranges_m.empty() && is_drawn(scan.ranges_m.back());  // before the first beam
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    const bool drew_before = std::exchange(drew_last, range >= options.min_range_m && std::isfinite(range));
+    const bool drew_before = std::exchange(drew_last, is_drawn(scan.ranges_m[i]));
     if (!drew_last) continue;
     const double drawn = std::min(range, options.max_range_m);
     const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + map_T_laser.phi;

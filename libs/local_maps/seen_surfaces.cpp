@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "frames/scan_neighbours.h"
+
 namespace psi_slam {
 namespace {
 
@@ -40,17 +42,26 @@ std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m,
   for (std::size_t i = 0; i < beams; ++i)
     ends.emplace_back(range(i) * std::cos(bearing(i)), range(i) * std::sin(bearing(i)));
 
+  // Indices of the neighbours of a beam; `beams` if there is none.
+  const bool is_ring = beams > 0 && is_full_circle(*scan.bearings_rad);
+  const auto before = [&](std::size_t i) { return i > 0 ? i - 1 : is_ring ? beams - 1 : beams; };
+  const auto after = [&](std::size_t i) { return i + 1 == beams && is_ring ? 0 : i + 1; };
+
   // False for beams without a return, whose range is infinite or NaN.
   const auto hit = [&](std::size_t i) { return i < beams && range(i) <= max_range_m; };
   std::vector<bool> joined(beams, false);
-  for (std::size_t i = 1; i < beams; ++i) {
-    if (!hit(i - 1) || !hit(i)) continue;
-    const double gap = gap_m(ends[i - 1], ends[i]);
-    const double spacing = std::abs(bearing(i) - bearing(i - 1)) * std::min(range(i - 1), range(i));
+  for (std::size_t i = 0; i < beams; ++i) {
+    const std::size_t last = before(i);
+    if (!hit(last) || !hit(i)) continue;
+    const double gap = gap_m(ends[last], ends[i]);
+    const double turn_rad = std::remainder(bearing(i) - bearing(last), 2 * M_PI);
+    const double spacing = std::abs(turn_rad) * std::min(range(last), range(i));
     if (spacing < min_spacing_m || gap < kMinGap_m || gap > kMaxGap_m || gap > kMaxGapPerSpacing * spacing)
       continue;
-    joined[i] = (i >= 2 && hit(i - 2) && in_line(ends[i - 1], ends[i], ends[i - 2])) ||
-                (hit(i + 1) && in_line(ends[i - 1], ends[i], ends[i + 1]));
+    const auto continues_to = [&](std::size_t third) {
+      return hit(third) && in_line(ends[last], ends[i], ends[third]);
+    };
+    joined[i] = continues_to(before(last)) || continues_to(after(i));
   }
   return joined;
 }

@@ -71,6 +71,10 @@ SweepTiming sweep_timing(FrameSource& log, const LogOptions& options, const std:
 
 }  // namespace
 
+bool combines_lasers(const LogContents& contents, const LogOptions& options, LogFormat format) {
+  return reads_several_lasers(options, format) || contents.several_lasers;
+}
+
 std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, const LogOptions& options) {
   const LogFormat format = detect_log_format(path);
   if (!is_bag(format) && !chooses_odometry(options) && !ignores_odometry(options))
@@ -92,7 +96,7 @@ std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const L
   const LogFormat format = detect_log_format(path);
   std::unique_ptr<LogReader> reader = open_log_reader(path, options);
   const LogContents& contents = reader->contents();  // of the reader, which becomes the innermost source
-  const bool several_lasers = reads_several_lasers(options, format) || contents.several_lasers;
+  const bool several_lasers = combines_lasers(contents, options, format);
   std::unique_ptr<FrameSource> source = std::move(reader);
   // Only bags may state a sweep time.
   const bool may_be_bent = is_bag(format) || options.sweep_time_s.value_or(0) > 0;

@@ -41,6 +41,10 @@ constexpr double kStill_m = 1e-3;
 constexpr double kStill_rad = 1e-3;
 constexpr std::size_t kStillStepsKept = 3;
 
+// Scans without odometry are aligned one after the other for guesses only, which need fewer points.
+constexpr double kFarthest_m = 30.0;
+constexpr std::size_t kPointsForGuess = 100;
+
 constexpr double kBentCost_m = 0.08;  // largest cost of a reliable alignment of scans as recorded
 
 // An order is ruled out if its distances to walls exceed those of the best order by both limits.
@@ -122,8 +126,8 @@ class LaserSamples {
   }
 
   bool align_to(const Sample& last, Sample& sample) {
-    const AlignableScan reference(last.scan);
-    const AlignableScan scan(sample.scan);
+    const AlignableScan reference(last.scan, kFarthest_m, kPointsForGuess);
+    const AlignableScan scan(sample.scan, kFarthest_m, kPointsForGuess);
     ScanAlignment alignment = align_scans(reference, scan, last_step_);
     if (!alignment.is_reliable(kBentCost_m)) {
       std::vector<TPose2D> guesses;
@@ -275,22 +279,29 @@ void compare_distances(const std::vector<Distances>& rows,
   }
 }
 
-SweepDirectionStudy LaserSamples::study() const {
+SweepDirectionStudy study_of(const std::vector<Distances>& rows) {
   SweepDirectionStudy study;
-  study.scans = scans_;
-  study.stated_sweep_time_s = stated_sweep_time_s_;
+  study.pairs = rows.size();
+  if (!rows.empty()) compare_distances(rows, {&study.forward, &study.backward, &study.at_once});
+  return study;
+}
+
+/// Compares pairs of scans, those with the largest bends first, until they determine the direction.
+SweepDirectionStudy LaserSamples::study() const {
   std::vector<Distances> rows;
+  double bends_rad = 0;
   for (const Candidate& pair : candidates()) {
     double bend_rad = 0;
     const auto row = distances_m(pair, bend_rad);
     if (!row) continue;
-    study.mean_bend_rad += bend_rad;
+    bends_rad += bend_rad;
     rows.push_back(*row);
+    if (rows.size() % kFewestPairs == 0 && study_of(rows).direction() != SweepDirection::kAuto) break;
   }
-  study.pairs = rows.size();
-  if (rows.empty()) return study;
-  study.mean_bend_rad /= static_cast<double>(rows.size());
-  compare_distances(rows, {&study.forward, &study.backward, &study.at_once});
+  SweepDirectionStudy study = study_of(rows);
+  study.scans = scans_;
+  study.stated_sweep_time_s = stated_sweep_time_s_;
+  if (!rows.empty()) study.mean_bend_rad = bends_rad / static_cast<double>(rows.size());
   return study;
 }
 

@@ -19,7 +19,6 @@
 
 #include "base/atomic_file.h"
 #include "exports/mapped_trajectory.h"
-#include "frames/laser_choice.h"
 #include "frames/log_reader.h"
 #include "mrpt/graphslam_settings.h"
 #include "mrpt/log_entries.h"
@@ -193,9 +192,8 @@ class EngineRun : public GraphSlamRun {
     front_end_ = dynamic_cast<CPsiFrontEndNRD*>(node_decider_.get());
     if (front_end_ != nullptr && entries_->are_made()) {
       LogOptions of_made_entries;
-      if (reads_several_lasers(options, detect_log_format(setup.log)) ||
-          open_log_reader(setup.log, options)->contents().several_lasers)
-        of_made_entries.laser = "all";
+      const LogContents contents = open_log_reader(setup.log, options)->contents();
+      if (combines_lasers(contents, options, detect_log_format(setup.log))) of_made_entries.laser = "all";
       if (!entries_->have_odometry()) of_made_entries.odometry = "none";
       front_end_->set_log_options(of_made_entries);
     }

@@ -8,8 +8,8 @@
 //
 // The kind of odometry that appears first is used; the other kind is ignored. A rawlog without odometry has
 // scans only, or scans with the heading by a gyroscope (CObservationIMU). By default scans come from the
-// first laser in the log. Time stamps, ticks of 100 ns since 1601, become Unix time rounded to the nearest
-// microsecond.
+// first laser in the log, and from other lasers at different poses, see UsualLasers. Time stamps, ticks of
+// 100 ns since 1601, become Unix time rounded to the nearest microsecond.
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationIMU.h>
@@ -19,9 +19,11 @@
 #include <algorithm>
 #include <functional>
 #include <set>
+#include <utility>
 
 #include "base/text_parts.h"
 #include "frames/gyroscope_choice.h"
+#include "frames/laser_readings.h"
 #include "frames/log_reader.h"
 #include "observations/mrpt_objects.h"
 #include "observations/observation_frames.h"
@@ -47,9 +49,87 @@ void for_each_observation(mrpt::serialization::CSerializable& object,
 }
 
 struct Sensors {
-  std::string lasers;  // labels of the lasers to read, separated by commas
+  LogOptions options;  // with the chosen lasers
+  std::vector<std::string> lasers;
   Odometry odometry;
   GyroscopeChoice gyroscope;
+  std::string assumption;  // about the lasers; may be empty
+};
+
+/// Chooses lasers by the first scans of a log, for a user who selects none: the first laser, and all others
+/// that are level, stay where they are mounted, and have a pose of their own or a mount that the user states.
+class UsualLasers {
+ public:
+  explicit UsualLasers(const LogOptions& options) : options_(options) {}
+
+  void add(const CObservation2DRangeScan& scan) {
+    const std::string& label = scan.sensorLabel;
+    const auto known =
+        std::find_if(seen_.begin(), seen_.end(), [&](const Seen& laser) { return laser.label == label; });
+    Seen& laser = known != seen_.end() ? *known : seen_.emplace_back(Seen{label, scan.sensorPose});
+    laser.is_fixed = laser.is_fixed && scan.sensorPose == laser.robot_T_sensor && is_level(scan.sensorPose);
+    is_settled_ = is_settled_ || ++laser.scans == kEnoughScans;
+  }
+
+  /// Returns whether a laser that usually scans has appeared.
+  bool is_settled() const { return is_settled_; }
+
+  /// Labels of the chosen lasers, and of those that are left out.
+  std::pair<std::vector<std::string>, std::vector<std::string>> choose() const {
+    std::vector<const Seen*> chosen;
+    std::vector<std::string> left_out;
+    for (const Seen& laser : seen_) {
+      const bool can_join =
+          can_be_combined(laser) && std::all_of(chosen.begin(), chosen.end(), [&](auto* other) {
+            return can_be_combined(*other) && are_apart(laser, *other);
+          });
+      if (chosen.empty() || can_join)
+        chosen.push_back(&laser);
+      else
+        left_out.push_back(laser.label);
+    }
+    std::vector<std::string> labels;
+    for (const Seen* laser : chosen) labels.push_back(laser->label);
+    return {labels, left_out};
+  }
+
+ private:
+  static constexpr std::size_t kEnoughScans = 20;
+
+  struct Seen {
+    std::string label;
+    mrpt::poses::CPose3D robot_T_sensor;  // in the first scan
+    bool is_fixed = true;
+    std::size_t scans = 0;
+  };
+
+  static bool is_level(const mrpt::poses::CPose3D& robot_T_sensor) {
+    try {
+      floor_mount(robot_T_sensor, "");
+      return true;
+    } catch (const UserError&) {
+      return false;
+    }
+  }
+
+  /// Returns whether log.laser can name the laser in a list, and the laser stays where it is mounted.
+  static bool can_be_combined(const Seen& laser) {
+    const bool has_name = !laser.label.empty() && laser.label.find(',') == std::string::npos &&
+                          trimmed(laser.label) == laser.label;
+    return has_name && laser.is_fixed;
+  }
+
+  bool is_stated(const Seen& laser) const {
+    return options_of_laser(options_, {laser.label}).robot_T_laser.has_value();
+  }
+
+  bool are_apart(const Seen& a, const Seen& b) const {
+    return is_stated(a) || is_stated(b) || !(a.robot_T_sensor == b.robot_T_sensor);
+  }
+
+  LogOptions options_;
+  std::vector<Seen> seen_;
+  bool is_settled_ = false;
 };
 
 /// Labels of lasers that the user states, each with the name of the option that states it.
@@ -61,13 +141,27 @@ std::vector<std::pair<std::string, std::string>> named_labels(const LogOptions& 
   return named;
 }
 
-/// Finds the lasers to read, the kind of odometry and the gyroscope. Reads the rawlog until a laser, all
+/// Combines the usual lasers of a log, if there are several.
+void use(const UsualLasers& usual, Sensors& sensors) {
+  const auto [chosen, left_out] = usual.choose();
+  sensors.assumption = choice_of_lasers(chosen, left_out);
+  if (chosen.size() < 2) return;
+  sensors.lasers = chosen;
+  sensors.options.laser.clear();
+  for (const std::string& label : chosen)
+    sensors.options.laser += (sensors.options.laser.empty() ? "" : ",") + label;
+}
+
+/// Finds the lasers to read, the kind of odometry and the gyroscope. Reads the rawlog until the lasers, all
 /// sensors that the user names, and odometry have appeared, or to its end. Throws UserError if a sensor is
 /// missing.
 Sensors find_sensors(const std::filesystem::path& path, const LogOptions& options) {
   RawlogArchive archive(path);
   const auto named = named_labels(options);
-  ChosenLasers chosen(laser_choice("log.laser", options.laser));
+  const LaserChoice choice = laser_choice("log.laser", options.laser);
+  ChosenLasers chosen(choice);
+  const bool selects_lasers = choice.all || !choice.names.empty() || options.robot_T_laser;
+  UsualLasers usual(options);
   auto odometry = ignores_odometry(options) ? Odometry::kNone : Odometry::kUndecided;
   std::set<std::string> labels;
   std::set<std::string> gyroscopes;
@@ -76,9 +170,17 @@ Sensors find_sensors(const std::filesystem::path& path, const LogOptions& option
     if (names_gyroscope(options)) return gyroscopes.count(options.imu) == 0;
     return odometry == Odometry::kNone && !ignores_gyroscope(options);
   };
-  while (odometry == Odometry::kUndecided || labels.empty() || needs_gyroscopes() ||
-         std::any_of(named.begin(), named.end(), is_missing)) {
-    const auto object = archive.next();
+  const auto lacks_sensors = [&] {
+    return odometry == Odometry::kUndecided || labels.empty() || needs_gyroscopes() ||
+           std::any_of(named.begin(), named.end(), is_missing);
+  };
+  while (lacks_sensors() || (!selects_lasers && !usual.is_settled())) {
+    mrpt::serialization::CSerializable::Ptr object;
+    try {
+      object = archive.next();
+    } catch (const UserError&) {  // damage is reported where the log is read
+      if (lacks_sensors()) throw;
+    }
     if (!object) break;
     const auto* actions = dynamic_cast<const CActionCollection*>(object.get());
     if (odometry == Odometry::kUndecided && actions != nullptr && movement_of(*actions))
@@ -89,9 +191,11 @@ Sensors find_sensors(const std::filesystem::path& path, const LogOptions& option
         odometry = Odometry::kObservations;
       const auto* imu = dynamic_cast<const CObservationIMU*>(&observation);
       if (imu != nullptr && has_rate(*imu)) gyroscopes.insert(imu->sensorLabel);
-      if (dynamic_cast<const CObservation2DRangeScan*>(&observation) == nullptr) return;
-      labels.insert(observation.sensorLabel);
-      chosen.number_of(observation.sensorLabel);
+      const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation);
+      if (scan == nullptr) return;
+      labels.insert(scan->sensorLabel);
+      chosen.number_of(scan->sensorLabel);
+      usual.add(*scan);
     });
   }
   if (labels.empty()) {
@@ -104,9 +208,12 @@ Sensors find_sensors(const std::filesystem::path& path, const LogOptions& option
                     path.string() + ": " + quoted_list({labels.begin(), labels.end()}));
   }
   if (odometry == Odometry::kUndecided) odometry = Odometry::kNone;
-  return {name_list(chosen.names()), odometry,
-          choose_gyroscope(options, {gyroscopes.begin(), gyroscopes.end()}, odometry != Odometry::kNone,
-                           "the label of a CObservationIMU with a rate of turn of " + path.string())};
+  Sensors found{options, chosen.names(), odometry,
+                choose_gyroscope(options, {gyroscopes.begin(), gyroscopes.end()}, odometry != Odometry::kNone,
+                                 "the label of a CObservationIMU with a rate of turn of " + path.string()),
+                ""};
+  if (!selects_lasers) use(usual, found);
+  return found;
 }
 
 class RawlogReader : public LogReader {
@@ -114,8 +221,11 @@ class RawlogReader : public LogReader {
   RawlogReader(const std::filesystem::path& path, const LogOptions& options)
       : archive_(path),
         found_(find_sensors(path, options)),
-        frames_(options, found_.odometry, found_.gyroscope.name) {
-    contents_.laser = found_.lasers;
+        frames_(found_.options, found_.odometry, found_.gyroscope.name) {
+    contents_.laser = name_list(found_.lasers);
+    contents_.several_lasers = found_.lasers.size() > 1;
+    if (contents_.several_lasers) contents_.first_laser = found_.lasers.front();
+    if (!found_.assumption.empty()) contents_.assumptions.push_back(found_.assumption);
     if (!found_.gyroscope.assumption.empty()) contents_.assumptions.push_back(found_.gyroscope.assumption);
   }
 
@@ -125,6 +235,9 @@ class RawlogReader : public LogReader {
   std::optional<Frame> read_frame() override {
     while (true) {
       if (auto frame = frames_.next()) return frame;
+      if (at_end_ && frames_given() == 0 && frames_.scans() > 0 && contents_.skipped.count > 0)
+        throw UserError(contents_.skipped.first +
+                        ", as in all of its observations. Map without odometry with log.odometry=none");
       if (at_end_) return std::nullopt;
       if (const auto object = archive_.next()) {
         take(*object);

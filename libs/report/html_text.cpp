@@ -69,14 +69,6 @@ std::string duration_text(double duration_s) {
   return std::to_string(whole / 3600) + " h " + std::to_string(whole / 60 % 60) + " min";
 }
 
-std::string minutes_text(double duration_s) {
-  const auto whole = static_cast<std::int64_t>(std::llround(duration_s));
-  const auto two = [](std::int64_t value) { return (value < 10 ? "0" : "") + std::to_string(value); };
-  return (whole < 3600 ? std::to_string(whole / 60)
-                       : std::to_string(whole / 3600) + ':' + two(whole / 60 % 60)) +
-         ':' + two(whole % 60);
-}
-
 std::string milliseconds_text(double milliseconds) {
   const double size = std::abs(milliseconds);
   return grouped(milliseconds, size < 1 ? 3 : size < 10 ? 2 : size < 100 ? 1 : 0);

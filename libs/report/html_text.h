@@ -24,9 +24,6 @@ std::string grouped(double value, int decimals);
 /// Returns a duration such as "44 min 51 s", "2 h 7 min" or "8.25 s", or "–" if it is not finite.
 std::string duration_text(double duration_s);
 
-/// Returns a duration as minutes and seconds, from one hour on with hours: "0:07", "12:30", "1:02:03".
-std::string minutes_text(double duration_s);
-
 /// Returns a time in milliseconds with about three digits and without unit: "0.012", "1.53", "15.1", "1,840".
 std::string milliseconds_text(double milliseconds);
 

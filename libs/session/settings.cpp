@@ -40,7 +40,7 @@ void describe_log(OptionTable& table, Settings& settings) {
             "Set this if the readings run clockwise because the laser hangs upside down.")
       .text("laser", log.laser,
             "Lasers to use: front, rear or a message name (CARMEN), a sensor label (rawlog) or a topic "
-            "(ROS). Several with commas, or all. Empty: the first.")
+            "(ROS). Several with commas, or all. Empty: those with known mounts, else the first.")
       .text("laser_mounts", log.laser_mounts,
             "Poses of the lasers on the robot, each as NAME X Y YAW in m and degrees, separated by commas. "
             "Append mirrored if a laser hangs upside down. Empty: the log's poses.")

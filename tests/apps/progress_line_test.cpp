@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "report/html_text.h"
-
 namespace psi_slam {
 namespace {
 
@@ -21,14 +19,6 @@ TEST(ProgressLine, shows_share_speed_and_time_left) {
             " 25 %   final loop search   1:01 left");
   EXPECT_EQ(progress_text({Phase::kWriting, 0, 5876, 10, 0.1, {}}),
             "drawing the map and writing the results");
-}
-
-TEST(ProgressLine, formats_times_like_a_clock) {
-  EXPECT_EQ(minutes_text(0.4), "0:00");
-  EXPECT_EQ(minutes_text(59.6), "1:00");
-  EXPECT_EQ(minutes_text(3599), "59:59");
-  EXPECT_EQ(minutes_text(3600), "1:00:00");
-  EXPECT_EQ(minutes_text(36000 + 62), "10:01:02");
 }
 
 TEST(ProgressLine, is_redrawn_for_every_phase_but_not_for_every_scan) {

@@ -104,6 +104,14 @@ TEST(ExactNumber, rejects_other_texts) {
   }
 }
 
+TEST(MinutesText, has_hours_from_one_hour_on) {
+  EXPECT_EQ(minutes_text(0.4), "0:00");
+  EXPECT_EQ(minutes_text(59.6), "1:00");
+  EXPECT_EQ(minutes_text(3599), "59:59");
+  EXPECT_EQ(minutes_text(3600), "1:00:00");
+  EXPECT_EQ(minutes_text(36000 + 62), "10:01:02");
+}
+
 TEST(Counted, has_the_plural_unless_there_is_one) {
   EXPECT_EQ(counted(1, "loop"), "1 loop");
   EXPECT_EQ(counted(0, "loop"), "0 loops");

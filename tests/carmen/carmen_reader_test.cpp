@@ -86,6 +86,49 @@ TEST_F(CarmenReaderTest, reads_rlaser_if_selected_or_alone) {
   EXPECT_NEAR(std::abs(read(rear).at(0).scan.robot_T_laser.phi), M_PI, 1e-12);
 }
 
+TEST_F(CarmenReaderTest, combines_lasers_whose_mounts_are_stated) {
+  const std::string front = "PARAM robot_frontlaser_offset 0.2 host 1\n";
+  const std::string rear = "PARAM robot_rearlaser_offset -0.3 host 1\n";
+  const std::string scans =
+      flaser("RLASER", "0 0 0", "1 0 0", "1") + flaser("FLASER", "0 0 0", "1 0 0", "1.1");
+  const auto frames = read(front + rear + scans);
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0].scan.laser, 1U);
+  EXPECT_EQ(frames[0].scan.robot_T_laser.x, -0.3);
+  EXPECT_EQ(frames[1].scan.laser, 0U) << "the front laser opens frames";
+  EXPECT_EQ(frames[1].scan.robot_T_laser.x, 0.2);
+  EXPECT_TRUE(contents_.several_lasers);
+  EXPECT_EQ(contents_.first_laser, "FLASER");
+  EXPECT_FALSE(contents_.states_beam_angles);
+  EXPECT_THAT(contents_.assumptions,
+              testing::ElementsAre("the scans of FLASER, RLASER are combined, because their mounts are "
+                                   "stated. Select lasers with log.laser"));
+
+  LogOptions mounts;
+  mounts.laser_mounts = "front 0.2 0 0, RLASER -0.3 0 180";
+  EXPECT_EQ(read(scans, mounts).size(), 2U);
+  LogOptions single;
+  single.robot_T_laser = TPose2D{0.1, 0, 0};
+  EXPECT_EQ(read(front + rear + scans, single).size(), 1U);
+  EXPECT_THAT(contents_.assumptions, testing::IsEmpty());
+}
+
+TEST_F(CarmenReaderTest, reads_one_laser_where_a_mount_is_unknown) {
+  const std::string scans =
+      flaser("RLASER", "0 0 0", "1 0 0", "1") + flaser("FLASER", "0 0 0", "1 0 0", "1.1");
+  const std::string robotlaser1 = robotlaser("3 4 0.5", "3 4 0.5", "1");
+  std::string robotlaser2 = robotlaser("3 4 0.5", "3 4 0.5", "2");
+  robotlaser2.replace(0, 11, "ROBOTLASER2");
+  for (const std::string& log :
+       {scans, "PARAM robot_rearlaser_offset 0.2 host 1\n" + scans,
+        "PARAM robot_frontlaser_offset 0.2 host 1\n" + scans, robotlaser1 + robotlaser2}) {
+    EXPECT_EQ(read(log).size(), 1U);
+    EXPECT_FALSE(contents_.several_lasers);
+    ASSERT_EQ(contents_.assumptions.size(), 1U);
+    EXPECT_THAT(contents_.assumptions[0], testing::HasSubstr("are not used, because no fixed and level"));
+  }
+}
+
 TEST_F(CarmenReaderTest, interpolates_odometry_for_rawlaser) {
   const auto frames = read(rawlaser("RAWLASER1", "0.5") + odom("1 0 0", "1") + rawlaser("RAWLASER1", "1.25") +
                            odom("2 0 0.4", "2") + rawlaser("RAWLASER1", "2.5"));

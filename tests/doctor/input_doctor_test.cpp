@@ -62,6 +62,12 @@ TEST_F(InputDoctorTest, judges_the_first_of_several_lasers) {
   EXPECT_EQ(diagnosis.facts.contents.laser, "REAR");
   EXPECT_EQ(diagnosis.facts.scans, 20U);
   EXPECT_EQ(diagnosis.facts.contents.other_lasers.at("FRONT"), 20U);
+  EXPECT_EQ(diagnose(path).facts.contents.laser, "FRONT");
+  write_carmen_of(path, {}, /*with_mounts=*/true);
+  for (const char* lasers : {"", "all"}) {
+    options.laser = lasers;
+    EXPECT_EQ(diagnose(path, options).facts.contents.laser, "FLASER");
+  }
 }
 
 TEST_F(InputDoctorTest, judges_a_truncated_bag_up_to_its_end) {

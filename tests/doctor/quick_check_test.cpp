@@ -71,6 +71,17 @@ TEST(QuickCheck, finds_few_returns) {
               testing::Contains(HasSubstr("log.max_range_m")));
 }
 
+TEST(QuickCheck, finds_a_jump_of_the_clock) {
+  const auto set_clock = [](TimeUs by_us) {
+    return faults_after([by_us](Frame& frame) {
+      if (frame.index >= 50) frame.time_us += by_us;
+    });
+  };
+  EXPECT_THAT(set_clock(-5'000'000),
+              ElementsAre(HasSubstr("the clock jumps by -4.8 s, 9.80 s into the log")));
+  EXPECT_THAT(set_clock(60'000'000), ElementsAre(HasSubstr("the clock jumps by 60.2 s")));
+}
+
 TEST(QuickCheck, needs_no_odometry_and_no_scan) {
   EXPECT_THAT(faults_after([](Frame& frame) { frame.has_odometry = false; }), IsEmpty());
   EXPECT_THAT(quick_check({}, 0, 0, {}), IsEmpty());

@@ -41,7 +41,8 @@ TEST(GyroscopeChoice, a_named_gyroscope_must_exist_and_be_needed) {
             }),
             "log.imu is \"/c\", expected a gyroscope of my.bag: \"/a\", \"/b\"");
   EXPECT_EQ(sentence_of([] { choose_gyroscope(with_imu("/c"), {}, true, kExpected); }),
-            "log.imu is \"/c\", expected a gyroscope of my.bag: it has none");
+            "log.imu is \"/c\", expected a gyroscope of my.bag: it has none. Map without a gyroscope with "
+            "log.imu=none");
   const GyroscopeChoice unused = choose_gyroscope(with_imu("/b"), {"/b"}, true, kExpected);
   EXPECT_FALSE(unused.name);
   EXPECT_EQ(unused.assumption,

@@ -71,6 +71,15 @@ TEST(ScanOfSlice, a_beam_is_the_nearest_point_between_the_heights) {
     EXPECT_FALSE(std::isinf(range_m)) << "a beam without a point says nothing of free space";
 }
 
+TEST(ScanOfSlice, ranges_are_limited_to_those_of_lasers) {
+  LogOptions options;
+  options.max_range_m = 5000;
+  const std::vector<TPoint3Df> points{{2000, 0, 0.3F}, {0, 900, 0.3F}};
+  const LaserScan scan = scan_of_slice(points, CPose3D(), kSlice, options);
+  EXPECT_EQ(scan.max_range_m, 1000);
+  expect_return(scan, M_PI / 2, 900);
+}
+
 TEST(ScanOfSlice, points_all_around_have_one_beam_for_each_half_degree) {
   std::vector<TPoint3Df> points;
   for (int i = 0; i < 2880; ++i) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <functional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -139,6 +140,37 @@ TEST(OwnBody, is_found_by_bearing_where_the_number_of_beams_changes) {
   ASSERT_EQ(sectors.size(), 1U);
   EXPECT_NEAR(sectors[0].from_rad, 0.465, 0.011);
   EXPECT_NEAR(sectors[0].to_rad, 0.535, 0.011);
+}
+
+TEST(OwnBody, behind_the_laser_is_masked_on_both_sides_of_the_seam) {
+  SimulatedRun run = round_trips(2);
+  const auto behind = [](float bearing_rad) { return std::abs(bearing_rad) > 3.12F; };
+  OwnBodyFinder finder;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> scatter(-0.004F, 0.004F);  // as of the points of a sliced cloud
+  const std::vector<float> even = make_bearings_rad(BeamAngles::kCentredHalfStep, 720, 2 * M_PI);
+  const auto next_frame = [&](std::size_t i) {
+    run.bearings_rad = even;
+    for (float& bearing : run.bearings_rad) bearing += scatter(random);
+    Frame frame = frame_of(run, i);
+    for (std::size_t beam = 0; beam < even.size(); ++beam)
+      if (behind(run.bearings_rad[beam])) frame.scan.ranges_m[beam] = 0.3F;
+    return frame;
+  };
+  for (std::size_t i = 0; i < run.truth.size(); ++i) finder.add(next_frame(i));
+  const OwnBodyMask mask = finder.mask();
+  for (std::size_t i = 0; i < 20; ++i) {
+    const Frame frame = next_frame(i);
+    LaserScan scan = frame.scan;
+    mask.apply(scan);
+    for (std::size_t beam = 0; beam < even.size(); ++beam) {
+      if (behind(run.bearings_rad[beam])) {
+        EXPECT_TRUE(std::isnan(scan.ranges_m[beam])) << "scan " << i << ", beam " << beam;
+      } else {
+        EXPECT_EQ(scan.ranges_m[beam], frame.scan.ranges_m[beam]) << "scan " << i << ", beam " << beam;
+      }
+    }
+  }
 }
 
 TEST(OwnBody, is_found_without_odometry) {

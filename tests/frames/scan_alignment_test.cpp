@@ -117,5 +117,39 @@ TEST(ScanAlignment, thins_scans_of_many_beams_and_sorts_mirrored_ones) {
   for (std::size_t i = 1; i < points.size(); ++i) EXPECT_LT(points[i - 1].bearing_rad, points[i].bearing_rad);
 }
 
+TEST(ScanAlignment, sees_walls_across_the_ends_of_a_full_circle) {
+  // A wall behind the laser: two points on one side of the seam and one on the other.
+  LaserScan scan;
+  const auto bearings = make_bearings_rad(BeamAngles::kLeftOpen, 360, 2 * M_PI);
+  scan.bearings_rad = std::make_shared<const std::vector<float>>(bearings);
+  scan.ranges_m.assign(360, std::numeric_limits<float>::quiet_NaN());
+  for (const std::size_t beam : {0U, 1U, 359U})
+    scan.ranges_m[beam] = static_cast<float>(-2 / std::cos(static_cast<double>(bearings[beam])));
+  const AlignableScan circle(scan, 30, 400);
+  EXPECT_TRUE(circle.is_full_circle());
+  ASSERT_EQ(circle.points().size(), 3U);
+  for (const auto& point : circle.points()) EXPECT_NEAR(std::abs(point.normal.x()), 1, 1e-6);
+  SimulatedRun run;
+  run.truth = {{2.5, 2, 0.3}};
+  EXPECT_FALSE(AlignableScan(run.scan(0)).is_full_circle());
+}
+
+TEST(ScanAlignment, of_full_circles_matches_points_across_their_ends) {
+  SimulatedRun run;
+  run.bearings_rad = make_bearings_rad(BeamAngles::kLeftOpen, 360, 2 * M_PI);
+  const TPose2D motion{0, 0, DEG2RAD(4.0)};
+  run.truth = {{2.5, 2, 0.3}, TPose2D{2.5, 2, 0.3} + motion};
+  // Walls just beside the seam only.
+  const auto behind = [&](std::size_t i, std::size_t beams_on_each_side) {
+    LaserScan scan = run.scan(i);
+    for (std::size_t beam = beams_on_each_side; beam < 360 - beams_on_each_side; ++beam)
+      scan.ranges_m[beam] = std::numeric_limits<float>::quiet_NaN();
+    return AlignableScan(scan, 30, 400);
+  };
+  const ScanAlignment alignment = align_scans(behind(0, 30), behind(1, 20), motion);
+  EXPECT_GT(alignment.matched_share, 0.95);
+  EXPECT_LT(alignment.cost_m, 0.03);
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -57,6 +57,16 @@ TEST(ConstantVelocityModel, predicted_poses_do_not_change_the_speed) {
   EXPECT_EQ(robot.predict(4 * kSecond).motion.x, 0) << "the speed is unknown after 3 s without a match";
 }
 
+TEST(ConstantVelocityModel, measures_no_speed_between_the_middle_and_the_beginning_of_sweeps) {
+  ConstantVelocityModel robot;  // a sweep takes half a period, so its middle is at a quarter
+  robot.moved(0, {0.25, 0, 0}, true, {}, true);
+  robot.moved(kSecond, {1.25, 0, 0}, true, {}, true);
+  robot.moved(2 * kSecond, {2, 0, 0}, true);
+  EXPECT_NEAR(robot.predict(3 * kSecond).motion.x, 1, 1e-9) << "0.75 m is not the motion in one second";
+  robot.moved(3 * kSecond, {3.5, 0, 0}, true);
+  EXPECT_NEAR(robot.predict(4 * kSecond).motion.x, 1.5, 1e-9);
+}
+
 TEST(ConstantVelocityModel, uncertainty_since_the_last_match_includes_unmatched_scans) {
   ConstantVelocityModel robot;
   robot.moved(0, {0, 0, 0}, true);

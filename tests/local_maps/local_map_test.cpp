@@ -111,6 +111,12 @@ TEST(LocalMap, the_surface_between_joined_ends_is_occupied) {
   map.insert(beams);
   for (int y = -30; y <= 30; ++y)
     EXPECT_EQ(score_at(map.scores(), middle(100, y)) > 0, y <= -10 || y >= 10) << y;
+
+  beams.joined = {true, false, false, false};
+  LocalMap of_full_circle(without_smoothing());
+  of_full_circle.insert(beams);
+  for (int y = -30; y <= 30; ++y)
+    EXPECT_GT(score_at(of_full_circle.scores(), middle(100, y)), 0) << "the first end is joined to the last";
 }
 
 TEST(LocalMap, the_pyramid_of_an_active_map_follows_what_is_drawn) {

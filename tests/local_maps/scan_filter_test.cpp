@@ -172,6 +172,19 @@ TEST(MatchingPointNormals, isolated_points_have_none) {
   for (const TPoint2Df& normal : points.normals) EXPECT_EQ(normal, TPoint2Df(0, 0));
 }
 
+TEST(MatchingPointNormals, of_a_wall_across_the_ends_of_a_full_circle_are_square_to_it) {
+  // Two points are on each side of the seam, which is too few for a normal.
+  SimulatedWalls wall;
+  wall.add_wall(2, -0.06, 2, 0.06);
+  std::mt19937_64 random(6);
+  const double half_step_rad = M_PI / 360;
+  const BeamBearings circle = even_bearings(half_step_rad, 2 * M_PI - half_step_rad, 360);
+  const ScanPoints points =
+      matching_points(simulated_scan(wall, {0, 0, 0}, circle, {0, 0, 0}, 0, random), without_thinning());
+  ASSERT_EQ(points.points.size(), 4U);
+  for (const TPoint2Df& normal : points.normals) EXPECT_LT(off_direction(normal, 0), 1e-4);
+}
+
 TEST(MatchingPointNormals, a_line_is_not_drawn_across_a_gap) {
   // Two parallel walls with an edge between them. Points at the edge have neighbours on one side only.
   SimulatedWalls steps;
@@ -217,6 +230,18 @@ TEST(DrawingBeams, join_the_ends_on_a_wall_but_not_to_a_dropped_beam) {
   EXPECT_EQ(drawing_beams(scan, {0, 0, 0}, options).joined, (std::vector<bool>{false, true, true}));
   options.min_surface_spacing_m = 0.3;
   EXPECT_EQ(drawing_beams(scan, {0, 0, 0}, options).joined, std::vector<bool>(3, false));
+}
+
+TEST(DrawingBeams, join_the_ends_of_a_full_circle_but_not_to_a_dropped_beam) {
+  LaserScan scan;
+  scan.bearings_rad = even_bearings(-M_PI, M_PI - M_PI / 60, 120);
+  scan.max_range_m = 80;
+  scan.ranges_m.assign(120, 5);
+  EXPECT_TRUE(drawing_beams(scan, {0, 0, 0}, {}).joined[0]);
+  scan.ranges_m[119] = 4.99F;
+  DrawingOptions options;
+  options.min_range_m = 4.995;
+  EXPECT_FALSE(drawing_beams(scan, {0, 0, 0}, options).joined[0]);
 }
 
 /// The ranges of the front laser are 2 m, those of the rear laser 3 m, with one beam without return. Between

@@ -112,6 +112,18 @@ TEST(SeenSurfaces, join_no_ends_without_return_or_beyond_the_range) {
   EXPECT_TRUE(gap[beam_at(5)]);
 }
 
+TEST(SeenSurfaces, join_the_ends_of_a_full_circle) {
+  LaserScan scan;  // the wall is ahead, and so are the first and the last beam
+  scan.bearings_rad = even_bearings(0, 2 * M_PI * 359 / 360, 360);
+  for (const float bearing : *scan.bearings_rad)
+    scan.ranges_m.push_back(static_cast<float>(wall_across(10, static_cast<double>(bearing))));
+  for (const std::size_t beam : {358U, 359U, 0U, 1U}) EXPECT_TRUE(joined_ends(scan, kMaxRange_m)[beam]);
+  scan.ranges_m[358] = scan.ranges_m[1] = static_cast<float>(kNan);
+  EXPECT_FALSE(joined_ends(scan, kMaxRange_m)[0]) << "no third beam shows that the surface continues";
+  scan.bearings_rad = even_bearings(0, 2 * M_PI * 350 / 360, 360);
+  EXPECT_FALSE(joined_ends(scan, kMaxRange_m)[0]) << "ten degrees are unseen";
+}
+
 TEST(SeenSurfaces, of_scans_with_few_beams_are_none) {
   for (int beams = 0; beams < 3; ++beams) {
     LaserScan scan;

@@ -78,6 +78,8 @@ std::vector<Kind> kinds() {
   };
   const auto db3 = [](const Path& path, const TwoLasers& robot) { write_db3(path, recording_of(robot)); };
   return {{"rawlog", rawlog, lasers("all")},
+          {"rawlog_by_default", rawlog, {}},
+          {"carmen_by_default", carmen, lasers("", kCarmenMounts)},
           {"rawlog_by_name", rawlog, lasers("FRONT, REAR")},
           {"carmen", carmen, lasers("all", kCarmenMounts)},
           {"carmen_by_name", carmen, lasers("FLASER,rear", kCarmenMounts)},

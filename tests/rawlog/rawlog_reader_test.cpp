@@ -110,6 +110,40 @@ TEST_F(RawlogReaderTest, reads_one_laser_of_several) {
                                                   path_.string() + ": \"FRONT\", \"REAR\"");
 }
 
+TEST_F(RawlogReaderTest, combines_lasers_at_different_poses) {
+  const auto scan_at = [](const char* label, double x_m, double pitch_rad = 0) {
+    auto scan = range_scan(kStart, label);
+    scan->sensorPose = mrpt::poses::CPose3D(x_m, 0, 0, 0, pitch_rad, 0);
+    return scan;
+  };
+  read({movement({1, 0, 0}), sensory_frame({scan_at("FRONT", 0.2), scan_at("REAR", -0.2)})});
+  EXPECT_EQ(contents_.laser, "FRONT, REAR");
+  EXPECT_TRUE(contents_.several_lasers);
+  EXPECT_EQ(contents_.first_laser, "FRONT");
+  EXPECT_THAT(contents_.assumptions, testing::ElementsAre(testing::HasSubstr("FRONT, REAR are combined")));
+
+  read({movement({1, 0, 0}), sensory_frame({scan_at("A", 0.2), scan_at("TILTED", 0.1, 1.0)})});
+  EXPECT_EQ(contents_.laser, "A");
+  read({movement({1, 0, 0}), sensory_frame({scan_at("A", 0.2), scan_at("MOVING", 0.1)}),
+        sensory_frame({scan_at("MOVING", 0.2)})});
+  EXPECT_EQ(contents_.laser, "A");
+  read({movement({1, 0, 0}), sensory_frame({scan_at("A", 0.2), scan_at("A", -0.2), scan_at("B", 0)})});
+  EXPECT_EQ(contents_.laser, "A") << "the first laser moves";
+  read({movement({1, 0, 0}), sensory_frame({scan_at("A", 0.2), scan_at("B,C", -0.2), scan_at("D", 0.3)})});
+  EXPECT_EQ(contents_.laser, "A, D");
+  EXPECT_EQ(contents_.other_lasers.at("B,C"), 1U) << "log.laser cannot name it";
+
+  LogOptions options;
+  options.robot_T_laser = TPose2D{0.1, 0, 0};
+  read({movement({1, 0, 0}), sensory_frame({scan_at("FRONT", 0.2), scan_at("REAR", -0.2)})}, options);
+  EXPECT_EQ(contents_.laser, "FRONT") << "the mount is for a single laser";
+  options = {};
+  options.laser_mounts = "REAR -0.3 0 180";
+  read({movement({1, 0, 0}), sensory_frame({range_scan(kStart, "FRONT"), range_scan(kStart, "REAR")})},
+       options);
+  EXPECT_EQ(contents_.laser, "FRONT, REAR");
+}
+
 TEST_F(RawlogReaderTest, reads_several_scans_of_one_laser_in_one_sensory_frame) {
   EXPECT_EQ(read({movement({1, 0, 0}), sensory_frame({range_scan(kStart), range_scan(kStart + 7)})}).size(),
             2U);
@@ -203,6 +237,21 @@ TEST_F(RawlogReaderTest, skips_odometry_that_is_not_finite) {
   EXPECT_EQ(contents_.skipped.count, 1U);
   EXPECT_EQ(contents_.skipped.first,
             path_.string() + ": object 3: the odometry is not finite, or beyond 10,000 km");
+}
+
+TEST_F(RawlogReaderTest, reports_odometry_that_is_never_finite) {
+  RawlogObjects objects;
+  for (int i = 0; i < 3; ++i) {
+    objects.push_back(odometry(kStart + i * 100'000, mrpt::poses::CPose2D(std::nan(""), 0, 0)));
+    objects.push_back(range_scan(kStart + i * 100'000));
+  }
+  EXPECT_EQ(sentence_about(objects),
+            path_.string() +
+                ": object 1: the odometry is not finite, or beyond 10,000 km, as in all of its "
+                "observations. Map without odometry with log.odometry=none");
+  LogOptions options;
+  options.odometry = "none";
+  EXPECT_EQ(read(objects, options).size(), 3U);
 }
 
 TEST_F(RawlogReaderTest, reports_missing_scans_and_time_stamps) {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/clock_jumps.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace psi_slam {
+namespace {
+
+constexpr double kLeastStepBack_s = 1.0;
+constexpr double kLeastGap_s = 5.0;
+constexpr double kGapPeriods = 20;
+constexpr double kMoving_m = 0.02;  // least step of a moving robot
+constexpr double kMetresPerRadian = 0.5;
+constexpr double kMostChange = 2.0;  // of the speed of a moving robot from one step to the next
+
+/// Length of the motion from the frame before, with turns, metres.
+double step_m(const std::vector<FrameMark>& marks, std::size_t frame) {
+  const mrpt::math::TPose2D motion = marks[frame].odom_T_robot - marks[frame - 1].odom_T_robot;
+  return std::hypot(motion.x, motion.y) + kMetresPerRadian * std::abs(mrpt::math::wrapToPi(motion.phi));
+}
+
+/// Returns whether the robot moved before and after `frame` as far as on the way to it.
+bool moves_steadily(const std::vector<FrameMark>& marks, std::size_t frame) {
+  if (frame < 2 || frame + 1 >= marks.size()) return false;
+  const double before_m = step_m(marks, frame - 1);
+  const double across_m = step_m(marks, frame);
+  const double after_m = step_m(marks, frame + 1);
+  const auto [least_m, most_m] = std::minmax({before_m, across_m, after_m});
+  return least_m >= kMoving_m && most_m <= kMostChange * least_m;
+}
+
+}  // namespace
+
+std::vector<ClockJump> clock_jumps(const std::vector<FrameMark>& marks, double median_period_s,
+                                   bool has_odometry) {
+  const double least_gap_s = std::max(kLeastGap_s, kGapPeriods * median_period_s);
+  std::vector<ClockJump> jumps;
+  for (std::size_t i = 1; i < marks.size(); ++i) {
+    const double passed_s = seconds(marks[i].time_us - marks[i - 1].time_us);
+    const bool jumps_ahead = has_odometry && passed_s > least_gap_s && moves_steadily(marks, i);
+    if (passed_s < -kLeastStepBack_s || jumps_ahead) jumps.push_back({i, passed_s});
+  }
+  return jumps;
+}
+
+}  // namespace psi_slam

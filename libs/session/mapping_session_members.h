@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// State of a mapping session, which the source files of MappingSession share.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mapping/stage_clock.h"
+#include "psi_slam/frame_source.h"
+#include "psi_slam/mapper.h"
+#include "psi_slam/mapping_session.h"
+#include "session/edit_journal.h"
+#include "session/session_recording.h"
+#include "session/settings.h"
+
+namespace psi_slam {
+
+struct MappingSession::Members {
+  enum class State {
+    kReading,   ///< the log may have more scans
+    kRead,      ///< all scans are taken: the log ended, is damaged, or finish() was called
+    kFinished,  ///< the map is finished
+  };
+
+  /// Changes the state. Allowed: kReading -> kRead when the log ends and in finish(), kRead -> kFinished in
+  /// finish(), kFinished -> kRead in reopen(), kRead -> kReading in begin_run(). Other transitions throw
+  /// std::logic_error.
+  void enter(State next);
+  std::optional<Frame> read();
+  const std::vector<Frame>& recorded_frames(std::vector<Frame>& room) const;
+  void check_log();
+  void make_due_edits(EditTime now);
+  void begin_recorded_run();
+  SessionFacts facts() const;
+  const std::vector<Frame>& mapped_log() const {
+    return state == State::kFinished ? result.log : mapper->log();
+  }
+  /// SHA-256 of the log; empty if the log is no longer readable.
+  std::string checksum_of_log() const;
+  void write_edits(const std::filesystem::path& file) const;
+  void begin(SessionProgress::Phase new_phase);
+  void report(double share) const;
+
+  std::shared_ptr<const SessionRecording> recording;  ///< null if there is no recorded session
+  std::filesystem::path log_path;                     ///< the log that is read; empty if there is none
+  mutable std::string log_sha256;                     ///< cache of checksum_of_log()
+  /// For the last log, scans_left means that readable scans are known to remain.
+  std::vector<RecordedLog> logs;
+  std::vector<RecordedRun> later_runs;
+  Settings settings;
+  std::vector<std::string> settings_warnings;
+  std::unique_ptr<FrameSource> source;
+  /// Frames without odometry as the log states them, by their numbers. The mapper removes the motion during
+  /// the sweep from its own copies.
+  std::map<std::size_t, Frame> bent;
+  std::unique_ptr<Mapper> mapper;  ///< null after finish() without stay_open()
+  Mapper::AfterFinish after_finish = Mapper::AfterFinish::kNothing;
+  EditJournal edits;
+  std::vector<std::string> edit_complaints;
+  Observer observer;
+  State state = State::kReading;
+  MappingResult result;
+  std::optional<std::string> broken_off;
+  std::vector<std::string> faults;  ///< see faults_of_log()
+  std::size_t scans_checked = 0;    ///< number of scans for which `faults` was determined
+  StageClock reading_clock{"read log"};
+  SessionProgress::Phase phase = SessionProgress::Phase::kMapping;
+  double phase_began_s = 0;  ///< value of work_s when the phase began
+  double work_s = 0;         ///< time of work, without pauses between calls
+  std::size_t scans = 0;
+  std::size_t stages_of_mapping = 0;  ///< number of entries of result.stages that precede those of the export
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a mapping session leaves behind: the exported map and the session file.
+#include <algorithm>
+#include <utility>
+
+#include "base/file_checksum.h"
+#include "pose_graph/g2o_file.h"
+#include "psi_slam/grid_map.h"
+#include "psi_slam/user_error.h"
+#include "psi_slam/version.h"
+#include "report/output_folder.h"
+#include "session/mapping_session_members.h"
+#include "session/session_file.h"
+#include "session/session_input.h"
+#include "session/work_clock.h"
+
+namespace psi_slam {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Limits the facts to the first `scans` scans. Scans that are not of an earlier log belong to the last log.
+/// Drops logs and runs that begin later, and the edits of their scans.
+void keep_first(std::size_t scans, SessionFacts& facts) {
+  std::size_t left = scans;
+  for (std::size_t i = 0; i < facts.logs.size(); ++i) {
+    RecordedLog& log = facts.logs[i];
+    const std::size_t taken = i + 1 < facts.logs.size() ? std::min(log.scans, left) : left;
+    if (taken < log.scans) {
+      log.broken_off.reset();
+      log.scans_left = true;
+    }
+    log.scans = taken;
+    left -= log.scans;
+    if (left == 0) facts.logs.resize(i + 1);
+  }
+  const auto lost = std::find_if(facts.runs.begin(), facts.runs.end(),
+                                 [&](const RecordedRun& run) { return run.scan >= scans; });
+  if (lost == facts.runs.end()) return;
+  const EditJournal edits = std::exchange(facts.edits, {});
+  for (const TimedEdit& edit : edits.edits())
+    if (edit.edit.frame < lost->scan) facts.edits.add(edit);
+  facts.runs.erase(lost, facts.runs.end());
+}
+
+}  // namespace
+
+RunSummary MappingSession::export_to(const OutputFolder& folder) {
+  Members& m = *m_;
+  m.begin(SessionProgress::Phase::kWriting);
+  WorkClock clock(m.work_s);
+  m.result.stages.resize(m.stages_of_mapping);
+  StageClock drawing_clock("draw map");
+  StageClock writing_clock("write results");
+  mrpt::maps::COccupancyGridMap2D::Ptr grid;
+  drawing_clock.time([&] { grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map); });
+  m.result.stages.push_back(drawing_clock.timing());
+  writing_clock.time([&] {
+    write_g2o(m.result.graph, folder.path() / "graph.g2o");
+    m.write_edits(folder.path() / "loops.edits");
+    export_results(m.result, *grid, folder, m.settings.map_files);
+  });
+  m.result.stages.push_back(writing_clock.timing());
+  clock.stop();
+  m.result.wall_s = m.work_s;
+  RunSummary summary = summarize_run(m.result, *grid, m.settings.map);
+  summary.log.spare_scans = skipped_lines().spare_scans;
+  export_account(m.result, run_info(), summary, *grid, folder);
+  return summary;
+}
+
+void MappingSession::export_to(const fs::path& folder, bool force) {
+  export_to(OutputFolder::prepare(folder, force));
+}
+
+// Writes the edits, or removes the file of an earlier export if there are no edits.
+void MappingSession::Members::write_edits(const fs::path& file) const {
+  if (!edits.empty()) return edits.write(file);
+  std::error_code ignored;
+  fs::remove(file, ignored);
+}
+
+/// Frames to save: those that were mapped, as the mapper received them, or all of the recording. `room` holds
+/// them if the mapper has changed some.
+const std::vector<Frame>& MappingSession::Members::recorded_frames(std::vector<Frame>& room) const {
+  const std::vector<Frame>& mapped = mapped_log();
+  if (recording && mapped.size() < recording->frames.size()) return recording->frames;
+  if (bent.empty()) return mapped;
+  room = mapped;
+  for (const auto& [number, frame] : bent) room.at(number) = frame;
+  return room;
+}
+
+SavedSession MappingSession::save(const fs::path& file) const {
+  std::vector<Frame> room;
+  const std::vector<Frame>& frames = m_->recorded_frames(room);
+  const SessionFacts facts = m_->facts();
+  write_session_file(file, facts, frames);
+  SavedSession saved{frames.size(), ""};
+  if (facts.logs.back().sha256.empty())
+    saved.remark = "The session holds all scans that were mapped, but " + facts.logs.back().name +
+                   " is no longer readable, so the session cannot be resumed from it";
+  return saved;
+}
+
+SessionFacts MappingSession::Members::facts() const {
+  SessionFacts facts;
+  const bool is_replaying = recording && scans < recording->frames.size();
+  facts.program_version = PSI_SLAM_VERSION;
+  facts.logs = is_replaying ? recording->facts.logs : logs;
+  facts.runs = later_runs;
+  facts.settings = settings_file_text(settings);
+  facts.edits = edits;
+  if (is_replaying) return facts;
+  keep_first(scans, facts);
+  if (facts.logs.size() < logs.size()) return facts;
+  RecordedLog& last = facts.logs.back();
+  if (last.sha256.empty()) last.sha256 = checksum_of_log();
+  last.skipped = source->skipped_lines();
+  last.broken_off = broken_off;
+  last.scans_left = logs.back().scans_left || state == State::kReading;
+  return facts;
+}
+
+std::string MappingSession::Members::checksum_of_log() const {
+  if (!log_sha256.empty()) return log_sha256;
+  try {
+    log_sha256 = sha256_of_log(log_path);
+  } catch (const UserError&) {
+  } catch (const fs::filesystem_error&) {  // the log is a folder
+  }
+  return log_sha256;
+}
+
+}  // namespace psi_slam

@@ -42,7 +42,7 @@ std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m,
   for (std::size_t i = 0; i < beams; ++i)
     ends.emplace_back(range(i) * std::cos(bearing(i)), range(i) * std::sin(bearing(i)));
 
-  // Indices of the neighbours of a beam; `beams` if there is none.
+  // Indices of the neighbours of a beam; `beams` for a missing one.
   const bool is_ring = beams > 0 && is_full_circle(*scan.bearings_rad);
   const auto before = [&](std::size_t i) { return i > 0 ? i - 1 : is_ring ? beams - 1 : beams; };
   const auto after = [&](std::size_t i) { return i + 1 == beams && is_ring ? 0 : i + 1; };

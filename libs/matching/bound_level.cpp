@@ -31,7 +31,7 @@ struct HalfCells {
   std::uint8_t* row(int y) { return bytes.data() + static_cast<std::ptrdiff_t>(y) * width; }
 };
 
-// Returns the maxima over 2 x 2 cells of [first, end), behind a margin of zeros at the low ends.
+// Returns the maxima over 2 x 2 cells of [first, end), after a margin of zeros at the low ends.
 HalfCells halved(const ScoreLevel& finest, Cell first, Cell end, int margin) {
   HalfCells half = {(end.x - first.x + 1) / 2 + margin, (end.y - first.y + 1) / 2 + margin, {}};
   half.bytes.assign(static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height), 0);

@@ -47,7 +47,7 @@ struct MappingSession::Members {
   void report(double share) const;
 
   std::shared_ptr<const SessionRecording> recording;  ///< null if there is no recorded session
-  std::filesystem::path log_path;                     ///< the log that is read; empty if there is none
+  std::filesystem::path log_path;                     ///< the log that is read; empty without a log
   mutable std::string log_sha256;                     ///< cache of checksum_of_log()
   /// For the last log, scans_left means that readable scans are known to remain.
   std::vector<RecordedLog> logs;

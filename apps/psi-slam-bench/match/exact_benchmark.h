@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "batch/workers.h"
-#include "common/bench_command.h"
 #include "common/bench_report.h"
+#include "common/benchmark_logs.h"
 #include "match/loop_cases.h"
 
 namespace psi_slam {

@@ -19,17 +19,20 @@ BackEndOptions near_maps_too() {
   return options;
 }
 
+/// The nodes, and the local maps that were finished before this node.
+KeyframeStore finished_before(std::size_t node) {
+  KeyframeStore keyframes = two_rounds().keyframes;
+  while (!keyframes.local_maps.empty() && keyframes.local_maps.back().last_node >= node)
+    keyframes.local_maps.pop_back();
+  return keyframes;
+}
+
 /// Closes the loops of all nodes in order. Returns the number of new constraints.
 std::size_t close_all(BackEnd& back_end, PoseGraph& graph) {
-  const TwoRounds& rounds = two_rounds();
   std::size_t made = 0;
   for (std::size_t node = 0; node < graph.num_nodes(); ++node) {
     back_end.move(0.15, {graph.pose(node).x, graph.pose(node).y});
-    // Keeps only local maps that were finished before this node.
-    KeyframeStore keyframes = rounds.keyframes;
-    while (!keyframes.local_maps.empty() && keyframes.local_maps.back().last_node >= node)
-      keyframes.local_maps.pop_back();
-    made += static_cast<std::size_t>(back_end.close(node, keyframes, graph).accepted);
+    made += static_cast<std::size_t>(back_end.close(node, finished_before(node), graph).accepted);
   }
   return made;
 }
@@ -48,6 +51,26 @@ TEST(BackEnd, accepted_loops_are_constraints_at_the_true_poses) {
     const auto off = loop.from_T_to - (two_rounds().truth[loop.to] - two_rounds().truth[loop.from]);
     EXPECT_LT(std::hypot(off.x, off.y), 0.1);
   }
+}
+
+// Nodes are 0.15 m apart and search once in 0.3 m, so the mean over all nodes would be half as large.
+TEST(BackEnd, the_factor_averages_over_the_nodes_that_searched) {
+  PoseGraph graph = two_rounds().graph();
+  BackEndOptions options = near_maps_too();
+  options.psi.window_frames = 1000;
+  BackEnd back_end(options);
+  int searches = 0;
+  int accepted = 0;
+  for (std::size_t node = 0; node < graph.num_nodes(); ++node) {
+    back_end.move(0.15, {graph.pose(node).x, graph.pose(node).y});
+    const NodeLoops loops = back_end.close(node, finished_before(node), graph);
+    searches += loops.searched ? 1 : 0;
+    accepted += loops.accepted;
+    EXPECT_TRUE(loops.searched || loops.effort.attempts == 0);
+    ASSERT_EQ(back_end.factor().mean_loops, searches == 0 ? 0 : static_cast<double>(accepted) / searches);
+  }
+  EXPECT_GT(accepted, 3);
+  EXPECT_LT(searches, static_cast<int>(graph.num_nodes()));
 }
 
 std::map<MatcherKind, LoopEffort> finish(BackEnd& back_end, PoseGraph& graph, FinalProgress& progress) {

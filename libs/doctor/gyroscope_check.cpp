@@ -30,12 +30,12 @@ bool tells(const MappingResult& result, std::size_t i) {
 
 std::optional<std::string> rejected_gyroscope(const MappingResult& result, const FrameSpan& of_log) {
   GyroscopeModel model;
-  std::optional<double> last_rate_radps;
+  double last_rate_radps = 0;  // 0: unknown
   std::size_t scans = 0;
   std::size_t rejected = 0;
   for (std::size_t i = of_log.begin + 1; i < of_log.end; ++i) {
     if (!tells(result, i)) {
-      last_rate_radps.reset();
+      last_rate_radps = 0;
       continue;
     }
     const double passed_s = seconds(result.frames[i].time_us - result.frames[i - 1].time_us);
@@ -44,7 +44,7 @@ std::optional<std::string> rejected_gyroscope(const MappingResult& result, const
         mrpt::math::wrapToPi(result.frames[i].map_T_robot.phi - result.frames[i - 1].map_T_robot.phi);
     ++scans;
     if (!model.is_credible()) ++rejected;
-    model.learn(passed_s, measured_rad, mapped_rad, last_rate_radps.value_or(0) * passed_s);
+    model.learn(passed_s, measured_rad, mapped_rad, last_rate_radps * passed_s);
     last_rate_radps = mapped_rad / passed_s;
   }
   const double share = scans < kFewestScans ? 0 : static_cast<double>(rejected) / static_cast<double>(scans);

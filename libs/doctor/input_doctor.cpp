@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/input_doctor.h"
 
-#include <mrpt/core/bits_math.h>
-
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -17,9 +15,6 @@ namespace psi_slam {
 namespace {
 
 constexpr std::size_t kTracks = 90;
-constexpr std::size_t kPairs = 1500;
-constexpr double kPairDistance_m = 0.25;
-const double kPairTurn_rad = mrpt::DEG2RAD(12.0);
 constexpr double kUnlimited_m = 1e6;
 
 /// Results of the first pass over the log.
@@ -56,20 +51,6 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
   return pass;
 }
 
-/// Selects the first laser, since only scans of one laser are compared with each other.
-LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions options) {
-  const LogFormat format = detect_log_format(path);
-  const bool selects_several = reads_several_lasers(options, format);
-  if (is_bag(format)) {
-    options.scan_topic = plan_bag(path, options).scan_topics.front();
-  } else if (selects_several) {
-    options.scan_topic.clear();  // the option applies to bags only
-    const LaserChoice choice = laser_choice("log.laser", options.laser);
-    if (choice.several()) options.laser = choice.all ? "" : choice.names.front();
-  }
-  return options;
-}
-
 /// Returns the field of view for make_bearings_rad(): the option, the usual value for the number of beams, or
 /// the span of the bearings.
 double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {
@@ -84,7 +65,7 @@ double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {
 void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& options, LogDiagnosis& diagnosis) {
   const std::vector<FrameMark>& marks = pass.marks;
   const auto tracks = tracks_from(frames_in_motion(marks, kTracks), marks.size());
-  const auto pairs = pairs_by_motion(marks, kPairDistance_m, kPairTurn_rad, kPairs);
+  const auto pairs = calibration_pairs(marks);
   const auto suspects = suspected_jumps(marks, pass.facts.time.median_period_s, 100);
   const auto revisits = revisiting_pairs(marks, 0.5, 0.5, 30, 150);
   const BeamAngleEvidence evidence =
@@ -101,8 +82,14 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
   diagnosis.odometry = check_odometry(marks, tracks, library);
   diagnosis.odometry_is_sound = is_sound(diagnosis.odometry);
   if (diagnosis.odometry_is_sound) {
-    const std::vector<AlignedPair> aligned = align_pairs(marks, pairs, library);
+    std::vector<AlignedPair> aligned = align_pairs(marks, pairs, library);
     diagnosis.reversals = find_lost_reversals(aligned, library);
+    diagnosis.delay = estimate_scan_delay(marks, reliable_turns(aligned));
+    if (diagnosis.delay && diagnosis.delay->is_significant())
+      set_odometry(aligned, with_scan_delay(marks, diagnosis.delay->delay_s));
+    // The scans are compared as recorded: measured in the middle of the sweep on average.
+    if (diagnosis.delay)
+      diagnosis.delay->delay_s += std::abs(diagnosis.sweep_direction.stated_sweep_time_s) / 2;
     diagnosis.mount = estimate_laser_mount(aligned, pass.facts.robot_T_laser);
     diagnosis.jumps = confirm_jumps(marks, suspects, library);
     diagnosis.revisits = check_revisits(marks, revisits, library);
@@ -123,6 +110,19 @@ SweepDirectionStudy study_first_laser(const std::filesystem::path& path, const L
 }
 
 }  // namespace
+
+LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions options) {
+  const LogFormat format = detect_log_format(path);
+  const bool selects_several = reads_several_lasers(options, format);
+  if (is_bag(format)) {
+    options.scan_topic = plan_bag(path, options).scan_topics.front();
+  } else if (selects_several) {
+    options.scan_topic.clear();  // the option applies to bags only
+    const LaserChoice choice = laser_choice("log.laser", options.laser);
+    if (choice.several()) options.laser = choice.all ? "" : choice.names.front();
+  }
+  return options;
+}
 
 LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options) {
   LogDiagnosis diagnosis;

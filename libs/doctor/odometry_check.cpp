@@ -33,6 +33,7 @@ constexpr double kLeastResultant = 0.35;
 
 /// Turns between two consecutive frames of a track.
 struct Step {
+  FramePair frames;
   double scan_turn_rad;
   double odometry_turn_rad;
 };
@@ -61,7 +62,8 @@ std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vect
   TPose2D last_step{0, 0, 0};
   for (std::size_t k = 1; k < frames.size(); ++k) {
     const AlignableScan scan(library.at(frames[k]));
-    const TPose2D odometry_step = odometry_between(marks, {frames[k - 1], frames[k]});
+    const FramePair step{frames[k - 1], frames[k]};
+    const TPose2D odometry_step = odometry_between(marks, step);
     ScanAlignment alignment = align_scans(reference, scan, std::vector<TPose2D>{now, now + last_step});
     if (!alignment.is_reliable(kGoodCost_m)) {
       std::vector<TPose2D> guesses = fan_of_guesses(now);
@@ -75,7 +77,7 @@ std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vect
     track.by_scans = now;
     track.by_odometry = odometry_between(marks, {frames.front(), frames[k]});
     track.length_deviation_m = alignment.deviation_along_m(std::atan2(now.y, now.x));
-    track.steps.push_back({last_step.phi, wrapToPi(odometry_step.phi)});
+    track.steps.push_back({step, last_step.phi, wrapToPi(odometry_step.phi)});
     if (now.norm() > kTrackLength_m || std::abs(now.phi) > kTrackTurn_rad) break;
   }
   if (track.steps.empty()) return std::nullopt;
@@ -145,6 +147,7 @@ void compare_turns(const std::vector<Track>& tracks, OdometryAgreement& agreemen
   for (const Track& track : tracks) steps.insert(steps.end(), track.steps.begin(), track.steps.end());
   std::map<HeadingRelation, std::size_t> fitting;
   for (const Step& step : steps) {
+    agreement.turns.push_back({step.frames, step.scan_turn_rad});
     if (std::abs(step.scan_turn_rad) < kLeastTurn_rad) continue;
     ++agreement.turn_samples;
     if (fits(step, 1)) ++fitting[HeadingRelation::kAgrees];

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "doctor/log_facts.h"
+#include "doctor/scan_delay.h"
 #include "doctor/scan_sampling.h"
 
 namespace psi_slam {
@@ -40,6 +41,7 @@ struct OdometryAgreement {
   /// Median angle between the motion by odometry and the axis of the robot, in [0, pi/2]. The angle is large
   /// if the headings of odometry do not match the positions of odometry.
   double odometry_slip_rad = 0;
+  std::vector<ScanTurn> turns{};  ///< turns between consecutive frames of all tracks
 };
 
 /// Returns whether units and signs of odometry are right, as far as the scans tell.

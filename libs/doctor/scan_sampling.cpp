@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/scan_sampling.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -104,6 +105,12 @@ std::vector<FramePair> pairs_by_motion(const std::vector<FrameMark>& marks, doub
     first = i;
   }
   return thinned(pairs, most);
+}
+
+std::vector<FramePair> calibration_pairs(const std::vector<FrameMark>& marks) {
+  constexpr std::size_t kMostPairs = 1500;
+  constexpr double kDistance_m = 0.25;
+  return pairs_by_motion(marks, kDistance_m, mrpt::DEG2RAD(12.0), kMostPairs);
 }
 
 std::vector<FramePair> pairs_by_turn(const std::vector<FrameMark>& marks, double min_turn_rad,

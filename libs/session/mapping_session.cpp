@@ -104,6 +104,7 @@ struct MappingSession::Members {
   /// finish(), kFinished -> kRead in reopen(), kRead -> kReading in begin_run(). Other transitions throw
   /// std::logic_error.
   void enter(State next);
+  void read_from(OpenedInput opened);
   std::optional<Frame> read();
   const std::vector<Frame>& recorded_frames(std::vector<Frame>& room) const;
   void check_log();
@@ -133,6 +134,8 @@ struct MappingSession::Members {
   std::map<std::size_t, Frame> bent;
   std::unique_ptr<Mapper> mapper;  ///< null after finish() without stay_open()
   Mapper::AfterFinish after_finish = Mapper::AfterFinish::kNothing;
+  std::vector<CalibratedOption> estimates;         ///< of all logs
+  std::vector<std::string> calibration_sentences;  ///< about the last log
   EditJournal edits;
   std::vector<std::string> edit_complaints;
   Observer observer;
@@ -163,7 +166,7 @@ MappingSession::MappingSession(const SessionInput& input, const Settings& settin
   m_->logs = input.logs();
   m_->settings = settings;
   m_->settings_warnings = std::move(settings_warnings);
-  m_->source = open_input(input, settings);
+  m_->read_from(open_input(input, settings));
   m_->mapper = std::make_unique<Mapper>(mapper_options(settings));
   m_->edits = input.edits();
   m_->make_due_edits({});
@@ -196,6 +199,12 @@ bool MappingSession::step() {
   }
   m_->report(m_->source->progress());
   return true;
+}
+
+void MappingSession::Members::read_from(OpenedInput opened) {
+  source = std::move(opened.frames);
+  estimates.insert(estimates.end(), opened.calibration.estimates.begin(), opened.calibration.estimates.end());
+  calibration_sentences = std::move(opened.calibration.sentences);
 }
 
 std::optional<Frame> MappingSession::Members::read() {
@@ -351,7 +360,7 @@ void MappingSession::Members::begin_recorded_run() {
 
 void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
   Members& m = *m_;
-  auto source = open_input(run, m.settings);
+  OpenedInput opened = open_input(run, m.settings);
   const std::vector<RecordedLog> logs_before = m.facts().logs;
   reopen();
   const std::size_t first_node = m.mapper->graph().num_nodes();
@@ -370,7 +379,7 @@ void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
   m.log_sha256.clear();
   m.logs = logs_before;
   m.logs.insert(m.logs.end(), run.logs().begin(), run.logs().end());
-  m.source = std::move(source);
+  m.read_from(std::move(opened));
   m.broken_off.reset();
   m.enter(Members::State::kReading);
   m.begin(SessionProgress::Phase::kMapping);
@@ -501,6 +510,7 @@ std::vector<std::string> MappingSession::unmet_edits() const {
 
 std::vector<std::string> MappingSession::assumptions() const {
   std::vector<std::string> assumptions = m_->source->assumptions();
+  assumptions.insert(assumptions.end(), m_->calibration_sentences.begin(), m_->calibration_sentences.end());
   const std::vector<Frame>& log = m_->mapped_log();
   const auto without = static_cast<std::size_t>(
       std::count_if(log.begin(), log.end(), [](const Frame& frame) { return !frame.has_odometry; }));
@@ -549,6 +559,7 @@ RunInfo MappingSession::run_info() const {
   for (const OptionSection& section : bound.table.sections())
     for (const Option& option : section.options) info.settings[option.name()] = option.text();
   info.warnings = warnings();
+  info.calibration = m_->estimates;
   return info;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/input_doctor.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -15,6 +17,9 @@ namespace psi_slam {
 namespace {
 
 constexpr std::size_t kTracks = 90;
+constexpr std::size_t kPairs = 1500;
+constexpr double kPairDistance_m = 0.25;
+const double kPairTurn_rad = mrpt::DEG2RAD(12.0);
 constexpr double kUnlimited_m = 1e6;
 
 /// Results of the first pass over the log.
@@ -65,7 +70,7 @@ double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {
 void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& options, LogDiagnosis& diagnosis) {
   const std::vector<FrameMark>& marks = pass.marks;
   const auto tracks = tracks_from(frames_in_motion(marks, kTracks), marks.size());
-  const auto pairs = calibration_pairs(marks);
+  const auto pairs = pairs_by_motion(marks, kPairDistance_m, kPairTurn_rad, kPairs);
   const auto suspects = suspected_jumps(marks, pass.facts.time.median_period_s, 100);
   const auto revisits = revisiting_pairs(marks, 0.5, 0.5, 30, 150);
   const BeamAngleEvidence evidence =

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/odometry_calibration.h"
 
-#include <utility>
+#include <mrpt/core/bits_math.h>
+
 #include <vector>
 
 #include "doctor/input_doctor.h"
@@ -16,6 +17,9 @@ namespace psi_slam {
 namespace {
 
 constexpr std::size_t kTracks = 30;
+constexpr std::size_t kMostPairs = 1500;
+constexpr double kDistance_m = 0.25;
+const double kTurn_rad = mrpt::DEG2RAD(12.0);
 
 bool reads_several(const std::filesystem::path& path, const LogOptions& options) {
   return reads_several_lasers(options, detect_log_format(path)) ||
@@ -33,38 +37,53 @@ LogFactsCollector read_once(const std::filesystem::path& path, const LogOptions&
   return collector;
 }
 
-}  // namespace
-
-OdometryCalibration calibrate_odometry(const std::filesystem::path& path, const LogOptions& options) {
-  OdometryCalibration calibration;
-  calibration.several_lasers = reads_several(path, options);
-  LogOptions of_one_laser = calibration.several_lasers ? options_of_first_laser(path, options) : options;
-  of_one_laser.every_nth_scan = 1;
-  const LogFactsCollector collector = read_once(path, of_one_laser);
+/// Estimates what the odometry of the log lacks as `options` read it. Aligns each scan with the scan after a
+/// short motion.
+OdometryCalibration estimate_once(const std::filesystem::path& path, const LogOptions& options) {
+  OdometryCalibration found;
+  const LogFactsCollector collector = read_once(path, options);
   const LogFacts facts = collector.facts();
   const std::vector<FrameMark>& marks = collector.marks();
-  calibration.median_period_s = facts.time.median_period_s;
+  found.median_period_s = facts.time.median_period_s;
   if (facts.scans_without_odometry > 0) {
-    calibration.obstacle = facts.scans_without_odometry == facts.scans ? "the log has no odometry"
-                                                                       : "some scans have no odometry";
-    return calibration;
+    found.obstacle = facts.scans_without_odometry == facts.scans ? "the log has no odometry"
+                                                                 : "some scans have no odometry";
+    return found;
   }
   const auto tracks = tracks_from(frames_in_motion(marks, kTracks), marks.size());
-  const auto pairs = calibration_pairs(marks);
+  const auto pairs = overlapping_pairs(marks, kDistance_m, kTurn_rad, kMostPairs);
   ScanLibrary library;
   for (const auto& track : tracks) library.want(track);
   library.want(pairs);
-  library.fetch(path, of_one_laser);
+  library.fetch(path, options);
   if (!is_sound(check_odometry(marks, tracks, library))) {
-    calibration.obstacle = "odometry contradicts the scans. See psi-slam check";
-    return calibration;
+    found.obstacle = "odometry contradicts the scans. See psi-slam check";
+    return found;
   }
   std::vector<AlignedPair> aligned = align_pairs(marks, pairs, library);
-  calibration.delay = estimate_scan_delay(marks, reliable_turns(aligned));
-  if (calibration.delay && calibration.delay->is_significant())
-    set_odometry(aligned, with_scan_delay(marks, calibration.delay->delay_s));
-  calibration.mount = estimate_laser_mount(aligned, facts.robot_T_laser);
-  return calibration;
+  found.delay = estimate_scan_delay(marks, reliable_turns(aligned));
+  if (found.delay && found.delay->is_significant())
+    set_odometry(aligned, with_scan_delay(marks, found.delay->delay_s));
+  found.stated_mount = facts.robot_T_laser;
+  found.mount = estimate_laser_mount(aligned, facts.robot_T_laser);
+  return found;
+}
+
+}  // namespace
+
+OdometryCalibration calibrate_odometry(const std::filesystem::path& path, const LogOptions& options) {
+  const bool several_lasers = reads_several(path, options);
+  LogOptions of_one_laser = several_lasers ? options_of_first_laser(path, options) : options;
+  of_one_laser.every_nth_scan = 1;
+  OdometryCalibration found = estimate_once(path, of_one_laser);
+  if (found.delay && found.delay->is_significant() && !options.scan_delay_s) {
+    // The delay has spoilt the removal of the motion during a sweep, and the guesses for the alignment.
+    of_one_laser.scan_delay_s = found.delay->delay_s;
+    found = estimate_once(path, of_one_laser);
+    if (found.delay) found.delay->delay_s += *of_one_laser.scan_delay_s;
+  }
+  found.several_lasers = several_lasers;
+  return found;
 }
 
 }  // namespace psi_slam

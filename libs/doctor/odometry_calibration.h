@@ -19,12 +19,14 @@ struct OdometryCalibration {
   std::string obstacle;
   bool several_lasers = false;              ///< the estimates are those of the first laser
   double median_period_s = 0;               ///< time between scans
+  mrpt::math::TPose2D stated_mount;         ///< pose of the laser as the log states it
   std::optional<ScanDelay> delay;           ///< empty: the scans show no delay of less than a second
   std::optional<LaserMountEstimate> mount;  ///< with the scale; empty: too few pairs of scans
 };
 
-/// Reads the log twice and estimates what odometry, as corrected by `options`, still lacks. Thins no scans. A
-/// damaged log counts up to the damage. Throws UserError if its first scan is unreadable.
+/// Reads the log twice, or four times if the scans are stamped late, and estimates what odometry, as
+/// corrected by `options`, still lacks. Thins no scans. A damaged log counts up to the damage. Throws
+/// UserError if its first scan is unreadable.
 OdometryCalibration calibrate_odometry(const std::filesystem::path& path, const LogOptions& options);
 
 }  // namespace psi_slam

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/scan_sampling.h"
 
-#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -46,6 +45,19 @@ std::size_t next_elsewhere(const std::vector<FrameMark>& marks, const std::vecto
   while (next < marks.size() && distance_m(marks[frame], marks[next]) < kElsewhere_m &&
          std::abs(headings_rad[next] - headings_rad[frame]) < kElsewhere_rad)
     ++next;
+  return next;
+}
+
+/// Returns the first frame after `frame` that is at least `distance` or `turn_rad` away; the number of frames
+/// if there is none.
+std::size_t next_after_motion(const std::vector<FrameMark>& marks, std::size_t frame, double distance,
+                              double turn_rad) {
+  std::size_t next = frame + 1;
+  while (next < marks.size()) {
+    const TPose2D motion = odometry_between(marks, {frame, next});
+    if (!(motion.norm() < distance && std::abs(motion.phi) < turn_rad)) break;
+    ++next;
+  }
   return next;
 }
 
@@ -97,20 +109,25 @@ std::vector<std::size_t> frames_in_motion(const std::vector<FrameMark>& marks, s
 std::vector<FramePair> pairs_by_motion(const std::vector<FrameMark>& marks, double distance, double turn_rad,
                                        std::size_t most) {
   std::vector<FramePair> pairs;
-  std::size_t first = 0;
-  for (std::size_t i = 1; i < marks.size(); ++i) {
-    const TPose2D motion = odometry_between(marks, {first, i});
-    if (std::hypot(motion.x, motion.y) < distance && std::abs(motion.phi) < turn_rad) continue;
-    pairs.push_back({first, i});
-    first = i;
+  for (std::size_t first = 0; first < marks.size();) {
+    const std::size_t second = next_after_motion(marks, first, distance, turn_rad);
+    if (second < marks.size()) pairs.push_back({first, second});
+    first = second;
   }
   return thinned(pairs, most);
 }
 
-std::vector<FramePair> calibration_pairs(const std::vector<FrameMark>& marks) {
-  constexpr std::size_t kMostPairs = 1500;
-  constexpr double kDistance_m = 0.25;
-  return pairs_by_motion(marks, kDistance_m, mrpt::DEG2RAD(12.0), kMostPairs);
+std::vector<FramePair> overlapping_pairs(const std::vector<FrameMark>& marks, double distance,
+                                         double turn_rad, std::size_t most) {
+  constexpr double kShare = 0.2;  // of the motion of a pair, after which the next pair begins
+  std::vector<FramePair> pairs;
+  for (std::size_t first = 0; first < marks.size();) {
+    const std::size_t second = next_after_motion(marks, first, distance, turn_rad);
+    if (second == marks.size()) break;
+    pairs.push_back({first, second});
+    first = next_after_motion(marks, first, kShare * distance, kShare * turn_rad);
+  }
+  return thinned(pairs, most);
 }
 
 std::vector<FramePair> pairs_by_turn(const std::vector<FrameMark>& marks, double min_turn_rad,

@@ -35,8 +35,9 @@ std::vector<std::size_t> frames_in_motion(const std::vector<FrameMark>& marks, s
 std::vector<FramePair> pairs_by_motion(const std::vector<FrameMark>& marks, double distance_m,
                                        double turn_rad, std::size_t most);
 
-/// Returns up to 1500 pairs_by_motion() whose motions show scale, delay and the mount of the laser.
-std::vector<FramePair> calibration_pairs(const std::vector<FrameMark>& marks);
+/// Like pairs_by_motion(), but a pair begins after each fifth of such a motion, so that pairs overlap.
+std::vector<FramePair> overlapping_pairs(const std::vector<FrameMark>& marks, double distance_m,
+                                         double turn_rad, std::size_t most);
 
 /// Returns pairs of frames between which the robot turns by `min_turn_rad` to `max_turn_rad` and moves at
 /// most `distance_m`. Selects `most` of them evenly if there are more.

@@ -14,11 +14,13 @@ namespace {
 
 using mrpt::DEG2RAD;
 using mrpt::RAD2DEG;
+using mrpt::math::TPose2D;
 
 constexpr double kScaleDeviation = 0.005;
 constexpr double kMountDeviation_m = 0.02;
 const double kMountDeviation_rad = DEG2RAD(0.5);
 constexpr double kDelayDeviationPerPeriod = 0.2;
+constexpr double kSignificant = 4;  // in standard deviations
 
 const char* const kUndetermined = "not used, because the log does not determine it well enough";
 
@@ -75,8 +77,13 @@ class Calibrator {
     if (found_.several_lasers) return say("leaves the poses of several lasers unchanged");
     if (!found_.mount) return say("finds too few scans that show the pose of the laser");
     const LaserMountEstimate& mount = *found_.mount;
-    const mrpt::math::TPose2D& pose = mount.robot_T_laser;
-    const bool is_used = mount.deviation_m <= kMountDeviation_m && mount.deviation_rad <= kMountDeviation_rad;
+    const TPose2D& pose = mount.robot_T_laser;
+    const bool is_determined =
+        mount.deviation_m <= kMountDeviation_m && mount.deviation_rad <= kMountDeviation_rad;
+    const TPose2D off = pose - found_.stated_mount;
+    const bool differs = off.norm() > kSignificant * mount.deviation_m ||
+                         std::abs(off.phi) > kSignificant * mount.deviation_rad;
+    const bool is_used = is_determined && differs;
     if (is_used) made_.options.robot_T_laser = pose;
     add("log.laser_x_m", pose.x, mount.deviation_m, is_used);
     add("log.laser_y_m", pose.y, mount.deviation_m, is_used);
@@ -84,7 +91,10 @@ class Calibrator {
     say("estimates the pose of the laser: x " + fixed_text(pose.x, 3) + " m, y " + fixed_text(pose.y, 3) +
         " m, yaw " + fixed_text(RAD2DEG(pose.phi), 2) + " degrees (standard deviations " +
         fixed_text(mount.deviation_m, 3) + " m and " + fixed_text(RAD2DEG(mount.deviation_rad), 2) +
-        " degrees), " + (is_used ? "used" : kUndetermined));
+        " degrees), " +
+        (is_used         ? "used"
+         : is_determined ? "not used, because it hardly differs from the stated pose"
+                         : kUndetermined));
   }
 
   const OdometryCalibration& found_;

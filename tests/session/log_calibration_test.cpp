@@ -74,6 +74,14 @@ TEST(LogCalibration, uses_no_delay_that_may_be_zero) {
   EXPECT_THAT(made.sentences[1], HasSubstr("not used, because it hardly differs from 0"));
 }
 
+TEST(LogCalibration, keeps_a_stated_mount_that_may_be_right) {
+  OdometryCalibration calibration = well_determined();
+  calibration.stated_mount = {0.21, 0.005, mrpt::DEG2RAD(1.3)};
+  const LogCalibration made = use_calibration(calibration, {});
+  EXPECT_FALSE(made.options.robot_T_laser);
+  EXPECT_THAT(made.sentences[2], HasSubstr("not used, because it hardly differs from the stated pose"));
+}
+
 TEST(LogCalibration, options_of_the_user_take_precedence) {
   LogOptions options;
   options.odometry_scale = 1.1;

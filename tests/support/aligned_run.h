@@ -12,7 +12,7 @@ namespace psi_slam {
 
 struct AlignedRun {
   std::vector<FrameMark> marks;
-  std::vector<AlignedPair> pairs;  ///< calibration_pairs()
+  std::vector<AlignedPair> pairs;  ///< overlapping_pairs()
 };
 
 inline AlignedRun aligned_run(const SimulatedRun& run) {
@@ -26,7 +26,7 @@ inline AlignedRun aligned_run(const SimulatedRun& run) {
     scans.push_back(run.scan(i));
     pointers.push_back(&scans.back());
   }
-  const auto pairs = calibration_pairs(aligned.marks);
+  const auto pairs = overlapping_pairs(aligned.marks, 0.25, mrpt::DEG2RAD(12.0), 1500);
   ScanLibrary library;
   library.want(pairs);
   library.take(pointers);

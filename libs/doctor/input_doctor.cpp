@@ -84,10 +84,11 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
   for (const auto& turn : evidence.full_turns) library.want(turn);
   library.fetch(diagnosis.path, diagnosis.options);
 
-  diagnosis.odometry = check_odometry(marks, tracks, library);
+  std::vector<FrameMark> corrected = marks;  // for a delay without which odometry contradicts the scans
+  diagnosis.odometry = check_odometry_and_delay(corrected, tracks, library);
   diagnosis.odometry_is_sound = is_sound(diagnosis.odometry);
   if (diagnosis.odometry_is_sound) {
-    std::vector<AlignedPair> aligned = align_pairs(marks, pairs, library);
+    std::vector<AlignedPair> aligned = align_pairs(corrected, pairs, library);
     diagnosis.reversals = find_lost_reversals(aligned, library);
     diagnosis.delay = estimate_scan_delay(marks, reliable_turns(aligned));
     if (diagnosis.delay && diagnosis.delay->is_significant())

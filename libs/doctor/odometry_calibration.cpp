@@ -3,6 +3,7 @@
 
 #include <mrpt/core/bits_math.h>
 
+#include <cmath>
 #include <vector>
 
 #include "doctor/input_doctor.h"
@@ -20,6 +21,7 @@ constexpr std::size_t kTracks = 30;
 constexpr std::size_t kMostPairs = 1500;
 constexpr double kDistance_m = 0.25;
 const double kTurn_rad = mrpt::DEG2RAD(12.0);
+constexpr double kMostDelay_s = 1.0;
 
 bool reads_several(const std::filesystem::path& path, const LogOptions& options) {
   return reads_several_lasers(options, detect_log_format(path)) ||
@@ -56,11 +58,12 @@ OdometryCalibration estimate_once(const std::filesystem::path& path, const LogOp
   for (const auto& track : tracks) library.want(track);
   library.want(pairs);
   library.fetch(path, options);
-  if (!is_sound(check_odometry(marks, tracks, library))) {
+  std::vector<FrameMark> corrected = marks;
+  if (!is_sound(check_odometry_and_delay(corrected, tracks, library))) {
     found.obstacle = "odometry contradicts the scans. See psi-slam check";
     return found;
   }
-  std::vector<AlignedPair> aligned = align_pairs(marks, pairs, library);
+  std::vector<AlignedPair> aligned = align_pairs(corrected, pairs, library);
   found.delay = estimate_scan_delay(marks, reliable_turns(aligned));
   if (found.delay && found.delay->is_significant())
     set_odometry(aligned, with_scan_delay(marks, found.delay->delay_s));
@@ -81,6 +84,7 @@ OdometryCalibration calibrate_odometry(const std::filesystem::path& path, const 
     of_one_laser.scan_delay_s = found.delay->delay_s;
     found = estimate_once(path, of_one_laser);
     if (found.delay) found.delay->delay_s += *of_one_laser.scan_delay_s;
+    if (found.delay && std::abs(found.delay->delay_s) > kMostDelay_s) found.delay.reset();
   }
   found.several_lasers = several_lasers;
   return found;

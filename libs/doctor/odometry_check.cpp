@@ -9,6 +9,7 @@
 #include <complex>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "frames/scan_alignment.h"
 
@@ -202,6 +203,20 @@ OdometryAgreement check_odometry(const std::vector<FrameMark>& marks,
   compare_lengths(followed, agreement);
   compare_turns(followed, agreement);
   return agreement;
+}
+
+OdometryAgreement check_odometry_and_delay(std::vector<FrameMark>& marks,
+                                           const std::vector<std::vector<std::size_t>>& tracks,
+                                           const ScanLibrary& library) {
+  OdometryAgreement agreement = check_odometry(marks, tracks, library);
+  if (is_sound(agreement)) return agreement;
+  const auto delay = estimate_scan_delay(marks, agreement.turns);
+  if (!delay || !delay->is_significant()) return agreement;
+  std::vector<FrameMark> shifted = with_scan_delay(marks, delay->delay_s);
+  OdometryAgreement with_delay = check_odometry(shifted, tracks, library);
+  if (!is_sound(with_delay)) return agreement;
+  marks = std::move(shifted);
+  return with_delay;
 }
 
 }  // namespace psi_slam

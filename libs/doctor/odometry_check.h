@@ -56,4 +56,10 @@ OdometryAgreement check_odometry(const std::vector<FrameMark>& marks,
                                  const std::vector<std::vector<std::size_t>>& tracks,
                                  const ScanLibrary& library);
 
+/// Like check_odometry(). If odometry is not sound, but is with scans that were measured before their time
+/// stamps, also replaces the odometry of `marks` by that of the times of measurement.
+OdometryAgreement check_odometry_and_delay(std::vector<FrameMark>& marks,
+                                           const std::vector<std::vector<std::size_t>>& tracks,
+                                           const ScanLibrary& library);
+
 }  // namespace psi_slam

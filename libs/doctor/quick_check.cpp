@@ -23,7 +23,8 @@ void compare_odometry_with(const std::vector<const LaserScan*>& scans, LogDiagno
   library.want(suspects);
   library.want(revisits);
   library.take(scans);
-  diagnosis.odometry = check_odometry(marks, tracks, library);
+  std::vector<FrameMark> corrected = marks;
+  diagnosis.odometry = check_odometry_and_delay(corrected, tracks, library);
   diagnosis.odometry_is_sound = is_sound(diagnosis.odometry);
   if (!diagnosis.odometry_is_sound) return;
   diagnosis.delay = estimate_scan_delay(marks, diagnosis.odometry.turns);

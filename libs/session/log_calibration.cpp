@@ -17,6 +17,7 @@ using mrpt::RAD2DEG;
 using mrpt::math::TPose2D;
 
 constexpr double kScaleDeviation = 0.005;
+const double kMostLogScale = std::log(2.0);  // of odometry in metres
 constexpr double kMountDeviation_m = 0.02;
 const double kMountDeviation_rad = DEG2RAD(0.5);
 constexpr double kDelayDeviationPerPeriod = 0.2;
@@ -52,7 +53,7 @@ class Calibrator {
     if (!found_.mount) return say("finds too few scans that show the scale of odometry");
     const double scale = 1 / found_.mount->odometry_scale;
     const double deviation = scale * scale * found_.mount->scale_deviation;
-    const bool is_used = deviation <= kScaleDeviation;
+    const bool is_used = deviation <= kScaleDeviation && std::abs(std::log(scale)) < kMostLogScale;
     if (is_used) made_.options.odometry_scale = scale;
     add("log.odometry_scale", scale, deviation, is_used);
     say("estimates the scale of odometry: " + fixed_text(scale, 4) + " (standard deviation " +

@@ -190,6 +190,37 @@ TEST_F(InputDoctorTest, measures_the_mount_of_the_laser) {
   EXPECT_TRUE(finding_of(diagnose_run(run, stated), "laser_mount").sentence.empty());
 }
 
+TEST_F(InputDoctorTest, measures_the_scale_of_odometry) {
+  SimulatedRun run = round_trips(2);
+  for (TPose2D& pose : run.odometry) {
+    pose.x *= 1.1;
+    pose.y *= 1.1;
+  }
+  const Finding finding = finding_of(diagnose_run(run), "odometry_scale");
+  double scale = 0;
+  ASSERT_EQ(std::sscanf(finding.remedy.c_str(), "log.calibrate = true, or log.odometry_scale = %lf", &scale),
+            1)
+      << finding.remedy;
+  EXPECT_NEAR(scale, 1 / 1.1, 0.005);
+  LogOptions stated;
+  stated.odometry_scale = 1 / 1.1;
+  EXPECT_TRUE(finding_of(diagnose_run(run, stated), "odometry_scale").sentence.empty());
+}
+
+TEST_F(InputDoctorTest, measures_the_delay_of_scans) {
+  const SimulatedRun run = with_late_stamps(round_trips(2), 0.25);
+  const Finding finding = finding_of(diagnose_run(run), "scan_delay");
+  EXPECT_EQ(finding.severity, Severity::kWarning);
+  double delay_s = 0;
+  ASSERT_EQ(std::sscanf(finding.remedy.c_str(), "log.calibrate = true, or log.scan_delay_s = %lf", &delay_s),
+            1)
+      << finding.remedy;
+  EXPECT_NEAR(delay_s, 0.25, 0.03);
+  LogOptions stated;
+  stated.scan_delay_s = 0.25;
+  EXPECT_TRUE(finding_of(diagnose_run(run, stated), "scan_delay").sentence.empty());
+}
+
 TEST_F(InputDoctorTest, detects_wrong_beam_angles) {
   SimulatedRun run = round_trips(2);
   run.bearings_rad = make_bearings_rad(BeamAngles::kSkipZero, 180, M_PI);

@@ -3,6 +3,7 @@
 
 #include <mrpt/core/bits_math.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -22,6 +23,9 @@ constexpr double kMountDeviation_m = 0.02;
 const double kMountDeviation_rad = DEG2RAD(0.5);
 constexpr double kDelayDeviationPerPeriod = 0.2;
 constexpr double kSignificant = 4;  // in standard deviations
+// Slip in turns spoils the estimate by about as much as a stated pose is usually wrong.
+constexpr double kUsualError_m = 0.03;
+const double kUsualError_rad = DEG2RAD(0.8);
 
 const char* const kUndetermined = "not used, because the log does not determine it well enough";
 
@@ -82,8 +86,8 @@ class Calibrator {
     const bool is_determined =
         mount.deviation_m <= kMountDeviation_m && mount.deviation_rad <= kMountDeviation_rad;
     const TPose2D off = pose - found_.stated_mount;
-    const bool differs = off.norm() > kSignificant * mount.deviation_m ||
-                         std::abs(off.phi) > kSignificant * mount.deviation_rad;
+    const bool differs = off.norm() > std::max(kUsualError_m, kSignificant * mount.deviation_m) ||
+                         std::abs(off.phi) > std::max(kUsualError_rad, kSignificant * mount.deviation_rad);
     const bool is_used = is_determined && differs;
     if (is_used) made_.options.robot_T_laser = pose;
     add("log.laser_x_m", pose.x, mount.deviation_m, is_used);

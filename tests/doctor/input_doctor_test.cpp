@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -479,12 +480,17 @@ TEST_P(InputDoctorOnKnownLogs, raises_no_false_alarm) {
   EXPECT_TRUE(diagnosis.odometry_is_sound);
   ASSERT_TRUE(diagnosis.mount);
   EXPECT_LT(diagnosis.mount->robot_T_laser.norm(), 0.15);
-  if (std::string(GetParam()) == "fr079") {
-    EXPECT_THAT(warnings_of(diagnosis), testing::ElementsAre("lost_reversals"));
+  const std::string name = GetParam();
+  std::vector<std::string> warnings = warnings_of(diagnosis);
+  const auto late = std::find(warnings.begin(), warnings.end(), "scan_delay");
+  EXPECT_EQ(late != warnings.end(), name == "fr079" || name == "mit-csail" || name == "mit-killian");
+  if (late != warnings.end()) warnings.erase(late);
+  if (name == "fr079") {
+    EXPECT_THAT(warnings, testing::ElementsAre("lost_reversals"));
     EXPECT_GT(diagnosis.reversals.reversed_m, 3.0) << "the log reverses by 9.6 m";
     EXPECT_LT(diagnosis.reversals.reversed_m, 10.0);
   } else {
-    EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
+    EXPECT_THAT(warnings, testing::IsEmpty());
     EXPECT_EQ(diagnosis.reversals.pairs.size(), 0U);
   }
 }

@@ -37,8 +37,6 @@ TEST(ScanDelay, errors_are_as_large_as_the_standard_deviation) {
     ASSERT_TRUE(found) << delay_s;
     EXPECT_LT(found->deviation_s, 0.02);
     EXPECT_NEAR(found->delay_s, delay_s, 0.03);
-    std::printf("%u %.3f: %.4f +- %.4f, %zu turns\n", seed, delay_s, found->delay_s, found->deviation_s,
-                found->turns);
     squares += std::pow((found->delay_s - delay_s) / found->deviation_s, 2);
   }
   EXPECT_GT(std::sqrt(squares / kRuns), 0.4);

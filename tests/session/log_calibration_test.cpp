@@ -168,6 +168,8 @@ class CorridorWithScaledOdometry : public testing::TestWithParam<double> {
   CorridorWithScaledOdometry() {
     write_file(log_, carmen_log(simulated_.run));
     settings_.log.max_range_m = 15;
+    // Far beams at grazing angles hit the walls at separate points. Matches of these points shorten the path.
+    settings_.mapper.front_end.scan.max_range_m = 5;
   }
 
   /// Length of the way between the rooms in the map, divided by the true length.

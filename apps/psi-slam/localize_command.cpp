@@ -7,6 +7,7 @@
 #include "localization/reference_map.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
+#include "session/log_calibration.h"
 
 namespace psi_slam {
 namespace {
@@ -43,7 +44,8 @@ int localize(const CommandLine& line, const Streams& streams) {
   load_settings(line, bound, streams);
   Localizer localizer(read_map_file(line.map), localizer_options(bound.settings));
   if (!line.start.empty()) localizer.start_at(parse_start(line.start));
-  const auto log = open_log(line.log, log_options(bound.settings));
+  const LogCalibration calibration = calibrate_log(line.log, log_options(bound.settings));
+  const auto log = open_log(line.log, calibration.options);
   const InterruptSignals signals;
   std::optional<OutputFolder> folder;
   if (!line.output.empty()) folder = OutputFolder::prepare(line.output, line.force);
@@ -64,6 +66,7 @@ int localize(const CommandLine& line, const Streams& streams) {
   if (const SkippedLines skipped = log->skipped_lines(); skipped.count > 0 && !localized.broken_off)
     streams.err << "psi-slam: " << skipped.sentence() << '\n';
   for (const std::string& assumption : log->assumptions()) streams.err << "psi-slam: " << assumption << '\n';
+  for (const std::string& sentence : calibration.sentences) streams.err << "psi-slam: " << sentence << '\n';
   if (localized.interrupted)
     streams.err << "psi-slam: interrupted: \"end of the log\" stands for the last of the " << summary.scans
                 << " scans read so far\n";

@@ -222,7 +222,13 @@ Json to_json(const LogDiagnosis& diagnosis) {
     json["laser_mount_estimate"] = {{"robot_T_laser", to_json(diagnosis.mount->robot_T_laser)},
                                     {"deviation_m", diagnosis.mount->deviation_m},
                                     {"deviation_rad", diagnosis.mount->deviation_rad},
-                                    {"odometry_scale", diagnosis.mount->odometry_scale}};
+                                    {"odometry_scale", diagnosis.mount->odometry_scale},
+                                    {"odometry_scale_deviation", diagnosis.mount->scale_deviation}};
+  }
+  if (diagnosis.delay) {
+    json["scan_delay_estimate"] = {{"delay_s", diagnosis.delay->delay_s},
+                                   {"deviation_s", diagnosis.delay->deviation_s},
+                                   {"turns", diagnosis.delay->turns}};
   }
   json["beam_angles"] = beam_angles_json(diagnosis.beam_angles);
   json["sweep_direction"] = sweep_direction_json(diagnosis.sweep_direction);

@@ -56,21 +56,6 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
   return pass;
 }
 
-/// Selects the first laser, since only scans of one laser are compared with each other.
-LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions options) {
-  const LogFormat format = detect_log_format(path);
-  reads_several_lasers(options, format);  // rejects a mount of one laser for several
-  if (is_bag(format)) {
-    options.scan_topic = plan_bag(path, options).scan_topics.front();
-    return options;
-  }
-  const LaserChoice choice = laser_choice("log.laser", options.laser);
-  if (choice.several()) options.laser = choice.all ? "" : choice.names.front();
-  const std::string first_laser = open_log_reader(path, options)->contents().first_laser;
-  if (!first_laser.empty()) options.laser = first_laser;
-  return options;
-}
-
 /// Returns the field of view for make_bearings_rad(): the option, the usual value for the number of beams, or
 /// the span of the bearings.
 double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {
@@ -99,11 +84,18 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
   for (const auto& turn : evidence.full_turns) library.want(turn);
   library.fetch(diagnosis.path, diagnosis.options);
 
-  diagnosis.odometry = check_odometry(marks, tracks, library);
+  std::vector<FrameMark> corrected = marks;  // for a delay without which odometry contradicts the scans
+  diagnosis.odometry = check_odometry_and_delay(corrected, tracks, library);
   diagnosis.odometry_is_sound = is_sound(diagnosis.odometry);
   if (diagnosis.odometry_is_sound) {
-    const std::vector<AlignedPair> aligned = align_pairs(marks, pairs, library);
+    std::vector<AlignedPair> aligned = align_pairs(corrected, pairs, library);
     diagnosis.reversals = find_lost_reversals(aligned, library);
+    diagnosis.delay = estimate_scan_delay(marks, reliable_turns(aligned));
+    if (diagnosis.delay && diagnosis.delay->is_significant())
+      set_odometry(aligned, with_scan_delay(marks, diagnosis.delay->delay_s));
+    // The scans are compared as recorded: measured in the middle of the sweep on average.
+    if (diagnosis.delay)
+      diagnosis.delay->delay_s += std::abs(diagnosis.sweep_direction.stated_sweep_time_s) / 2;
     diagnosis.mount = estimate_laser_mount(aligned, pass.facts.robot_T_laser);
     diagnosis.jumps = confirm_jumps(marks, suspects, library);
     diagnosis.revisits = check_revisits(marks, revisits, library);
@@ -124,6 +116,20 @@ SweepDirectionStudy study_first_laser(const std::filesystem::path& path, const L
 }
 
 }  // namespace
+
+LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions options) {
+  const LogFormat format = detect_log_format(path);
+  reads_several_lasers(options, format);  // rejects a mount of one laser for several
+  if (is_bag(format)) {
+    options.scan_topic = plan_bag(path, options).scan_topics.front();
+    return options;
+  }
+  const LaserChoice choice = laser_choice("log.laser", options.laser);
+  if (choice.several()) options.laser = choice.all ? "" : choice.names.front();
+  const std::string first_laser = open_log_reader(path, options)->contents().first_laser;
+  if (!first_laser.empty()) options.laser = first_laser;
+  return options;
+}
 
 LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options) {
   LogDiagnosis diagnosis;

@@ -42,11 +42,12 @@ struct LogDiagnosis {
   BeamAngles used_beam_angles = BeamAngles::kAuto;  ///< kAuto if the log states its angles
   std::vector<BodySector> own_body;                 ///< beams that see the robot itself
   OdometryAgreement odometry;
-  bool odometry_is_sound = false;  ///< units and signs are right; if not, the next five members are not set
+  bool odometry_is_sound = false;  ///< units and signs are right; if not, the next six members are not set
   LostReversals reversals;
   OdometryJumps jumps;
   RevisitAgreement revisits;
-  std::optional<LaserMountEstimate> mount;
+  std::optional<ScanDelay> delay;
+  std::optional<LaserMountEstimate> mount;  ///< by odometry that is corrected for a significant delay
   BeamAngleStudy beam_angles;
   std::vector<FrameMark> marks;  ///< time and odometry of every frame of the log
   std::vector<Finding> findings;
@@ -56,6 +57,10 @@ struct LogDiagnosis {
 /// all but the study of the sweep direction. Judges the first of several lasers. Judges a truncated or
 /// damaged log up to the damage. Throws UserError if the first scan cannot be read.
 LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options = {});
+
+/// Returns options that read only the first of the lasers that `options` select. Throws UserError if the log
+/// is unreadable.
+LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions options);
 
 /// Derives findings from the measurements, warnings first. diagnose() calls this function.
 std::vector<Finding> judge(const LogDiagnosis& diagnosis);

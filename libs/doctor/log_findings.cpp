@@ -49,6 +49,7 @@ class Judge {
       judge_reversals();
       judge_jumps();
       judge_correction();
+      judge_delay();
       judge_mount();
       judge_beam_angles();
     }
@@ -360,6 +361,24 @@ class Judge {
     return mount.robot_T_laser.phi;
   }
 
+  void judge_delay() {
+    constexpr double kLeast_s = 0.02;
+    constexpr double kLarge_s = 0.1;
+    if (!diagnosis_.delay) return;
+    const ScanDelay& delay = *diagnosis_.delay;
+    const double off_s = std::abs(delay.delay_s - diagnosis_.options.scan_delay_s.value_or(0));
+    if (off_s < std::max(kLeast_s, 4 * delay.deviation_s)) return;
+    const std::string sentence = "turns show that the scans are stamped " +
+                                 fixed(std::abs(delay.delay_s), 3) + " s " +
+                                 (delay.delay_s > 0 ? "later" : "earlier") + " than odometry (accurate to " +
+                                 fixed(delay.deviation_s, 3) + " s)";
+    const std::string remedy = "log.calibrate = true, or log.scan_delay_s = " + fixed(delay.delay_s, 3);
+    if (off_s > kLarge_s)
+      warn("scan_delay", sentence, remedy);
+    else
+      note("scan_delay", sentence, remedy);
+  }
+
   void judge_mount() {
     if (!diagnosis_.mount) return;
     const LaserMountEstimate& mount = *diagnosis_.mount;
@@ -379,10 +398,13 @@ class Judge {
                " m, y " + fixed(stated.y, 3) + " m, yaw " + fixed(RAD2DEG(stated.phi), 2) + " degrees",
            "log.laser_x_m = " + x + ", log.laser_y_m = " + y + ", log.laser_yaw_deg = " + yaw);
     }
-    if (std::abs(mount.odometry_scale - 1) > 0.03) {
+    const double off = std::abs(mount.odometry_scale * diagnosis_.options.odometry_scale.value_or(1) - 1);
+    if (off > std::max(0.01, 4 * mount.scale_deviation)) {
       note("odometry_scale",
            std::string("odometry ") + (mount.odometry_scale > 1 ? "overstates" : "understates") +
-               " distances by " + fixed(100 * std::abs(mount.odometry_scale - 1), 1) + " %");
+               " distances by " + fixed(100 * std::abs(mount.odometry_scale - 1), 1) + " % (accurate to " +
+               fixed(100 * mount.scale_deviation, 1) + " %)",
+           "log.calibrate = true, or log.odometry_scale = " + fixed(1 / mount.odometry_scale, 4));
     }
   }
 

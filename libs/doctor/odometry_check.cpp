@@ -9,6 +9,7 @@
 #include <complex>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "frames/scan_alignment.h"
 
@@ -33,6 +34,7 @@ constexpr double kLeastResultant = 0.35;
 
 /// Turns between two consecutive frames of a track.
 struct Step {
+  FramePair frames;
   double scan_turn_rad;
   double odometry_turn_rad;
 };
@@ -61,7 +63,8 @@ std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vect
   TPose2D last_step{0, 0, 0};
   for (std::size_t k = 1; k < frames.size(); ++k) {
     const AlignableScan scan(library.at(frames[k]));
-    const TPose2D odometry_step = odometry_between(marks, {frames[k - 1], frames[k]});
+    const FramePair step{frames[k - 1], frames[k]};
+    const TPose2D odometry_step = odometry_between(marks, step);
     ScanAlignment alignment = align_scans(reference, scan, std::vector<TPose2D>{now, now + last_step});
     if (!alignment.is_reliable(kGoodCost_m)) {
       std::vector<TPose2D> guesses = fan_of_guesses(now);
@@ -76,7 +79,7 @@ std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vect
     track.by_odometry = odometry_between(marks, {frames.front(), frames[k]});
     const double laser_heading_rad = reference.robot_T_laser().phi;  // the covariance is in the laser's frame
     track.length_deviation_m = alignment.deviation_along_m(std::atan2(now.y, now.x) - laser_heading_rad);
-    track.steps.push_back({last_step.phi, wrapToPi(odometry_step.phi)});
+    track.steps.push_back({step, last_step.phi, wrapToPi(odometry_step.phi)});
     if (now.norm() > kTrackLength_m || std::abs(now.phi) > kTrackTurn_rad) break;
   }
   if (track.steps.empty()) return std::nullopt;
@@ -146,6 +149,7 @@ void compare_turns(const std::vector<Track>& tracks, OdometryAgreement& agreemen
   for (const Track& track : tracks) steps.insert(steps.end(), track.steps.begin(), track.steps.end());
   std::map<HeadingRelation, std::size_t> fitting;
   for (const Step& step : steps) {
+    agreement.turns.push_back({step.frames, step.scan_turn_rad});
     if (std::abs(step.scan_turn_rad) < kLeastTurn_rad) continue;
     ++agreement.turn_samples;
     if (fits(step, 1)) ++fitting[HeadingRelation::kAgrees];
@@ -200,6 +204,20 @@ OdometryAgreement check_odometry(const std::vector<FrameMark>& marks,
   compare_lengths(followed, agreement);
   compare_turns(followed, agreement);
   return agreement;
+}
+
+OdometryAgreement check_odometry_and_delay(std::vector<FrameMark>& marks,
+                                           const std::vector<std::vector<std::size_t>>& tracks,
+                                           const ScanLibrary& library) {
+  OdometryAgreement agreement = check_odometry(marks, tracks, library);
+  if (is_sound(agreement)) return agreement;
+  const auto delay = estimate_scan_delay(marks, agreement.turns);
+  if (!delay || !delay->is_significant()) return agreement;
+  std::vector<FrameMark> shifted = with_scan_delay(marks, delay->delay_s);
+  OdometryAgreement with_delay = check_odometry(shifted, tracks, library);
+  if (!is_sound(with_delay)) return agreement;
+  marks = std::move(shifted);
+  return with_delay;
 }
 
 }  // namespace psi_slam

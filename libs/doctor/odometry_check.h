@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "doctor/log_facts.h"
+#include "doctor/scan_delay.h"
 #include "doctor/scan_sampling.h"
 
 namespace psi_slam {
@@ -40,6 +41,7 @@ struct OdometryAgreement {
   /// Median angle between the motion by odometry and the axis of the robot, in [0, pi/2]. The angle is large
   /// if the headings of odometry do not match the positions of odometry.
   double odometry_slip_rad = 0;
+  std::vector<ScanTurn> turns{};  ///< turns between consecutive frames of all tracks
 };
 
 /// Returns whether units and signs of odometry are right, as far as the scans tell.
@@ -53,5 +55,11 @@ std::vector<std::vector<std::size_t>> tracks_from(const std::vector<std::size_t>
 OdometryAgreement check_odometry(const std::vector<FrameMark>& marks,
                                  const std::vector<std::vector<std::size_t>>& tracks,
                                  const ScanLibrary& library);
+
+/// Like check_odometry(). If odometry is not sound, but is with scans that were measured before their time
+/// stamps, also replaces the odometry of `marks` by that of the times of measurement.
+OdometryAgreement check_odometry_and_delay(std::vector<FrameMark>& marks,
+                                           const std::vector<std::vector<std::size_t>>& tracks,
+                                           const ScanLibrary& library);
 
 }  // namespace psi_slam

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <utility>
 
+#include "doctor/estimate_covariance.h"
+
 namespace psi_slam {
 namespace {
 
@@ -35,6 +37,21 @@ std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const 
     aligned.push_back({pair, by_odometry, align_scans(reference, scan, by_odometry)});
   }
   return aligned;
+}
+
+std::vector<ScanTurn> reliable_turns(const std::vector<AlignedPair>& pairs) {
+  const double determined_rad = DEG2RAD(0.5);
+  std::vector<ScanTurn> turns;
+  for (const AlignedPair& pair : pairs) {
+    const ScanAlignment& scans = pair.by_scans;
+    if (scans.is_reliable() && scans.heading_deviation_rad() < determined_rad)
+      turns.push_back({pair.frames, scans.reference_T_scan.phi});
+  }
+  return turns;
+}
+
+void set_odometry(std::vector<AlignedPair>& pairs, const std::vector<FrameMark>& marks) {
+  for (AlignedPair& pair : pairs) pair.by_odometry = odometry_between(marks, pair.frames);
 }
 
 LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const ScanLibrary& library) {
@@ -83,7 +100,7 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
   // t_X and in (s cos, s sin) of the mount's heading. Both sides use the turns of the scans, which are more
   // accurate than those of odometry.
   constexpr std::size_t kFewestPairs = 40;
-  constexpr double kNoise_m = 0.02;  // noise of odometry between the frames of a pair
+  constexpr double kNoise_m = 0.02;  // residuals beyond this count less
   constexpr int kIterations = 20;
   using Row = Eigen::Matrix<double, 2, 4>;
   struct Equation {
@@ -92,7 +109,6 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
     double weight = 1;
   };
   std::vector<Equation> equations;
-  std::size_t turning = 0;
   for (const AlignedPair& pair : pairs) {
     const ScanAlignment& scans = pair.by_scans;
     const double off_rad = wrapToPi(scans.reference_T_scan.phi - pair.by_odometry.phi);
@@ -100,7 +116,6 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
     if (!scans.is_reliable() || !determined || std::abs(off_rad) > 0.1) continue;
     const TPose2D laser = (scans.reference_T_scan + stated_mount) - stated_mount;
     const double turn = laser.phi;
-    if (std::abs(turn) > 0.1) ++turning;
     // An error of odometry's turn rotates odometry's translation by half of the error.
     const double bend = off_rad / 2;
     const TPose2D& odometry = pair.by_odometry;
@@ -111,29 +126,43 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
         std::sin(turn), std::cos(turn) - 1, -laser.y, -laser.x;
     equations.push_back(equation);
   }
-  if (turning < kFewestPairs || equations.size() - turning < kFewestPairs) return std::nullopt;
-  Eigen::Vector4d solution = Eigen::Vector4d::Zero();
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  if (equations.size() < kFewestPairs) return std::nullopt;
+  // A weak prior keeps what the motion does not determine near the stated mount.
+  const Eigen::Vector4d prior(stated_mount.x, stated_mount.y, std::cos(stated_mount.phi),
+                              std::sin(stated_mount.phi));
+  const Eigen::Matrix4d prior_hessian = kNoise_m * kNoise_m * Eigen::Matrix4d::Identity();
+  Eigen::Vector4d solution = prior;
+  Eigen::Matrix4d hessian;
   for (int i = 0; i < kIterations; ++i) {
-    Eigen::Matrix4d hessian = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d gradient = Eigen::Vector4d::Zero();
+    hessian = prior_hessian;
+    Eigen::Vector4d gradient = prior_hessian * prior;
     for (const Equation& equation : equations) {
       hessian += equation.weight * equation.row.transpose() * equation.row;
       gradient += equation.weight * equation.row.transpose() * equation.value;
     }
     solution = hessian.ldlt().solve(gradient);
-    covariance = kNoise_m * kNoise_m * hessian.inverse();
     for (Equation& equation : equations) {  // Cauchy weights
       const double residual = (equation.row * solution - equation.value).norm() / kNoise_m;
       equation.weight = 1 / (1 + residual * residual);
     }
   }
+  std::vector<Eigen::Vector4d> gradients;
+  gradients.reserve(equations.size());
+  for (const Equation& equation : equations)
+    gradients.emplace_back(equation.weight * equation.row.transpose() *
+                           (equation.value - equation.row * solution));
+  const Eigen::Matrix4d covariance =
+      estimate_covariance<4>(hessian, gradients, kNoise_m * kNoise_m * prior_hessian);
   LaserMountEstimate estimate;
   estimate.pairs = equations.size();
   estimate.robot_T_laser = {solution[0], solution[1], std::atan2(solution[3], solution[2])};
-  estimate.odometry_scale = std::hypot(solution[2], solution[3]);
+  estimate.odometry_scale = solution.tail<2>().norm();
   estimate.deviation_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
-  estimate.deviation_rad = std::sqrt(std::max(covariance(2, 2), covariance(3, 3))) / estimate.odometry_scale;
+  const Eigen::Vector2d along = solution.tail<2>() / estimate.odometry_scale;
+  const Eigen::Vector2d across(-along.y(), along.x());
+  const Eigen::Matrix2d of_heading = covariance.bottomRightCorner<2, 2>();
+  estimate.scale_deviation = std::sqrt(along.dot(of_heading * along));
+  estimate.deviation_rad = std::sqrt(across.dot(of_heading * across)) / estimate.odometry_scale;
   return estimate;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "doctor/log_facts.h"
+#include "doctor/scan_delay.h"
 #include "doctor/scan_sampling.h"
 #include "frames/scan_alignment.h"
 
@@ -24,6 +25,12 @@ struct AlignedPair {
 /// Aligns all pairs. The result includes unreliable alignments.
 std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
                                      const ScanLibrary& library);
+
+/// Returns the turns of the reliably aligned pairs.
+std::vector<ScanTurn> reliable_turns(const std::vector<AlignedPair>& pairs);
+
+/// Replaces the motions by odometry of all pairs with the odometry of `marks`.
+void set_odometry(std::vector<AlignedPair>& pairs, const std::vector<FrameMark>& marks);
 
 /// Odometry that counts reversing as driving forwards: the scans move backwards by about as much as odometry
 /// moves forwards.
@@ -46,10 +53,13 @@ struct LaserMountEstimate {
   double deviation_m = 0;       ///< standard deviation of x or y, whichever is larger
   double deviation_rad = 0;     ///< standard deviation of the heading
   double odometry_scale = 1.0;  ///< distance by odometry divided by distance by scans
+  double scale_deviation = 0;   ///< standard deviation of odometry_scale
 };
 
-/// Estimates the mount from pairs of scans that were read with the mount `stated_mount`. Empty if fewer than
-/// 40 reliably aligned pairs turn, or fewer than 40 of them move straight.
+/// Estimates the mount from pairs of scans that were read with the mount `stated_mount`. Empty for fewer than
+/// 40 reliably aligned pairs whose motion the scans determine. The standard deviations follow from the
+/// residuals. They are large, up to 1 m, 1 rad and 1, for what the motion does not determine: the position
+/// without turns, heading and scale without straight motion.
 std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<AlignedPair>& pairs,
                                                        const mrpt::math::TPose2D& stated_mount);
 

@@ -23,9 +23,11 @@ void compare_odometry_with(const std::vector<const LaserScan*>& scans, LogDiagno
   library.want(suspects);
   library.want(revisits);
   library.take(scans);
-  diagnosis.odometry = check_odometry(marks, tracks, library);
+  std::vector<FrameMark> corrected = marks;
+  diagnosis.odometry = check_odometry_and_delay(corrected, tracks, library);
   diagnosis.odometry_is_sound = is_sound(diagnosis.odometry);
   if (!diagnosis.odometry_is_sound) return;
+  diagnosis.delay = estimate_scan_delay(marks, diagnosis.odometry.turns);
   diagnosis.jumps = confirm_jumps(marks, suspects, library);
   diagnosis.revisits = check_revisits(marks, revisits, library);
 }
@@ -45,6 +47,8 @@ std::vector<std::string> quick_check(const std::vector<Frame>& log, std::size_t 
   if (scans.empty()) return {};
   LogDiagnosis diagnosis;
   diagnosis.options = options;
+  diagnosis.options.odometry_scale.reset();  // the mapped frames have the corrected odometry
+  diagnosis.options.scan_delay_s.reset();
   diagnosis.facts = collector.facts();
   diagnosis.marks = collector.marks();
   if (diagnosis.facts.scans_without_odometry == 0) compare_odometry_with(scans, diagnosis);

@@ -48,6 +48,19 @@ std::size_t next_elsewhere(const std::vector<FrameMark>& marks, const std::vecto
   return next;
 }
 
+/// Returns the first frame after `frame` that is at least `distance` or `turn_rad` away; the number of frames
+/// if there is none.
+std::size_t next_after_motion(const std::vector<FrameMark>& marks, std::size_t frame, double distance,
+                              double turn_rad) {
+  std::size_t next = frame + 1;
+  while (next < marks.size()) {
+    const TPose2D motion = odometry_between(marks, {frame, next});
+    if (!(motion.norm() < distance && std::abs(motion.phi) < turn_rad)) break;
+    ++next;
+  }
+  return next;
+}
+
 std::int64_t cell_key(double x, double y, double cell_m) {
   const auto column = static_cast<std::int64_t>(std::floor(x / cell_m));
   const auto row = static_cast<std::int64_t>(std::floor(y / cell_m));
@@ -96,12 +109,23 @@ std::vector<std::size_t> frames_in_motion(const std::vector<FrameMark>& marks, s
 std::vector<FramePair> pairs_by_motion(const std::vector<FrameMark>& marks, double distance, double turn_rad,
                                        std::size_t most) {
   std::vector<FramePair> pairs;
-  std::size_t first = 0;
-  for (std::size_t i = 1; i < marks.size(); ++i) {
-    const TPose2D motion = odometry_between(marks, {first, i});
-    if (std::hypot(motion.x, motion.y) < distance && std::abs(motion.phi) < turn_rad) continue;
-    pairs.push_back({first, i});
-    first = i;
+  for (std::size_t first = 0; first < marks.size();) {
+    const std::size_t second = next_after_motion(marks, first, distance, turn_rad);
+    if (second < marks.size()) pairs.push_back({first, second});
+    first = second;
+  }
+  return thinned(pairs, most);
+}
+
+std::vector<FramePair> overlapping_pairs(const std::vector<FrameMark>& marks, double distance,
+                                         double turn_rad, std::size_t most) {
+  constexpr double kShare = 0.2;  // of the motion of a pair, after which the next pair begins
+  std::vector<FramePair> pairs;
+  for (std::size_t first = 0; first < marks.size();) {
+    const std::size_t second = next_after_motion(marks, first, distance, turn_rad);
+    if (second == marks.size()) break;
+    pairs.push_back({first, second});
+    first = next_after_motion(marks, first, kShare * distance, kShare * turn_rad);
   }
   return thinned(pairs, most);
 }

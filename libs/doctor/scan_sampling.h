@@ -35,6 +35,10 @@ std::vector<std::size_t> frames_in_motion(const std::vector<FrameMark>& marks, s
 std::vector<FramePair> pairs_by_motion(const std::vector<FrameMark>& marks, double distance_m,
                                        double turn_rad, std::size_t most);
 
+/// Like pairs_by_motion(), but a pair begins after each fifth of such a motion, so that pairs overlap.
+std::vector<FramePair> overlapping_pairs(const std::vector<FrameMark>& marks, double distance_m,
+                                         double turn_rad, std::size_t most);
+
 /// Returns pairs of frames between which the robot turns by `min_turn_rad` to `max_turn_rad` and moves at
 /// most `distance_m`. Selects `most` of them evenly if there are more.
 std::vector<FramePair> pairs_by_turn(const std::vector<FrameMark>& marks, double min_turn_rad,

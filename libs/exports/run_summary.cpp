@@ -204,6 +204,18 @@ Json stages_json(const std::vector<StageTiming>& stages) {
   return list;
 }
 
+Json calibration_json(const std::vector<CalibratedOption>& estimates) {
+  Json json = Json::array();
+  for (const CalibratedOption& estimate : estimates) {
+    json.push_back({{"log", estimate.log},
+                    {"option", estimate.option},
+                    {"value", number(estimate.value, 5)},
+                    {"standard_deviation", number(estimate.deviation, 5)},
+                    {"used", estimate.is_used}});
+  }
+  return json;
+}
+
 Json runs_json(const std::vector<FrameSpan>& runs) {
   Json list = Json::array();
   for (const FrameSpan& run : runs)
@@ -297,6 +309,7 @@ std::string summary_json(const MappingResult& result, const RunInfo& info, const
                {"loop_matchers", loop_matchers_json(result.loop_matchers)},
                {"settings", info.settings}};
   if (summary.runs.size() > 1) json["drives"] = runs_json(summary.runs);
+  if (!info.calibration.empty()) json["calibration"] = calibration_json(info.calibration);
   // Names and warnings may hold bytes of the user's files that are not UTF-8.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }

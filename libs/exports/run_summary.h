@@ -19,12 +19,22 @@
 
 namespace psi_slam {
 
+/// Value of an option that log.calibrate has estimated from a log.
+struct CalibratedOption {
+  std::string log;     ///< name of the log
+  std::string option;  ///< name of the option, which states the unit: "log.scan_delay_s"
+  double value = 0;
+  double deviation = 0;  ///< standard deviation
+  bool is_used = false;  ///< false: the log does not determine the value well enough
+};
+
 /// Facts about a run that are not part of its result.
 struct RunInfo {
   std::string program_version;                  ///< version of the program: "0.1.0"
   std::string log_name;                         ///< name of the log for display: "intel.clf.gz"
   std::map<std::string, std::string> settings;  ///< value of each option by its name "section.key"
   std::vector<std::string> warnings{};          ///< warnings about log and map, a sentence each
+  std::vector<CalibratedOption> calibration{};  ///< estimates of log.calibrate
 };
 
 /// The log as it was read. Beams, bearings, maximum range and mount are those of the first scan.

@@ -174,6 +174,10 @@ void check_log_options(const LogOptions& options) {
   if (options.robot_T_laser && !is_possible_mount(*options.robot_T_laser))
     fail("the laser's pose on the robot", options.robot_T_laser->asString(),
          "finite numbers and at most 100 m");
+  if (options.odometry_scale && !(*options.odometry_scale >= 0.01 && *options.odometry_scale <= 100))
+    fail("log.odometry_scale", *options.odometry_scale, "0.01 to 100");
+  if (options.scan_delay_s && !(std::abs(*options.scan_delay_s) <= 1))
+    fail("log.scan_delay_s", *options.scan_delay_s, "-1 to 1 seconds");
   stated_mounts(options);
   laser_choice("log.laser", options.laser);
   laser_choice("log.scan_topic", options.scan_topic);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frames/body_masked_source.h"
+#include "frames/corrected_odometry_source.h"
 #include "frames/deskewed_source.h"
 #include "frames/gyroscope_choice.h"
 #include "frames/height_slice.h"
@@ -98,6 +99,10 @@ std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const L
   const LogContents& contents = reader->contents();  // of the reader, which becomes the innermost source
   const bool several_lasers = combines_lasers(contents, options, format);
   std::unique_ptr<FrameSource> source = std::move(reader);
+  const double odometry_scale = options.odometry_scale.value_or(1);
+  const double scan_delay_s = options.scan_delay_s.value_or(0);
+  if (odometry_scale != 1 || scan_delay_s != 0)
+    source = std::make_unique<CorrectedOdometrySource>(std::move(source), odometry_scale, scan_delay_s);
   // Only bags may state a sweep time.
   const bool may_be_bent = is_bag(format) || options.sweep_time_s.value_or(0) > 0;
   SweepTiming timing;

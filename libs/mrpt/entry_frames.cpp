@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "frames/laser_choice.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 
@@ -12,6 +13,10 @@ EntryFrames::EntryFrames(const LogOptions& options, std::string speaker)
       scans_(options),
       several_lasers_(reads_several_lasers(options, LogFormat::kMrptRawlog)) {
   check_log_options(options);
+  if (options.calibrate || options.odometry_scale || options.scan_delay_s)
+    throw UserError(speaker_ +
+                    ": log.calibrate, log.odometry_scale and log.scan_delay_s do not apply to the entries of "
+                    "a rawlog. Leave them out, or map the log with psi-slam");
 }
 
 void EntryFrames::take(const mrpt::obs::CActionCollection::Ptr& action,

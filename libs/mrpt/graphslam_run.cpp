@@ -188,6 +188,9 @@ class EngineRun : public GraphSlamRun {
     connect_deciders(*node_decider_, *edge_decider_, *optimizer_);
     if (!setup.ground_truth.empty()) true_poses_ = check_ground_truth(setup.ground_truth);
     const LogOptions options = log_options(read_graphslam_settings(setup.ini));
+    if (options.calibrate)
+      throw UserError("psi-graphslam does not calibrate. Leave log.calibrate out of " + setup.ini.string() +
+                      ", and state the values that psi-slam check finds");
     entries_ = open_log_entries(setup.log, options);
     front_end_ = dynamic_cast<CPsiFrontEndNRD*>(node_decider_.get());
     if (front_end_ != nullptr && entries_->are_made()) {

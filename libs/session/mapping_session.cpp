@@ -52,7 +52,7 @@ MappingSession::MappingSession(const SessionInput& input, const Settings& settin
   m_->logs = input.logs();
   m_->settings = settings;
   m_->settings_warnings = std::move(settings_warnings);
-  m_->source = open_input(input, settings);
+  m_->read_from(open_input(input, settings));
   m_->mapper = std::make_unique<Mapper>(mapper_options(settings));
   m_->edits = input.edits();
   m_->make_due_edits({});
@@ -85,6 +85,12 @@ bool MappingSession::step() {
   }
   m_->report(m_->source->progress());
   return true;
+}
+
+void MappingSession::Members::read_from(OpenedInput opened) {
+  source = std::move(opened.frames);
+  estimates.insert(estimates.end(), opened.calibration.estimates.begin(), opened.calibration.estimates.end());
+  calibration_sentences = std::move(opened.calibration.sentences);
 }
 
 std::optional<Frame> MappingSession::Members::read() {
@@ -243,7 +249,7 @@ void MappingSession::Members::begin_recorded_run() {
 
 void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
   Members& m = *m_;
-  auto source = open_input(run, m.settings);
+  OpenedInput opened = open_input(run, m.settings);
   const std::vector<RecordedLog> logs_before = m.facts().logs;
   reopen();
   const std::size_t first_node = m.mapper->graph().num_nodes();
@@ -262,7 +268,7 @@ void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
   m.log_sha256.clear();
   m.logs = logs_before;
   m.logs.insert(m.logs.end(), run.logs().begin(), run.logs().end());
-  m.source = std::move(source);
+  m.read_from(std::move(opened));
   m.broken_off.reset();
   m.enter(Members::State::kReading);
   m.begin(SessionProgress::Phase::kMapping);

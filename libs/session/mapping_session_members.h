@@ -15,6 +15,7 @@
 #include "psi_slam/mapper.h"
 #include "psi_slam/mapping_session.h"
 #include "session/edit_journal.h"
+#include "session/session_input.h"
 #include "session/session_recording.h"
 #include "session/settings.h"
 
@@ -31,6 +32,7 @@ struct MappingSession::Members {
   /// finish(), kFinished -> kRead in reopen(), kRead -> kReading in begin_run(). Other transitions throw
   /// std::logic_error.
   void enter(State next);
+  void read_from(OpenedInput opened);
   std::optional<Frame> read();
   const std::vector<Frame>& recorded_frames(std::vector<Frame>& room) const;
   void check_log();
@@ -60,6 +62,8 @@ struct MappingSession::Members {
   std::map<std::size_t, Frame> bent;
   std::unique_ptr<Mapper> mapper;  ///< null after finish() without stay_open()
   Mapper::AfterFinish after_finish = Mapper::AfterFinish::kNothing;
+  std::vector<CalibratedOption> estimates;         ///< of all logs
+  std::vector<std::string> calibration_sentences;  ///< about the last log
   EditJournal edits;
   std::vector<std::string> edit_complaints;
   Observer observer;

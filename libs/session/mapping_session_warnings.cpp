@@ -50,6 +50,7 @@ std::vector<std::string> MappingSession::unmet_edits() const {
 
 std::vector<std::string> MappingSession::assumptions() const {
   std::vector<std::string> assumptions = m_->source->assumptions();
+  assumptions.insert(assumptions.end(), m_->calibration_sentences.begin(), m_->calibration_sentences.end());
   const std::vector<Frame>& log = m_->mapped_log();
   const auto without = static_cast<std::size_t>(
       std::count_if(log.begin(), log.end(), [](const Frame& frame) { return !frame.has_odometry; }));
@@ -89,6 +90,7 @@ RunInfo MappingSession::run_info() const {
   for (const OptionSection& section : bound.table.sections())
     for (const Option& option : section.options) info.settings[option.name()] = option.text();
   info.warnings = warnings();
+  info.calibration = m_->estimates;
   return info;
 }
 

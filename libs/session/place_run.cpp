@@ -97,7 +97,7 @@ RunStart place_run(const MappingResult& mapped, const mrpt::maps::COccupancyGrid
   Localizer localizer(grid, localizer_options(settings));
   if (map_T_start) localizer.start_at(*map_T_start);
   FrontEnd way(settings.mapper.front_end);
-  const auto frames = open_input(run, settings);
+  const auto frames = open_input(run, settings).frames;
   const auto& recording = run.recording();
   const bool has_later_runs = recording && !recording->facts.runs.empty();
   const std::size_t end =

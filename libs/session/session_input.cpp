@@ -147,11 +147,14 @@ void check(const Settings& settings) {
   check_epsg(settings.map_files.earth.epsg);
 }
 
-std::unique_ptr<FrameSource> open_input(const SessionInput& input, const Settings& settings) {
+OpenedInput open_input(const SessionInput& input, const Settings& settings) {
   check(settings);
-  auto source = input.open(log_options(settings));
-  if (worker_threads(settings.run) == 1) return source;
-  return std::make_unique<ReadAhead>(std::move(source));
+  OpenedInput opened;
+  opened.calibration.options = log_options(settings);
+  if (!input.log().empty()) opened.calibration = calibrate_log(input.log(), opened.calibration.options);
+  opened.frames = input.open(opened.calibration.options);
+  if (worker_threads(settings.run) > 1) opened.frames = std::make_unique<ReadAhead>(std::move(opened.frames));
+  return opened;
 }
 
 std::string names_of(const std::vector<RecordedLog>& logs) {

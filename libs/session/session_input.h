@@ -10,6 +10,7 @@
 
 #include "psi_slam/frame_source.h"
 #include "psi_slam/log_options.h"
+#include "session/log_calibration.h"
 #include "session/session_recording.h"
 
 namespace psi_slam {
@@ -53,9 +54,15 @@ class SessionInput {
   bool same_log_ = false;  ///< log_ is the last log of the recording
 };
 
-/// Opens the input for a run. If run.threads allows several threads, an extra thread reads ahead. Throws
-/// UserError if settings contradict each other or if the input is unreadable.
-std::unique_ptr<FrameSource> open_input(const SessionInput& input, const Settings& settings);
+/// An input that is open for a run.
+struct OpenedInput {
+  std::unique_ptr<FrameSource> frames;
+  LogCalibration calibration;  ///< of the log; without estimates if log.calibrate is off or there is no log
+};
+
+/// Opens the input for a run, after log.calibrate. If run.threads allows several threads, an extra thread
+/// reads ahead. Throws UserError if settings contradict each other or if the input is unreadable.
+OpenedInput open_input(const SessionInput& input, const Settings& settings);
 
 /// Returns the names of the logs: "first.log + second.log".
 std::string names_of(const std::vector<RecordedLog>& logs);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/pair_alignment.h"
 
+#include "aligned_run.h"
 #include "log_files.h"
 #include "simulated_run.h"
 #include "temporary_folder.h"
@@ -90,8 +91,41 @@ TEST_F(PairAlignmentTest, measures_the_scale_of_odometry) {
   EXPECT_NEAR(mount->odometry_scale, 1.05, 0.01);
 }
 
-TEST_F(PairAlignmentTest, finds_no_mount_without_turns) {
-  EXPECT_FALSE(estimate_laser_mount(aligned(simulated_run({{0.05, 0, 140}})), {0, 0, 0}));
+TEST_F(PairAlignmentTest, straight_motion_shows_the_scale_but_not_the_position_of_the_laser) {
+  SimulatedRun run = simulated_run({{0.08, 0, 115}, {-0.08, 0, 115}});
+  const auto mount = estimate_laser_mount(aligned(run), {0.2, 0, 0});
+  ASSERT_TRUE(mount);
+  EXPECT_GT(mount->deviation_m, 0.05);
+  EXPECT_LT(mount->scale_deviation, 0.01);
+  EXPECT_NEAR(mount->odometry_scale, 1, 4 * mount->scale_deviation);
+}
+
+TEST_F(PairAlignmentTest, finds_no_mount_in_a_short_log) {
+  EXPECT_FALSE(estimate_laser_mount(aligned(simulated_run({{0.08, 0, 80}})), {0, 0, 0}));
+}
+
+// The errors of the estimates, divided by their standard deviations, have a mean square of about 1.
+TEST(LaserMountEstimate, errors_are_as_large_as_the_standard_deviations) {
+  constexpr unsigned kRuns = 8;
+  double scale_squares = 0;
+  double mount_squares = 0;
+  double heading_squares = 0;
+  for (unsigned seed = 1; seed <= kRuns; ++seed) {
+    SimulatedRun run = round_trips(1, seed);
+    run.seed = seed;
+    run.robot_T_laser = {0.2, 0.05, DEG2RAD(2.0)};
+    const auto mount = estimate_laser_mount(aligned_run(run).pairs, run.robot_T_laser);
+    ASSERT_TRUE(mount);
+    const TPose2D off = mount->robot_T_laser - run.robot_T_laser;
+    EXPECT_LT(mount->scale_deviation, 0.005);
+    scale_squares += std::pow((mount->odometry_scale - 1) / mount->scale_deviation, 2);
+    mount_squares += std::pow(off.norm() / mount->deviation_m, 2) / 2;
+    heading_squares += std::pow(off.phi / mount->deviation_rad, 2);
+  }
+  for (const double squares : {scale_squares, mount_squares, heading_squares}) {
+    EXPECT_GT(std::sqrt(squares / kRuns), 0.5);
+    EXPECT_LT(std::sqrt(squares / kRuns), 1.7);
+  }
 }
 
 }  // namespace

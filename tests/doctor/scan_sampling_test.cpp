@@ -54,6 +54,18 @@ TEST(ScanSampling, pairs_frames_by_distance_or_turn) {
   EXPECT_EQ(pairs_by_motion(marks_of_run({{0.1, 0, 1000}}), 0.25, 1, 7).size(), 7U);
 }
 
+TEST(ScanSampling, pairs_that_overlap_begin_where_the_robot_moves) {
+  // 20 steps of 6 cm, a rest, and 20 more steps.
+  const auto pairs =
+      overlapping_pairs(marks_of_run({{0.06, 0, 20}, {0, 0, 50}, {0.06, 0, 20}}), 0.25, 1, 100);
+  ASSERT_EQ(pairs.size(), 36U);
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_EQ(pairs[i].first, i);
+    EXPECT_EQ(pairs[i].second, i + 5);
+  }
+  EXPECT_EQ(pairs.back().second, 90U);
+}
+
 TEST(ScanSampling, pairs_frames_by_turns_on_the_spot) {
   const auto pairs = pairs_by_turn(marks_of_run({{0.1, 0, 50}, {0, 2, 30}, {0.1, 0, 50}}),
                                    mrpt::DEG2RAD(10.0), mrpt::DEG2RAD(45.0), 0.5, 100);

@@ -40,6 +40,13 @@ TEST(LogOptions, invalid_values_are_reported_by_name_and_value) {
   EXPECT_EQ(sentence_about(options), "log.max_range_m is 1.5, expected more metres than log.min_range_m");
 
   options = {};
+  options.odometry_scale = 0;
+  EXPECT_EQ(sentence_about(options), "log.odometry_scale is 0, expected 0.01 to 100");
+  options = {};
+  options.scan_delay_s = -1.5;
+  EXPECT_EQ(sentence_about(options), "log.scan_delay_s is -1.5, expected -1 to 1 seconds");
+
+  options = {};
   options.robot_T_laser = mrpt::math::TPose2D{0, std::numeric_limits<double>::infinity(), 0};
   EXPECT_THROW(check_log_options(options), UserError);
 }

@@ -9,6 +9,7 @@
 #include "frames/deskewed_source.h"
 #include "frames/log_reader.h"
 #include "frames/pose_operations.h"
+#include "frames_in_memory.h"
 #include "log_files.h"
 #include "shared_logs.h"
 #include "simulated_run.h"
@@ -21,20 +22,6 @@ namespace {
 using mrpt::math::TPose2D;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-class FramesInMemory : public FrameSource {
- public:
-  explicit FramesInMemory(std::vector<Frame> frames) : frames_(std::move(frames)) {}
-  std::optional<Frame> next() override {
-    if (next_ == frames_.size()) return std::nullopt;
-    return frames_[next_++];
-  }
-  double progress() const override { return 0; }
-
- private:
-  std::vector<Frame> frames_;
-  std::size_t next_ = 0;
-};
 
 SweepDirectionStudy study(std::vector<Frame> frames, std::optional<double> sweep_time_s = {}) {
   FramesInMemory log(std::move(frames));

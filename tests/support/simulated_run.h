@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "frames/laser_readings.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/frame.h"
 
 namespace psi_slam {
@@ -67,16 +68,18 @@ inline double range_m(const std::vector<Wall>& walls, const mrpt::math::TPose2D&
 
 /// True poses of a robot, its odometry and its scans.
 struct SimulatedRun {
+  static constexpr double kPeriod_s = 0.2;  ///< time between scans
+
   std::vector<mrpt::math::TPose2D> truth;
   std::vector<mrpt::math::TPose2D> odometry;
   std::vector<float> bearings_rad = make_bearings_rad(BeamAngles::kLeftOpen, 180, M_PI);  ///< true bearings
   mrpt::math::TPose2D robot_T_laser{0, 0, 0};
+  std::vector<Wall> walls = furnished_room();
   double noise_m = 0.005;
   unsigned seed = 1;
   void (*put_into)(std::vector<float>& ranges_m, std::size_t scan) = nullptr;  ///< changes each scan
 
   std::vector<float> ranges_m(std::size_t i) const {
-    static const std::vector<Wall> walls = furnished_room();
     std::mt19937 random(seed * 100'003U + static_cast<unsigned>(i));
     std::normal_distribution<double> noise(0, noise_m);
     const mrpt::math::TPose2D laser = truth[i] + robot_T_laser;
@@ -108,9 +111,9 @@ struct RunPart {
 /// Simulates a run. The error of its odometry is 2 % of each step (standard deviation) plus a heading drift
 /// of 0.004 rad/m.
 inline SimulatedRun simulated_run(const std::vector<RunPart>& parts,
-                                  const mrpt::math::TPose2D& start = {2, 1.8, 0}) {
+                                  const mrpt::math::TPose2D& start = {2, 1.8, 0}, unsigned seed = 7) {
   SimulatedRun run;
-  std::mt19937 random(7);
+  std::mt19937 random(seed);
   std::normal_distribution<double> error(0, 0.02);
   run.truth.push_back(start);
   run.odometry.push_back({0, 0, 0});
@@ -135,11 +138,23 @@ inline std::vector<RunPart> round_trip() {
           {0.08, 0.0, 101}, corner,          {0.08, 0.0, 60}, corner};
 }
 
-inline SimulatedRun round_trips(std::size_t count) {
+inline SimulatedRun round_trips(std::size_t count, unsigned seed = 7) {
   std::vector<RunPart> parts;
   for (std::size_t i = 0; i < count; ++i)
     for (const RunPart& part : round_trip()) parts.push_back(part);
-  return simulated_run(parts);
+  return simulated_run(parts, {2, 1.8, 0}, seed);
+}
+
+/// Returns the run with scans that were measured `delay_s` before their time stamps.
+inline SimulatedRun with_late_stamps(SimulatedRun run, double delay_s) {
+  const std::vector<mrpt::math::TPose2D> truth = run.truth;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double at = std::clamp(static_cast<double>(i) - delay_s / SimulatedRun::kPeriod_s, 0.0,
+                                 static_cast<double>(truth.size() - 1));
+    const auto before = std::min(static_cast<std::size_t>(at), truth.size() - 2);
+    run.truth[i] = interpolate(truth[before], truth[before + 1], at - static_cast<double>(before));
+  }
+  return run;
 }
 
 /// CARMEN log of the run, with a FLASER line every 0.2 s.
@@ -157,7 +172,8 @@ inline std::string carmen_log(const SimulatedRun& run) {
       std::snprintf(text, sizeof text, " %.6f %.6f %.6f", pose.x, pose.y, pose.phi);
       log += text;
     }
-    std::snprintf(text, sizeof text, " %.6f host 0\n", 1000 + 0.2 * static_cast<double>(i));
+    std::snprintf(text, sizeof text, " %.6f host 0\n",
+                  1000 + SimulatedRun::kPeriod_s * static_cast<double>(i));
     log += text;
   }
   return log;

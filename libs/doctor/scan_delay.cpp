@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/scan_delay.h"
+
+#include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
+
+#include <Eigen/Cholesky>
+#include <limits>
+
+#include "doctor/estimate_covariance.h"
+#include "frames/odometry_track.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+using mrpt::math::wrapToPi;
+
+constexpr std::size_t kFewestTurns = 40;
+constexpr double kLimit_s = 1.0;
+constexpr int kCandidates = 20;  // on each side of 0
+constexpr double kSlopeStep_s = 0.02;
+constexpr int kIterations = 20;
+// Residuals beyond this count less (Cauchy weights): odometry that slips, scans that are badly aligned.
+const double kNoise_rad = mrpt::DEG2RAD(1.0);
+constexpr double kGainDeviation = 0.3;  // of the ratio of turns, before any scan is compared
+
+/// Odometry of all marks at shifted times.
+class ShiftedOdometry {
+ public:
+  explicit ShiftedOdometry(const std::vector<FrameMark>& marks) : marks_(marks), tracks_(1) {
+    track_of_.reserve(marks.size());
+    for (const FrameMark& mark : marks) {
+      if (tracks_.back().ends_before(mark.time_us)) tracks_.emplace_back();
+      tracks_.back().add(mark.time_us, mark.odom_T_robot);
+      track_of_.push_back(tracks_.size() - 1);
+    }
+  }
+
+  /// Odometry of a frame whose scan was measured `delay_s` before its time stamp.
+  TPose2D at(std::size_t frame, double delay_s) const {
+    return tracks_[track_of_[frame]].at(marks_[frame].time_us -
+                                        static_cast<TimeUs>(std::lround(1e6 * delay_s)));
+  }
+
+  double turn_rad(const FramePair& pair, double delay_s) const {
+    return wrapToPi(at(pair.second, delay_s).phi - at(pair.first, delay_s).phi);
+  }
+
+ private:
+  const std::vector<FrameMark>& marks_;
+  std::vector<OdometryTrack> tracks_;
+  std::vector<std::size_t> track_of_;
+};
+
+/// Returns the multiple of the candidates' step that explains the turns best. Empty if the limit does.
+std::optional<double> best_candidate_s(const ShiftedOdometry& odometry, const std::vector<ScanTurn>& turns) {
+  int best = 0;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int k = -kCandidates; k <= kCandidates; ++k) {
+    double cost = 0;
+    for (const ScanTurn& turn : turns) {
+      const double residual =
+          wrapToPi(turn.turn_rad - odometry.turn_rad(turn.frames, kLimit_s * k / kCandidates));
+      cost += std::log1p(std::pow(residual / kNoise_rad, 2));
+    }
+    if (cost >= lowest) continue;
+    lowest = cost;
+    best = k;
+  }
+  if (std::abs(best) == kCandidates) return std::nullopt;
+  return kLimit_s * best / kCandidates;
+}
+
+}  // namespace
+
+std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks,
+                                             const std::vector<ScanTurn>& turns) {
+  if (turns.size() < kFewestTurns) return std::nullopt;
+  const ShiftedOdometry odometry(marks);
+  const auto candidate_s = best_candidate_s(odometry, turns);
+  if (!candidate_s) return std::nullopt;
+  // Gauss-Newton steps for the delay and the ratio of turns, with a weak prior: without turns, both stay.
+  const Eigen::Vector2d prior(*candidate_s, 1);
+  const Eigen::Matrix2d prior_hessian =
+      Eigen::Vector2d(std::pow(kNoise_rad / kLimit_s, 2), std::pow(kNoise_rad / kGainDeviation, 2))
+          .asDiagonal();
+  Eigen::Vector2d estimate = prior;
+  Eigen::Matrix2d hessian;
+  std::vector<Eigen::Vector2d> gradients(turns.size());
+  for (int i = 0; i <= kIterations; ++i) {
+    hessian = prior_hessian;
+    Eigen::Vector2d gradient = prior_hessian * (prior - estimate);
+    for (std::size_t k = 0; k < turns.size(); ++k) {
+      const FramePair& frames = turns[k].frames;
+      const double turn_rad = odometry.turn_rad(frames, estimate[0]);
+      const double slope = wrapToPi(odometry.turn_rad(frames, estimate[0] + kSlopeStep_s) -
+                                    odometry.turn_rad(frames, estimate[0] - kSlopeStep_s)) /
+                           (2 * kSlopeStep_s);
+      const double residual = wrapToPi(turns[k].turn_rad - estimate[1] * turn_rad);
+      const double weight = 1 / (1 + std::pow(residual / kNoise_rad, 2));
+      const Eigen::Vector2d jacobian(estimate[1] * slope, turn_rad);
+      hessian += weight * jacobian * jacobian.transpose();
+      gradients[k] = weight * residual * jacobian;
+      gradient += gradients[k];
+    }
+    if (i < kIterations) estimate += hessian.ldlt().solve(gradient);
+  }
+  if (!(std::abs(estimate[0]) < kLimit_s)) return std::nullopt;
+  const Eigen::Matrix2d covariance =
+      estimate_covariance<2>(hessian, gradients, kNoise_rad * kNoise_rad * prior_hessian);
+  return ScanDelay{turns.size(), estimate[0], std::sqrt(covariance(0, 0))};
+}
+
+std::vector<FrameMark> with_scan_delay(const std::vector<FrameMark>& marks, double delay_s) {
+  const ShiftedOdometry odometry(marks);
+  std::vector<FrameMark> shifted = marks;
+  for (std::size_t i = 0; i < marks.size(); ++i) shifted[i].odom_T_robot = odometry.at(i, delay_s);
+  return shifted;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Estimates the delay between the time stamps of scans and those of odometry: compares the turns by scans
+// with the turns by odometry at shifted times, by least squares over many pairs of scans.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "doctor/log_facts.h"
+#include "doctor/scan_sampling.h"
+
+namespace psi_slam {
+
+/// Turn of the robot between two frames according to their scans.
+struct ScanTurn {
+  FramePair frames;
+  double turn_rad = 0;
+};
+
+struct ScanDelay {
+  std::size_t turns = 0;   ///< number of pairs of scans that were compared
+  double delay_s = 0;      ///< see LogOptions::scan_delay_s
+  double deviation_s = 0;  ///< standard deviation
+
+  /// Returns whether the delay differs from 0 by at least four standard deviations.
+  bool is_significant() const { return std::abs(delay_s) > 4 * deviation_s; }
+};
+
+/// Estimates the delay, at most one second. Also estimates the ratio of turns by odometry to turns by scans,
+/// so that a wrong wheel base does not disturb. Where the robot turns at a constant rate, no delay shows; the
+/// deviation is then up to a second. Empty for fewer than 40 turns, and if no delay of less than a second
+/// explains the turns.
+std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks,
+                                             const std::vector<ScanTurn>& turns);
+
+/// Returns the marks with the odometry of the times at which the scans were measured.
+std::vector<FrameMark> with_scan_delay(const std::vector<FrameMark>& marks, double delay_s);
+
+}  // namespace psi_slam

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session/log_calibration.h"
+
+#include <mrpt/core/bits_math.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/number_text.h"
+#include "doctor/odometry_calibration.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::DEG2RAD;
+using mrpt::RAD2DEG;
+using mrpt::math::TPose2D;
+
+constexpr double kScaleDeviation = 0.005;
+const double kMostLogScale = std::log(2.0);  // of odometry in metres
+constexpr double kMountDeviation_m = 0.02;
+const double kMountDeviation_rad = DEG2RAD(0.5);
+constexpr double kDelayDeviationPerPeriod = 0.2;
+constexpr double kSignificant = 4;  // in standard deviations
+// Slip in turns spoils the estimate by about as much as a stated pose is usually wrong.
+constexpr double kUsualError_m = 0.03;
+const double kUsualError_rad = DEG2RAD(0.8);
+
+const char* const kUndetermined = "not used, because the log does not determine it well enough";
+
+class Calibrator {
+ public:
+  Calibrator(const OdometryCalibration& found, const LogOptions& options) : found_(found) {
+    made_.options = options;
+  }
+
+  LogCalibration made() {
+    if (!found_.obstacle.empty()) {
+      say("estimates nothing, because " + found_.obstacle);
+    } else {
+      if (!made_.options.odometry_scale) use_scale();
+      if (!made_.options.scan_delay_s) use_delay();
+      if (!made_.options.robot_T_laser && made_.options.laser_mounts.empty()) use_mount();
+    }
+    return std::move(made_);
+  }
+
+ private:
+  void say(const std::string& words) { made_.sentences.push_back("log.calibrate " + words); }
+
+  void add(const char* option, double value, double deviation, bool is_used) {
+    made_.estimates.push_back({"", option, value, deviation, is_used});
+  }
+
+  void use_scale() {
+    if (!found_.mount) return say("finds too few scans that show the scale of odometry");
+    const double scale = 1 / found_.mount->odometry_scale;
+    const double deviation = scale * scale * found_.mount->scale_deviation;
+    const bool is_used = deviation <= kScaleDeviation && std::abs(std::log(scale)) < kMostLogScale;
+    if (is_used) made_.options.odometry_scale = scale;
+    add("log.odometry_scale", scale, deviation, is_used);
+    say("estimates the scale of odometry: " + fixed_text(scale, 4) + " (standard deviation " +
+        fixed_text(deviation, 4) + "), " + (is_used ? "used" : kUndetermined));
+  }
+
+  void use_delay() {
+    if (!found_.delay) return say("finds too few turns that show the delay of scans");
+    const ScanDelay& delay = *found_.delay;
+    const bool is_determined = delay.deviation_s <= kDelayDeviationPerPeriod * found_.median_period_s;
+    const bool is_used = is_determined && delay.is_significant();
+    if (is_used) made_.options.scan_delay_s = delay.delay_s;
+    add("log.scan_delay_s", delay.delay_s, delay.deviation_s, is_used);
+    say("estimates the delay of scans: " + fixed_text(delay.delay_s, 3) + " s (standard deviation " +
+        fixed_text(delay.deviation_s, 3) + " s), " +
+        (is_used         ? "used"
+         : is_determined ? "not used, because it hardly differs from 0"
+                         : kUndetermined));
+  }
+
+  void use_mount() {
+    if (found_.several_lasers) return say("leaves the poses of several lasers unchanged");
+    if (!found_.mount) return say("finds too few scans that show the pose of the laser");
+    const LaserMountEstimate& mount = *found_.mount;
+    const TPose2D& pose = mount.robot_T_laser;
+    const bool is_determined =
+        mount.deviation_m <= kMountDeviation_m && mount.deviation_rad <= kMountDeviation_rad;
+    const TPose2D off = pose - found_.stated_mount;
+    const bool differs = off.norm() > std::max(kUsualError_m, kSignificant * mount.deviation_m) ||
+                         std::abs(off.phi) > std::max(kUsualError_rad, kSignificant * mount.deviation_rad);
+    const bool is_used = is_determined && differs;
+    if (is_used) made_.options.robot_T_laser = pose;
+    add("log.laser_x_m", pose.x, mount.deviation_m, is_used);
+    add("log.laser_y_m", pose.y, mount.deviation_m, is_used);
+    add("log.laser_yaw_deg", RAD2DEG(pose.phi), RAD2DEG(mount.deviation_rad), is_used);
+    say("estimates the pose of the laser: x " + fixed_text(pose.x, 3) + " m, y " + fixed_text(pose.y, 3) +
+        " m, yaw " + fixed_text(RAD2DEG(pose.phi), 2) + " degrees (standard deviations " +
+        fixed_text(mount.deviation_m, 3) + " m and " + fixed_text(RAD2DEG(mount.deviation_rad), 2) +
+        " degrees), " +
+        (is_used         ? "used"
+         : is_determined ? "not used, because it hardly differs from the stated pose"
+                         : kUndetermined));
+  }
+
+  const OdometryCalibration& found_;
+  LogCalibration made_;
+};
+
+}  // namespace
+
+LogCalibration use_calibration(const OdometryCalibration& calibration, const LogOptions& options) {
+  return Calibrator(calibration, options).made();
+}
+
+LogCalibration calibrate_log(const std::filesystem::path& log, const LogOptions& options) {
+  if (!options.calibrate) return {options, {}, {}};
+  LogCalibration calibration = use_calibration(calibrate_odometry(log, options), options);
+  for (CalibratedOption& estimate : calibration.estimates) estimate.log = log.filename().string();
+  return calibration;
+}
+
+}  // namespace psi_slam

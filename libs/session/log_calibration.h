@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Decides what log.calibrate uses of the estimates that a log gives, and says so.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "exports/run_summary.h"
+#include "psi_slam/log_options.h"
+
+namespace psi_slam {
+
+struct OdometryCalibration;
+
+/// Estimates of a log, and the options that read it with those estimates that the log determines well.
+struct LogCalibration {
+  LogOptions options;
+  std::vector<CalibratedOption> estimates;
+  std::vector<std::string> sentences;  ///< one for each estimate or obstacle, without full stop
+};
+
+/// Uses the estimates of options that `options` leave open: the scale if its standard deviation is at most
+/// 0.5 %; the mount of a single laser if those of its position and heading are at most 2 cm and 0.5 degrees;
+/// the delay if its own is at most a fifth of the time between scans. Mount and delay must differ from what
+/// the log states by four standard deviations, and the mount by 3 cm or 0.8 degrees.
+LogCalibration use_calibration(const OdometryCalibration& calibration, const LogOptions& options);
+
+/// Calibrates the log if options.calibrate is true, otherwise returns `options`. Throws UserError if the log
+/// is unreadable.
+LogCalibration calibrate_log(const std::filesystem::path& log, const LogOptions& options);
+
+}  // namespace psi_slam

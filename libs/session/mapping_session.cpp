@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "doctor/quick_check.h"
 #include "exports/interruptions.h"
 #include "exports/unmatched_scans.h"
+#include "frames/discarded_ranges.h"
 #include "frames/log_reader.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/configuration.h"
@@ -105,6 +107,7 @@ struct MappingSession::Members {
   /// std::logic_error.
   void enter(State next);
   std::optional<Frame> read();
+  void keep_bent(const Frame& frame);
   const std::vector<Frame>& recorded_frames(std::vector<Frame>& room) const;
   void check_log();
   void make_due_edits(EditTime now);
@@ -129,8 +132,9 @@ struct MappingSession::Members {
   std::vector<std::string> settings_warnings;
   std::unique_ptr<FrameSource> source;
   /// Frames without odometry as the log states them, by their numbers. The mapper removes the motion during
-  /// the sweep from its own copies.
+  /// the sweep from its own copies. Lacks frames whose ranges the mapper has discarded, except recent ones.
   std::map<std::size_t, Frame> bent;
+  std::size_t most_bent = 1000;    ///< number of entries of `bent` at which discarded frames are looked for
   std::unique_ptr<Mapper> mapper;  ///< null after finish() without stay_open()
   Mapper::AfterFinish after_finish = Mapper::AfterFinish::kNothing;
   EditJournal edits;
@@ -190,7 +194,7 @@ bool MappingSession::step() {
     if (!frame) return false;
     frame->index = m_->scans;
     m_->begin_recorded_run();
-    if (!frame->has_odometry && has_sweep(*frame)) m_->bent.emplace(frame->index, *frame);
+    m_->keep_bent(*frame);
     m_->mapper->add(*std::move(frame));
     m_->make_due_edits({EditTime::Kind::kAfterScan, m_->scans++});
   }
@@ -208,6 +212,18 @@ std::optional<Frame> MappingSession::Members::read() {
   }
   if (!frame) enter(State::kRead);
   return frame;
+}
+
+/// Keeps a frame as the log states it if the mapper may change it.
+void MappingSession::Members::keep_bent(const Frame& frame) {
+  if (frame.has_odometry || !has_sweep(frame)) return;
+  bent.emplace(frame.index, frame);
+  if (bent.size() < most_bent) return;
+  for (auto kept = bent.begin(); kept != bent.end();) {
+    const bool is_discarded = kept->first < scans && !has_ranges(mapper->log()[kept->first]);
+    kept = is_discarded ? bent.erase(kept) : std::next(kept);
+  }
+  most_bent = 1000 + 2 * bent.size();
 }
 
 /// Checks each log of the result, unless the same scans were checked before.

@@ -435,7 +435,8 @@ const std::vector<Frame>& MappingSession::Members::recorded_frames(std::vector<F
   if (recording && mapped.size() < recording->frames.size()) return recording->frames;
   if (bent.empty()) return mapped;
   room = mapped;
-  for (const auto& [number, frame] : bent) room.at(number) = frame;
+  for (const auto& [number, frame] : bent)
+    if (has_ranges(room.at(number))) room[number] = frame;
   return room;
 }
 

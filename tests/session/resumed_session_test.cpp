@@ -103,7 +103,7 @@ TEST_F(ResumedSession, gives_the_same_map_of_sweeps_without_odometry) {
 }
 
 TEST_F(ResumedSession, gives_the_same_map_of_a_robot_that_stands_for_long) {
-  const auto path = log("room.log", standing_log_lines(20, 250, 20));
+  const auto path = log("room.log", standing_log_lines(20, 250, 30));
   for (const char* odometry : {"auto", "none"}) {
     settings_.log.odometry = odometry;
     settings_.log.sweep_time_s = 0.15;

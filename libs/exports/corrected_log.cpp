@@ -79,7 +79,7 @@ void append_pose(std::string& line, const TPose2D& pose) {
 
 std::string scan_line(const LaserScan& scan, TimeUs time_us, const TPose2D& map_T_robot,
                       const TPose2D& odom_T_robot) {
-  if (scan.laser >= kMessages.size()) return {};
+  if (scan.laser >= kMessages.size() || scan.ranges_m.empty()) return {};
   std::vector<float> ranges_m = scan.ranges_m;
   if (runs_clockwise(scan)) std::reverse(ranges_m.begin(), ranges_m.end());
   std::string line = std::string(kMessages[scan.laser]) + ' ' + std::to_string(ranges_m.size());

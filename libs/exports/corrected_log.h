@@ -9,7 +9,7 @@
 // the top state the mount and the beam spacing, and a comment states the bearings. Ranges are always
 // counter-clockwise, so log.mirrored must not be set for this file. RLASER lines hold the scans of a second
 // laser, with the poses at their own time. CARMEN has no message with poses for a third laser, so the scans
-// of further lasers are left out.
+// of further lasers are left out, and so are scans whose ranges were discarded.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "frames/discarded_ranges.h"
 #include "frames/pose_operations.h"
 #include "frames/sweep_motion.h"
 #include "local_maps/correction_support.h"
@@ -84,6 +85,7 @@ FrontEnd::FrontEnd(const FrontEndOptions& options)
     : options_(options), matcher_(matcher_options(options)), constant_velocity_(options.constant_velocity) {}
 
 FrontEndStep FrontEnd::add(const Frame& frame, bool may_be_lost) {
+  if (auto standing = step_of_standing_robot(frame)) return *std::move(standing);
   FrontEndStep step;
   const TPose2D during_sweep = straighten_by_prediction(frame, step);
   step.points = std::make_shared<const ScanPoints>(
@@ -117,7 +119,43 @@ FrontEndStep FrontEnd::add(const Frame& frame, bool may_be_lost) {
   last_motion_ = step.local_T_robot - last_local_T_robot_;
   last_local_T_robot_ = step.local_T_robot;
   misses_ = step.matched ? 0 : misses_ + 1;
+  standstill_.add(frame, step.local_T_robot, step.matched);
   return step;
+}
+
+// The step and the state after it depend on the time, the odometry and the gyroscope of the frame, but not on
+// its ranges. So they stay the same when the ranges are discarded.
+std::optional<FrontEndStep> FrontEnd::step_of_standing_robot(const Frame& frame) {
+  if (active_.empty() || !standstill_.is_long(frame) || constant_velocity_.is_gap(frame.time_us)) return {};
+  FrontEndStep step;
+  step.points = std::make_shared<const ScanPoints>(matching_points(frame, options_.scan));
+  const bool is_discarded = !has_ranges(frame);
+  if (is_discarded) standstill_.skip();
+  if (!is_discarded && !fits_standstill(*step.points)) return {};
+  step.local_T_robot = standstill_.place();
+  step.matched = true;
+  step.stands = true;
+  step.repeats = is_discarded || !standstill_.keeps(frame.time_us);
+  step.response = expected_response_;
+  // The odometry stays, so that the next motion includes what odometry moved during the standstill.
+  last_->index = frame.index;
+  last_->time_us = frame.time_us;
+  constant_velocity_.moved(frame.time_us, step.local_T_robot, true, frame.imu_heading_rad);
+  last_local_T_middle_ = last_local_T_robot_ = step.local_T_robot;
+  last_motion_ = {0, 0, 0};
+  misses_ = 0;
+  unmatched_travel_m_ = 0;
+  return step;
+}
+
+// Returns whether a scan fits the older active map at the place where the robot stands.
+bool FrontEnd::fits_standstill(const ScanPoints& scan) {
+  if (scan.points.empty()) return false;
+  const PlacedLocalMap& older = active_.front();
+  const PosePrior here = prior(standstill_.place() - older.local_T_map, {});
+  const RefinedPose refined = refine(older.map->scores(), scan, here.map_T_robot, options_.refinement, here);
+  return refined.mean_score >= options_.min_response_share * expected_response_ &&
+         standstill_.confirm(older.local_T_map + refined.map_T_robot);
 }
 
 TPose2D FrontEnd::straighten_by_prediction(const Frame& frame, FrontEndStep& step) const {

@@ -20,6 +20,7 @@
 #include "local_maps/constant_velocity_model.h"
 #include "local_maps/local_map.h"
 #include "local_maps/scan_filter.h"
+#include "local_maps/standstill.h"
 #include "matching/make_matcher.h"
 #include "psi_slam/frame.h"
 
@@ -110,6 +111,10 @@ struct FrontEndStep {
   /// still, and that it continued as before. The scan was not inserted.
   bool lost = false;
   bool matched = false;  ///< false: no local map, no points, or a response that is too low
+  bool stands = false;   ///< the robot has stood still for long, and the pose is its place
+  /// The robot stands, and the scan is not needed to represent the standstill. The front end's later steps
+  /// are the same without its ranges if the next Standstill::kRecentScans scans stand, too.
+  bool repeats = false;
   double response = 0;
   SearchExtent window;
   std::int64_t evaluations = 0;
@@ -137,8 +142,9 @@ class FrontEnd {
  public:
   explicit FrontEnd(const FrontEndOptions& options);
 
-  /// Predicts, matches and inserts one scan. If `may_be_lost` is true, an interruption that nothing explains
-  /// sets FrontEndStep::lost. Then call finish() and begin_run(), and add the scan again.
+  /// Predicts, matches and inserts one scan. If the robot has stood still for long, only checks that the scan
+  /// fits; a frame whose ranges were discarded fits. If `may_be_lost` is true, an interruption that nothing
+  /// explains sets FrontEndStep::lost. Then call finish() and begin_run(), and add the scan again.
   FrontEndStep add(const Frame& frame, bool may_be_lost = false);
 
   /// Ends the local maps that are still active and returns them, older first.
@@ -172,6 +178,9 @@ class FrontEnd {
     /// Odometry began again at zero or jumped farther than a robot drives, so the motion is not measured.
     bool was_restarted = false;
   };
+  /// Returns the step of a robot that has stood still for long, or nothing if the robot may have moved.
+  std::optional<FrontEndStep> step_of_standing_robot(const Frame& frame);
+  bool fits_standstill(const ScanPoints& scan);
   /// Removes the motion during the sweep, as the constant-velocity model predicts it, from the scans of a
   /// frame without odometry. Sets step.straightened. Returns the motion of the first laser's sweep.
   mrpt::math::TPose2D straighten_by_prediction(const Frame& frame, FrontEndStep& step) const;
@@ -215,6 +224,7 @@ class FrontEnd {
   std::size_t next_node_ = 0;
   std::optional<Frame> last_;  ///< last frame, without its scans
   ConstantVelocityModel constant_velocity_;
+  Standstill standstill_;
   mrpt::math::TPose2D last_local_T_robot_;
   mrpt::math::TPose2D last_local_T_middle_;  ///< pose in the middle of the last sweep
   mrpt::math::TPose2D last_motion_;

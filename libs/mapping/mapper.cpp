@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "frames/discarded_ranges.h"
 #include "frames/pose_operations.h"
 #include "frames/sweep_motion.h"
 #include "mapping/carried_frames.h"
@@ -25,6 +26,11 @@ constexpr double kStartSigma_rad = radians_from_degrees(3.0L);
 // Standard deviations of a provisional start. They only keep the graph connected.
 constexpr double kUnknownSigma_m = 1e3;
 constexpr double kUnknownSigma_rad = 30;
+
+// Number of scans before the end of a standstill that keep their ranges. The robot may have begun to move in
+// these scans, so that refine_poses() must align each of them.
+constexpr std::size_t kKeptBeforeMotion = 40;
+static_assert(kKeptBeforeMotion >= Standstill::kRecentScans);
 
 // Distance added to the path between two runs. It exceeds every limit along the path, so no search along the
 // path crosses from one run to the other.
@@ -84,6 +90,7 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   bent_last_.reset();
   if (step.straightened) bent_last_ = std::exchange(frame, *std::exchange(step.straightened, std::nullopt));
   result_.log.push_back(std::move(frame));
+  thin_standstill(step);
   if (step.node) {
     add_node(step, result_.frames.size());
     for (const PlacedLocalMap& finished : step.finished) remember(finished);
@@ -104,6 +111,15 @@ void Mapper::Implementation::straighten_last_scan(const Frame& next, const Front
   Frame last = bent_last_.value_or(result_.log.back());
   if (straighten(last, step.local_T_robot - record.front_end_T_robot, seconds(next.time_us - last.time_us)))
     result_.log.back() = std::move(last);
+}
+
+// Discards the ranges of scans that repeat what the standing robot saw before.
+void Mapper::Implementation::thin_standstill(const FrontEndStep& step) {
+  if (!step.stands) repeated_.clear();
+  if (step.repeats) repeated_.push_back(result_.log.size() - 1);
+  for (; !repeated_.empty() && repeated_.front() + kKeptBeforeMotion < result_.log.size();
+       repeated_.pop_front())
+    discard_ranges(result_.log[repeated_.front()]);
 }
 
 void Mapper::Implementation::begin_run(const RunStart& start) {
@@ -277,8 +293,15 @@ void Mapper::Implementation::refine_poses(FinalProgress& progress) {
                : matching_points(result_.log[frame], options_.front_end.scan);
   };
   back_end_.refine(scans, graph_, progress);
-  for (std::size_t i = 0; i < result_.frames.size(); ++i)
-    result_.frames[i].map_T_robot = scans.map_T_frame[i];
+  for (std::size_t i = 0; i < result_.frames.size(); ++i) {
+    FrameRecord& frame = result_.frames[i];
+    frame.map_T_robot = scans.map_T_frame[i];
+    // A scan whose ranges were discarded follows the scan before it, which was refined.
+    if (i > 0 && frame.match == ScanMatch::kMatched && !has_ranges(result_.log[i])) {
+      const FrameRecord& before = result_.frames[i - 1];
+      frame.map_T_robot = before.map_T_robot + (frame.front_end_T_robot - before.front_end_T_robot);
+    }
+  }
 }
 
 void Mapper::Implementation::end_log() {

@@ -2,6 +2,7 @@
 // Implementation of Mapper. Its public functions are described in psi_slam/mapper.h.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -43,6 +44,7 @@ class Mapper::Implementation {
 
   void rebase_odometry(FrameRecord& record);
   void straighten_last_scan(const Frame& next, const FrontEndStep& step);
+  void thin_standstill(const FrontEndStep& step);
   void record_factor(FrameRecord& record, const FrontEndStep& step);
   void add_node(const FrontEndStep& step, std::size_t frame);
   void join_run();
@@ -73,8 +75,9 @@ class Mapper::Implementation {
   std::optional<RunStart> run_start_;  ///< start of a run that begins with the next frame; otherwise empty
   /// Odometry frame of a later run, in the odometry frame of the first run.
   std::optional<mrpt::math::TPose2D> odom_T_run_;
-  mrpt::math::TPose2D map_T_local_;  ///< pose of the front end's frame in the map, from the newest node
-  std::optional<Frame> bent_last_;   ///< last frame before the motion during its sweep was removed
+  mrpt::math::TPose2D map_T_local_;   ///< pose of the front end's frame in the map, from the newest node
+  std::optional<Frame> bent_last_;    ///< last frame before the motion during its sweep was removed
+  std::deque<std::size_t> repeated_;  ///< scans that lose their ranges if the robot stands a little longer
   MappingResult result_;
   StageClock front_end_clock_{"match and insert scan"};
 };

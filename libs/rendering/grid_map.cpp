@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "rendering/standing_views.h"
+
 namespace psi_slam {
 namespace {
 
@@ -268,7 +270,17 @@ COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log, const std:
         "not be negative");
   Evidence evidence(layout_for(bounds_of(log, map_T_robot, options), options));
   RayMaker maker(options);
-  for (std::size_t i = 0; i < log.size(); ++i) evidence.add_frame(maker.fans(log[i], map_T_robot[i]));
+  std::size_t next = 0;
+  const auto draw_until = [&](std::size_t end) {
+    for (; next < end; ++next) evidence.add_frame(maker.fans(log[next], map_T_robot[next]));
+  };
+  for (const StandingSpan& span : standing_spans(log, map_T_robot)) {
+    draw_until(span.begin);
+    for (const StandingView& view : standing_views(log, span))
+      evidence.add_frame(maker.fans(view.frame, map_T_robot[view.index]));
+    next = span.end;
+  }
+  draw_until(log.size());
   return evidence.grid();
 }
 

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
 #include "doctor/gyroscope_check.h"
 #include "doctor/quick_check.h"
+#include "frames/discarded_ranges.h"
 #include "psi_slam/configuration.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/user_error.h"
@@ -79,7 +81,7 @@ bool MappingSession::step() {
     if (!frame) return false;
     frame->index = m_->scans;
     m_->begin_recorded_run();
-    if (!frame->has_odometry && has_sweep(*frame)) m_->bent.emplace(frame->index, *frame);
+    m_->keep_bent(*frame);
     m_->mapper->add(*std::move(frame));
     m_->make_due_edits({EditTime::Kind::kAfterScan, m_->scans++});
   }
@@ -103,6 +105,18 @@ std::optional<Frame> MappingSession::Members::read() {
   }
   if (!frame) enter(State::kRead);
   return frame;
+}
+
+/// Keeps a frame as the log states it if the mapper may change it.
+void MappingSession::Members::keep_bent(const Frame& frame) {
+  if (frame.has_odometry || !has_sweep(frame)) return;
+  bent.emplace(frame.index, frame);
+  if (bent.size() < most_bent) return;
+  for (auto kept = bent.begin(); kept != bent.end();) {
+    const bool is_discarded = kept->first < scans && !has_ranges(mapper->log()[kept->first]);
+    kept = is_discarded ? bent.erase(kept) : std::next(kept);
+  }
+  most_bent = 1000 + 2 * bent.size();
 }
 
 /// Checks each log of the result, unless the same scans were checked before.

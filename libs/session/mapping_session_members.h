@@ -34,6 +34,7 @@ struct MappingSession::Members {
   void enter(State next);
   void read_from(OpenedInput opened);
   std::optional<Frame> read();
+  void keep_bent(const Frame& frame);
   const std::vector<Frame>& recorded_frames(std::vector<Frame>& room) const;
   void check_log();
   void make_due_edits(EditTime now);
@@ -58,8 +59,9 @@ struct MappingSession::Members {
   std::vector<std::string> settings_warnings;
   std::unique_ptr<FrameSource> source;
   /// Frames without odometry as the log states them, by their numbers. The mapper removes the motion during
-  /// the sweep from its own copies.
+  /// the sweep from its own copies. Lacks frames whose ranges the mapper has discarded, except recent ones.
   std::map<std::size_t, Frame> bent;
+  std::size_t most_bent = 1000;  ///< number of entries of `bent` at which discarded frames are looked for
   std::unique_ptr<Mapper> mapper;  ///< null after finish() without stay_open()
   Mapper::AfterFinish after_finish = Mapper::AfterFinish::kNothing;
   std::vector<CalibratedOption> estimates;         ///< of all logs

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/file_checksum.h"
+#include "frames/discarded_ranges.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"
@@ -88,7 +89,8 @@ const std::vector<Frame>& MappingSession::Members::recorded_frames(std::vector<F
   if (recording && mapped.size() < recording->frames.size()) return recording->frames;
   if (bent.empty()) return mapped;
   room = mapped;
-  for (const auto& [number, frame] : bent) room.at(number) = frame;
+  for (const auto& [number, frame] : bent)
+    if (has_ranges(room.at(number))) room[number] = frame;
   return room;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "frames/discarded_ranges.h"
 #include "frames/pose_operations.h"
 #include "local_maps/front_end.h"
 #include "psi_slam/localizer.h"
@@ -72,8 +73,9 @@ std::optional<Sighting> find(FrameSource& frames, std::size_t end, Localizer& lo
     if (!frame) break;
     if (stop) throw SystemFailure("interrupted before a run was placed in the map. Nothing was merged");
     if (progress) progress(frames.progress());
-    const LocalizationStep step = localizer.add(*frame);
     const TPose2D start_T_robot = way.add(*frame).local_T_robot;
+    if (!has_ranges(*frame)) continue;  // the robot stands still
+    const LocalizationStep step = localizer.add(*frame);
     if (step.search && !step.search->believed()) why_not = step.search->objection;
     if (step.state == LocalizationStep::State::kLost) {
       if (start_is_known) return std::nullopt;

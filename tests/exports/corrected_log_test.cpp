@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "frames/discarded_ranges.h"
 #include "frames/log_reader.h"
 #include "psi_slam/open_log.h"
 #include "temporary_folder.h"
@@ -79,6 +80,15 @@ std::vector<mrpt::math::TPoint2D> beam_ends(const LaserScan& scan) {
   }
   if (scan.bearings_rad->front() > scan.bearings_rad->back()) std::reverse(ends.begin(), ends.end());
   return ends;
+}
+
+TEST(CorrectedLog, leaves_out_scans_whose_ranges_were_discarded) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "trajectory.carmen";
+  std::vector<Frame> log(3, frame(2'000'001, {7, 8, 0.5}, {1, 2, 3}));
+  discard_ranges(log[1]);
+  write_corrected_log(path, log, std::vector<mrpt::math::TPose2D>(3));
+  EXPECT_EQ(lines(path, "FLASER").size(), 2U);
 }
 
 TEST(CorrectedLog, keeps_the_beams_of_lasers_with_any_mount) {

@@ -2,6 +2,7 @@
 // Tests that a run that is interrupted, saved and resumed gives the same results as one without interruption.
 #include <gmock/gmock.h>
 
+#include "frames/discarded_ranges.h"
 #include "psi_slam/mapping_session.h"
 #include "report/output_folder.h"
 #include "room_log.h"
@@ -99,6 +100,26 @@ TEST_F(ResumedSession, gives_the_same_map_of_sweeps_without_odometry) {
   without.run(go_on_);
   EXPECT_NE(read_file(export_of(without, "without") / "trajectory.tum"), read_file(whole / "trajectory.tum"))
       << "without an effect of the sweep the test would show nothing";
+}
+
+TEST_F(ResumedSession, gives_the_same_map_of_a_robot_that_stands_for_long) {
+  const auto path = log("room.log", standing_log_lines(20, 250, 30));
+  for (const char* odometry : {"auto", "none"}) {
+    settings_.log.odometry = odometry;
+    settings_.log.sweep_time_s = 0.15;
+    MappingSession whole(path, settings_);
+    whole.run(go_on_);
+    const fs::path expected = export_of(whole, std::string("uninterrupted-") + odometry);
+    for (const std::size_t scans : {200U, 290U}) {
+      saved_after(scans, path);
+      const std::vector<Frame> frames = read_session_file(saved_).frames;
+      const auto kept = std::count_if(frames.begin(), frames.end(), has_ranges);
+      EXPECT_LT(static_cast<std::size_t>(kept), scans - 40) << "otherwise the test would show nothing";
+      MappingSession session(resumed(path), settings_);
+      session.run(go_on_);
+      expect_same_results(expected, export_of(session, odometry + std::to_string(scans)));
+    }
+  }
 }
 
 TEST_F(ResumedSession, continues_with_a_second_log_as_if_both_were_one) {

@@ -89,6 +89,25 @@ inline std::vector<std::string> room_log_lines(int scans = 150, int scans_a_roun
   return lines;
 }
 
+/// Returns the FLASER lines of a run that stops after `before` scans, stands for `standing` scans, and drives
+/// on for `after` scans.
+inline std::vector<std::string> standing_log_lines(int before, int standing, int after) {
+  std::vector<std::string> lines;
+  int scan = 0;
+  const auto add = [&](const std::string& line) {
+    char stamp[64];
+    const std::string without_stamps = line.substr(0, line.rfind(' ', line.rfind(" robot ") - 1));
+    std::snprintf(stamp, sizeof stamp, " %.6f robot %.6f", 1000 + 0.2 * scan, 0.2 * scan);
+    lines.push_back(without_stamps + stamp);
+    ++scan;
+  };
+  const std::vector<std::string> moving = room_log_lines(before + after);
+  for (int i = 0; i < before + after; ++i)
+    for (int repetition = 0; repetition < (i + 1 == before ? standing : 1); ++repetition)
+      add(moving[static_cast<std::size_t>(i)]);
+  return lines;
+}
+
 /// Returns the words of a line, which is split at blanks.
 inline std::vector<std::string> words_of(const std::string& line) {
   std::vector<std::string> words(1);

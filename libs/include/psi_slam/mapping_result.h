@@ -109,7 +109,7 @@ struct PsiThresholds {
 
 /// A finished map: scans, poses, graph and loops, with statistics of the mapping.
 struct MappingResult {
-  std::vector<Frame> log;           ///< all scans, in the same order as `frames`
+  std::vector<Frame> log;  ///< all scans, in the order of `frames`; most lack their ranges at a standstill
   std::vector<FrameRecord> frames;  ///< one record for each scan, with its pose in the map
   /// Pose graph, optimised and then refined jointly with all scans. Optimising the graph again undoes the
   /// refinement.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -45,6 +46,14 @@ class SharedHistory {
     if (size_ % kHistoryBlock == 0) blocks_.push_back(std::make_shared<typename HistoryView<T>::Block>());
     (*blocks_.back())[size_ % kHistoryBlock] = std::move(value);
     ++size_;
+  }
+
+  /// Replaces the values of a full block by those of `all` at the same places. Earlier views keep the old
+  /// values.
+  void replace_block(std::size_t block, const std::vector<T>& all) {
+    blocks_[block] = std::make_shared<typename HistoryView<T>::Block>();
+    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(block * kHistoryBlock), kHistoryBlock,
+                blocks_[block]->begin());
   }
 
   HistoryView<T> view() const { return {{blocks_.begin(), blocks_.end()}, size_}; }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "frames/discarded_ranges.h"
+
 namespace psi_slam {
 namespace {
 
@@ -44,7 +46,7 @@ void SnapshotMaker::note_export(WriteOutcome outcome) {
 }
 
 void SnapshotMaker::follow(const Mapper& mapper, ActiveMaps active) {
-  append_new(log_, mapper.log());
+  follow_log(mapper.log());
   append_new(frames_, mapper.frames());
   now.later_run_frames = mapper.later_run_frames();
   now.unmatched = std::make_shared<UnmatchedScans>(
@@ -60,6 +62,16 @@ void SnapshotMaker::follow(const Mapper& mapper, ActiveMaps active) {
       now.loops->size() != mapper.loops().size())
     now.loops = std::make_shared<std::vector<LoopRecord>>(mapper.loops());
   copy_active(mapper, active);
+}
+
+// Copies new frames. Copies a block again if the mapper has discarded ranges in it.
+void SnapshotMaker::follow_log(const std::vector<Frame>& log) {
+  append_new(log_, log);
+  for (; (settled_blocks_ + 2) * kHistoryBlock <= log.size(); ++settled_blocks_) {
+    const auto begin = log.begin() + static_cast<std::ptrdiff_t>(settled_blocks_ * kHistoryBlock);
+    const auto end = begin + static_cast<std::ptrdiff_t>(kHistoryBlock);
+    if (!std::all_of(begin, end, has_ranges)) log_.replace_block(settled_blocks_, log);
+  }
 }
 
 void SnapshotMaker::note_edits(const std::vector<TimedEdit>& edits, const EditHistory& history) {
@@ -95,9 +107,9 @@ void SnapshotMaker::take(const MappingResult& result) {
   finished_ = true;
   frames_ = {};
   append_new(frames_, result.frames);
-  // The mapper has straightened scans without odometry since follow() copied them.
+  // Since follow() copied the log, the mapper has straightened scans without odometry and discarded ranges.
   if (std::any_of(result.log.begin(), result.log.end(),
-                  [](const Frame& frame) { return !frame.has_odometry; })) {
+                  [](const Frame& frame) { return !frame.has_odometry || !has_ranges(frame); })) {
     log_ = {};
     append_new(log_, result.log);
   }

@@ -47,9 +47,11 @@ class SnapshotMaker {
   MapSketch sketch() const;
 
  private:
+  void follow_log(const std::vector<Frame>& log);
   void copy_active(const Mapper& mapper, ActiveMaps active);
 
   SharedHistory<Frame> log_;
+  std::size_t settled_blocks_ = 0;  ///< number of blocks of log_ whose frames the mapper no longer changes
   SharedHistory<FrameRecord> frames_;
   SharedHistory<double> shares_;
   SharedHistory<NodeScan> nodes_;

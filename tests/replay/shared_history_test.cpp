@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace psi_slam {
 namespace {
@@ -24,6 +25,18 @@ TEST(SharedHistory, a_view_shows_the_entries_at_the_time_it_was_made) {
   EXPECT_EQ(after[0], "one");
   EXPECT_EQ(after[kHistoryBlock], std::to_string(kHistoryBlock - 1));
   EXPECT_EQ(after.back(), std::to_string(3 * kHistoryBlock - 1));
+}
+
+TEST(SharedHistory, earlier_views_keep_the_values_of_a_replaced_block) {
+  std::vector<int> values(kHistoryBlock + 1, 7);
+  SharedHistory<int> history;
+  for (const int value : values) history.push_back(value);
+  const HistoryView<int> before = history.view();
+  values[3] = 8;
+  history.replace_block(0, values);
+  EXPECT_EQ(before[3], 7);
+  EXPECT_EQ(history.view()[3], 8);
+  EXPECT_EQ(history.view()[kHistoryBlock], 7);
 }
 
 TEST(SharedHistory, views_outlive_the_history) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "frames/discarded_ranges.h"
 #include "view/layers.h"
 #include "view/palette.h"
 
@@ -165,7 +166,9 @@ void MapScene::show_robot(const ReplaySnapshot& snapshot, std::optional<std::siz
   if (snapshot.frames.empty()) return;
   const std::size_t index = std::min(frame.value_or(snapshot.frames.size() - 1), snapshot.frames.size() - 1);
   const mrpt::math::TPose2D map_T_robot = map_T_frame(snapshot, index);
-  redraw(MapLayer::kScan, draw_scan, snapshot.log[index], map_T_robot);
+  std::size_t scan = index;  // of a robot that stands still, the last scan that has ranges
+  while (scan > 0 && !has_ranges(snapshot.log[scan])) --scan;
+  redraw(MapLayer::kScan, draw_scan, snapshot.log[scan], map_T_robot);
   redraw(MapLayer::kRobot, draw_robot, map_T_robot);
   redraw(MapLayer::kWindows, draw_windows, snapshot, index);
 }

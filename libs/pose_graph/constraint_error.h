@@ -11,14 +11,13 @@
 
 namespace psi_slam {
 
-inline constexpr double kPi = 3.14159265358979323846;
 
 /// Returns the angle wrapped to (-pi, pi], in radians. Does not change an angle in this range;
 /// mrpt::math::wrapToPi adds and subtracts pi, which rounds small angles.
 inline double wrap_to_pi(double angle) {
-  if (angle > -kPi && angle <= kPi) return angle;
-  const double wrapped = std::remainder(angle, 2 * kPi);
-  return wrapped > -kPi ? wrapped : kPi;
+  if (angle > -M_PI && angle <= M_PI) return angle;
+  const double wrapped = std::remainder(angle, 2 * M_PI);
+  return wrapped > -M_PI ? wrapped : M_PI;
 }
 
 /// A pose with the sine and cosine of its heading, computed once for the many constraints of a node.

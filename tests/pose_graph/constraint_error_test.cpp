@@ -12,7 +12,7 @@ namespace {
 
 TPose2D random_pose(Measurer& measurer, double extent) {
   return {extent * (2 * measurer.uniform() - 1), extent * (2 * measurer.uniform() - 1),
-          kPi * (2 * measurer.uniform() - 1)};
+          M_PI * (2 * measurer.uniform() - 1)};
 }
 
 TPose2D moved(TPose2D pose, int coordinate, double by) {
@@ -30,8 +30,8 @@ TEST(ConstraintError, is_zero_if_the_poses_agree_with_the_measurement) {
 }
 
 TEST(ConstraintError, is_measured_minus_predicted_in_the_axes_of_the_first_node) {
-  const RotatedPose a({1, 2, kPi / 2});
-  const RotatedPose b({1, 5, kPi / 2});  // 3 m straight ahead of `a`
+  const RotatedPose a({1, 2, M_PI / 2});
+  const RotatedPose b({1, 5, M_PI / 2});  // 3 m straight ahead of `a`
   const Eigen::Vector3d error = constraint_error({3.5, 0.25, 0.1}, a, b);
   EXPECT_NEAR(error.x(), 0.5, 1e-12);
   EXPECT_NEAR(error.y(), 0.25, 1e-12);
@@ -41,8 +41,8 @@ TEST(ConstraintError, is_measured_minus_predicted_in_the_axes_of_the_first_node)
 TEST(ConstraintError, takes_the_short_way_round) {
   const RotatedPose a({0, 0, 3.1});
   const RotatedPose b({0, 0, -3.1});
-  EXPECT_NEAR(constraint_error({0, 0, 0}, a, b).z(), -(2 * kPi - 6.2), 1e-12);
-  EXPECT_NEAR(constraint_error({0, 0, 3.1}, a, RotatedPose({0, 0, 0})).z(), 6.2 - 2 * kPi, 1e-12);
+  EXPECT_NEAR(constraint_error({0, 0, 0}, a, b).z(), -(2 * M_PI - 6.2), 1e-12);
+  EXPECT_NEAR(constraint_error({0, 0, 3.1}, a, RotatedPose({0, 0, 0})).z(), 6.2 - 2 * M_PI, 1e-12);
 }
 
 TEST(ConstraintError, its_jacobians_are_the_numeric_ones) {
@@ -89,17 +89,17 @@ TEST(WrapToPi, gives_the_same_angle_in_the_half_open_interval) {
   for (int i = -4000; i <= 4000; ++i) {
     const double angle = 0.01 * i;
     const double wrapped = wrap_to_pi(angle);
-    EXPECT_GT(wrapped, -kPi);
-    EXPECT_LE(wrapped, kPi);
+    EXPECT_GT(wrapped, -M_PI);
+    EXPECT_LE(wrapped, M_PI);
     EXPECT_NEAR(std::cos(wrapped), std::cos(angle), 1e-13);
     EXPECT_NEAR(std::sin(wrapped), std::sin(angle), 1e-13);
   }
 }
 
 TEST(WrapToPi, takes_half_a_turn_as_positive) {
-  EXPECT_EQ(wrap_to_pi(kPi), kPi);
-  EXPECT_EQ(wrap_to_pi(-kPi), kPi);
-  EXPECT_EQ(wrap_to_pi(3 * kPi), kPi);
+  EXPECT_EQ(wrap_to_pi(M_PI), M_PI);
+  EXPECT_EQ(wrap_to_pi(-M_PI), M_PI);
+  EXPECT_EQ(wrap_to_pi(3 * M_PI), M_PI);
 }
 
 TEST(WrapToPi, leaves_an_angle_of_the_interval_as_it_is) {

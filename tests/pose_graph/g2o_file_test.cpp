@@ -56,7 +56,7 @@ TEST(G2oFile, reads_vertices_edges_and_the_fixed_one) {
   EXPECT_EQ(file.graph.root(), 2U);
   EXPECT_EQ(file.graph.pose(0), TPose2D(0, 0, 0.5));
   EXPECT_EQ(file.graph.pose(2).x, 1.25);
-  EXPECT_NEAR(file.graph.pose(2).phi, 4 - 2 * kPi, 1e-15) << "the heading is wrapped";
+  EXPECT_NEAR(file.graph.pose(2).phi, 4 - 2 * M_PI, 1e-15) << "the heading is wrapped";
   ASSERT_EQ(file.graph.num_constraints(), 2U);
   const Constraint& loop = file.graph.constraint(0);
   EXPECT_EQ(loop.from, 0U);
@@ -144,7 +144,7 @@ TEST(G2oFile, is_written_as_the_format_says) {
   const TemporaryFolder folder;
   PoseGraph graph;
   graph.add_node({0, 0, 0});
-  graph.add_node({0.1, -2.5, kPi});
+  graph.add_node({0.1, -2.5, M_PI});
   Constraint constraint;
   constraint.to = 1;
   constraint.from_T_to = {0.25, 0, 0};

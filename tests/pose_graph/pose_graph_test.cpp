@@ -39,15 +39,15 @@ TEST(PoseGraph, numbers_nodes_and_constraints_in_their_order) {
 
 TEST(PoseGraph, wraps_headings) {
   PoseGraph graph;
-  graph.add_node({0, 0, 3 * kPi});
+  graph.add_node({0, 0, 3 * M_PI});
   graph.add_node({0, 0, 0});
-  EXPECT_EQ(graph.pose(0).phi, kPi);
-  graph.set_pose(1, {0, 0, -kPi});
-  EXPECT_EQ(graph.pose(1).phi, kPi);
+  EXPECT_EQ(graph.pose(0).phi, M_PI);
+  graph.set_pose(1, {0, 0, -M_PI});
+  EXPECT_EQ(graph.pose(1).phi, M_PI);
   Constraint turn = link(0, 1);
   turn.from_T_to.phi = 7;
   graph.add_constraint(turn);
-  EXPECT_NEAR(graph.constraint(0).from_T_to.phi, 7 - 2 * kPi, 1e-15);
+  EXPECT_NEAR(graph.constraint(0).from_T_to.phi, 7 - 2 * M_PI, 1e-15);
 }
 
 TEST(PoseGraph, rejects_unknown_nodes_and_invalid_measurements) {

@@ -276,8 +276,8 @@ TEST(SparsePoseAdjustment, wraps_headings_of_a_robot_that_turns_on_the_spot) {
   const PoseAdjustmentReport report = solver.optimize(graph);
   EXPECT_LT(report.final_chi2, 1e-12);
   for (std::size_t i = 0; i < 100; ++i) {
-    EXPECT_GT(graph.pose(i).phi, -kPi);
-    EXPECT_LE(graph.pose(i).phi, kPi);
+    EXPECT_GT(graph.pose(i).phi, -M_PI);
+    EXPECT_LE(graph.pose(i).phi, M_PI);
     EXPECT_NEAR(wrap_to_pi(graph.pose(i).phi - 0.5 * static_cast<double>(i)), 0, 1e-9);
   }
 }

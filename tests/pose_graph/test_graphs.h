@@ -44,7 +44,7 @@ class Measurer {
   explicit Measurer(std::uint64_t seed) : random_(seed) {}
 
   double uniform() { return (static_cast<double>(random_() >> 11) + 0.5) * 0x1p-53; }
-  double normal() { return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * kPi * uniform()); }
+  double normal() { return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * M_PI * uniform()); }
   std::size_t index(std::size_t count) { return static_cast<std::size_t>(random_() % count); }
 
   /// Returns a measured constraint. `noise` scales the drawn errors, not the information.
@@ -80,9 +80,9 @@ inline KnownGraph ring(std::size_t nodes, std::size_t loops, double noise, doubl
                        double loop_sigma_rad = 0.002, std::uint64_t seed = 1) {
   KnownGraph result;
   Measurer measurer(seed);
-  const double radius = static_cast<double>(nodes) / (2 * kPi);
+  const double radius = static_cast<double>(nodes) / (2 * M_PI);
   for (std::size_t i = 0; i < nodes; ++i) {
-    const double angle = 2 * kPi * static_cast<double>(i) / static_cast<double>(nodes);
+    const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(nodes);
     result.truth.emplace_back(radius * std::sin(angle), radius * (1 - std::cos(angle)), wrap_to_pi(angle));
   }
   result.graph.add_node(result.truth[0]);
@@ -112,12 +112,12 @@ inline KnownGraph building(std::size_t nodes, std::size_t local_maps, std::size_
     const bool crossing = truth.size() % 8 == 0;
     if (crossing) {
       const std::size_t turn = measurer.index(4);
-      if (turn == 0) next.phi = wrap_to_pi(next.phi + kPi / 2);
-      if (turn == 1) next.phi = wrap_to_pi(next.phi - kPi / 2);
+      if (turn == 0) next.phi = wrap_to_pi(next.phi + M_PI / 2);
+      if (turn == 1) next.phi = wrap_to_pi(next.phi - M_PI / 2);
       const double ahead_x = next.x + 4 * std::cos(next.phi);
       const double ahead_y = next.y + 4 * std::sin(next.phi);
       if (std::abs(ahead_x) > kHalfWidth || std::abs(ahead_y) > kHalfWidth)
-        next.phi = wrap_to_pi(next.phi + kPi);
+        next.phi = wrap_to_pi(next.phi + M_PI);
     }
     next.x += kStep * std::cos(next.phi);
     next.y += kStep * std::sin(next.phi);

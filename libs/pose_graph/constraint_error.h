@@ -11,7 +11,6 @@
 
 namespace psi_slam {
 
-
 /// Returns the angle wrapped to (-pi, pi], in radians. Does not change an angle in this range;
 /// mrpt::math::wrapToPi adds and subtracts pi, which rounds small angles.
 inline double wrap_to_pi(double angle) {

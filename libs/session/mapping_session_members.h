@@ -61,7 +61,7 @@ struct MappingSession::Members {
   /// Frames without odometry as the log states them, by their numbers. The mapper removes the motion during
   /// the sweep from its own copies. Lacks frames whose ranges the mapper has discarded, except recent ones.
   std::map<std::size_t, Frame> bent;
-  std::size_t most_bent = 1000;  ///< number of entries of `bent` at which discarded frames are looked for
+  std::size_t most_bent = 1000;    ///< number of entries of `bent` at which discarded frames are looked for
   std::unique_ptr<Mapper> mapper;  ///< null after finish() without stay_open()
   Mapper::AfterFinish after_finish = Mapper::AfterFinish::kNothing;
   std::vector<CalibratedOption> estimates;         ///< of all logs

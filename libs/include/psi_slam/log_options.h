@@ -56,8 +56,8 @@ struct LogOptions {
 
   /// Which laser to read. CARMEN: "front", "rear" or a message name such as "RAWLASER2". Rawlog: a sensor
   /// label. ROS: a topic of scans. "all", or several names separated by commas: each frame combines scans of
-  /// these lasers. Default: all lasers whose mounts are stated and differ; else CARMEN: the front laser if there
-  /// is one; rawlog and ROS: the first laser.
+  /// these lasers. Default: all lasers whose mounts are stated and differ; else CARMEN: the front laser if
+  /// there is one; rawlog and ROS: the first laser.
   std::string laser;
 
   /// Poses of lasers that the log states wrongly or not at all: "NAME X Y YAW" in metres and degrees. Append

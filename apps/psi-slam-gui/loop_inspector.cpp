@@ -21,7 +21,8 @@ namespace {
 
 /// The widest usual text of each column.
 constexpr std::array<const char*, LoopTable::kColumns> kWidest{
-    "00000", "0000", "000", "csm_ga, final search", "0.000", "0.000", "00.00", "0.000", "switched off", ""};
+    "00000", "0000",         "000", "coarse_genetic, final", "0.000", "0.000", "00.00",
+    "0.000", "switched off", ""};
 constexpr int kNarrowestReason = 150;
 constexpr int kPictureWidth = 330;
 constexpr int kScrollBar = 16;
@@ -36,7 +37,7 @@ LoopList::LoopList(wxWindow* parent)
                  wxLC_REPORT | wxLC_VIRTUAL | wxLC_SINGLE_SEL | wxLC_HRULES) {
   SetName("loops");
   for (std::size_t column = 0; column < LoopTable::kColumns; ++column) {
-    const bool is_text = column == LoopTable::kMatcher || column >= LoopTable::kVerdict;
+    const bool is_text = column == LoopTable::kSearch || column >= LoopTable::kVerdict;
     const int width = std::max(GetTextExtent(LoopTable::title(column)).GetWidth(),
                                GetTextExtent(kWidest[column]).GetWidth());
     AppendColumn(LoopTable::title(column), is_text ? wxLIST_FORMAT_LEFT : wxLIST_FORMAT_RIGHT,

@@ -13,7 +13,7 @@ namespace psi_slam {
 namespace {
 
 constexpr std::array<const char*, LoopTable::kColumns> kTitles{
-    "Frame",     "Node",      "Map",          "Matcher", "Response",
+    "Frame",     "Node",      "Map",          "Search",  "Response",
     "Ambiguity", "Moved [m]", "Residual [m]", "Verdict", "Reason"};
 
 }  // namespace
@@ -51,11 +51,11 @@ LoopTable::Cell LoopTable::cell(const LoopRecord& loop, std::size_t column) cons
   const auto number = [](auto value, int decimals) {
     return Cell{static_cast<double>(value), fixed_text(static_cast<double>(value), decimals)};
   };
-  const char* const manner = loop.by_hand ? ", by hand" : loop.in_final_search ? ", final search" : "";
+  const char* const manner = loop.by_hand ? ", by hand" : loop.in_final_search ? ", final" : "";
   if (column == kFrame) return number(loop.frame, 0);
   if (column == kNode) return number(loop.node, 0);
   if (column == kLocalMap) return number(loop.local_map, 0);
-  if (column == kMatcher) return {0, searched_by(loop) + manner};
+  if (column == kSearch) return {0, std::string(name(loop.search)) + manner};
   if (column == kResponse) return number(loop.response, 3);
   if (column == kAmbiguity) return number(loop.ambiguity, 3);
   if (column == kMoved) return number(loop.moved_m, 2);

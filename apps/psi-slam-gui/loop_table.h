@@ -21,7 +21,7 @@ class LoopTable {
     kFrame,
     kNode,
     kLocalMap,
-    kMatcher,
+    kSearch,
     kResponse,
     kAmbiguity,
     kMoved,

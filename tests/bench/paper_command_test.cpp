@@ -33,7 +33,7 @@ TEST_F(PaperCommand, maps_the_logs_with_each_matcher_and_counts_loops_and_search
     EXPECT_GT(row["windows"], 0);
     EXPECT_GT(row["loops"], 0);
     EXPECT_LT(row["translation_abs_m"]["mean"], 0.1) << "the room is easy";
-    EXPECT_EQ(row["deadline_ms"], 200.0);
+    EXPECT_DOUBLE_EQ(row["deadline_ms"], 200.0);
     EXPECT_GE(row["back_end_ms"]["max"], row["back_end_ms"]["p50"]);
   }
   EXPECT_THAT(names, testing::ElementsAre("csm", "ga"));

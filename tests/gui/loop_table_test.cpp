@@ -77,7 +77,7 @@ TEST_F(LoopTableTest, filters_by_verdict) {
 
 TEST_F(LoopTableTest, has_the_texts_of_all_cells) {
   EXPECT_EQ(table_.text(0, LoopTable::kFrame), "3");
-  EXPECT_EQ(table_.text(0, LoopTable::kMatcher), "ga (genetic)");
+  EXPECT_EQ(table_.text(0, LoopTable::kSearch), "genetic");
   EXPECT_EQ(table_.text(0, LoopTable::kResponse), "0.300");
   EXPECT_EQ(table_.text(0, LoopTable::kVerdict), "refused");
   EXPECT_EQ(table_.text(0, LoopTable::kReason), "the response is too low: 0.31, minimum 0.45");

@@ -180,7 +180,7 @@ TEST_F(BagGyroscopeTest, an_imu_without_angular_velocities_is_no_gyroscope) {
   options.imu = "/imu";
   EXPECT_EQ(sentence_about(recording, options),
             "log.imu is \"/imu\", expected a topic of type sensor_msgs/Imu with angular velocities of " +
-                path_.string() + ": it has none");
+                path_.string() + ": it has none. Map without a gyroscope with log.imu=none");
 }
 
 TEST_F(BagGyroscopeTest, every_nth_scan_keeps_only_turns_that_are_known) {

@@ -111,6 +111,7 @@ inline MappingResult walk_around_the_room(int scans = 50) {
   LoopRecord refused = accepted;
   refused.node = 5;
   refused.frame = result.node_frames[5];
+  refused.search = SearchKind::kExhaustive;
   refused.response = 0.41;
   refused.verdict = LoopVerdict::kRefused;
   refused.refusal = LoopRefusal{LoopRefusal::Reason::kLowResponse, 0.41, 0.55};

@@ -49,10 +49,10 @@ std::optional<std::string> rejected_gyroscope(const MappingResult& result, const
   }
   const double share = scans < kFewestScans ? 0 : static_cast<double>(rejected) / static_cast<double>(scans);
   if (share <= kMostRejected) return std::nullopt;
-  return "the gyroscope contradicts the scans in " + std::to_string(std::lround(100 * share)) +
-         " % of the log, so it did not predict the turns there. Remedy: correct the axis, sign or unit of "
-         "its "
-         "rates, or ignore it with log.imu=none";
+  return "the gyroscope contradicts the scans in " + std::to_string(std::lround(100 * share)) + " % of the " +
+         std::to_string(scans) +
+         " scans that were compared. Remedy: correct the axis, sign or unit of its rates, or ignore it with "
+         "log.imu=none";
 }
 
 }  // namespace psi_slam

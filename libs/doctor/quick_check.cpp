@@ -47,11 +47,12 @@ std::vector<std::string> quick_check(const std::vector<Frame>& log, std::size_t 
   if (scans.empty()) return {};
   LogDiagnosis diagnosis;
   diagnosis.options = options;
-  diagnosis.options.odometry_scale.reset();  // the mapped frames have the corrected odometry
-  diagnosis.options.scan_delay_s.reset();
+  diagnosis.options.odometry_scale.reset();  // the frames have the corrected odometry
   diagnosis.facts = collector.facts();
   diagnosis.marks = collector.marks();
   if (diagnosis.facts.scans_without_odometry == 0) compare_odometry_with(scans, diagnosis);
+  if (options.calibrate && !options.scan_delay_s) diagnosis.delay.reset();  // log.calibrate has named it
+  if (diagnosis.delay) diagnosis.delay->delay_s += options.scan_delay_s.value_or(0);
   std::vector<std::string> faults;
   for (Finding& finding : judge(diagnosis)) {
     const bool is_minor = finding.code == "max_range" || finding.code == "empty_scans";

@@ -57,7 +57,8 @@ class ShiftedOdometry {
 std::optional<double> best_candidate_s(const ShiftedOdometry& odometry, const std::vector<ScanTurn>& turns) {
   int best = 0;
   double lowest = std::numeric_limits<double>::infinity();
-  for (int k = -kCandidates; k <= kCandidates; ++k) {
+  for (int i = 0; i <= 2 * kCandidates; ++i) {  // 0, -1, 1, -2, 2, ...: of equal costs, the smallest delay
+    const int k = i % 2 == 0 ? i / 2 : -(i + 1) / 2;
     double cost = 0;
     for (const ScanTurn& turn : turns) {
       const double residual =

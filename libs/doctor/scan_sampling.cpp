@@ -49,7 +49,7 @@ std::size_t next_elsewhere(const std::vector<FrameMark>& marks, const std::vecto
 }
 
 /// Returns the first frame after `frame` that is at least `distance` or `turn_rad` away; the number of frames
-/// if there is none.
+/// without such a frame.
 std::size_t next_after_motion(const std::vector<FrameMark>& marks, std::size_t frame, double distance,
                               double turn_rad) {
   std::size_t next = frame + 1;

@@ -25,7 +25,7 @@ struct CalibratedOption {
   std::string option;  ///< name of the option, which states the unit: "log.scan_delay_s"
   double value = 0;
   double deviation = 0;  ///< standard deviation
-  bool is_used = false;  ///< false: the log does not determine the value well enough
+  bool is_used = false;  ///< false: not determined well enough, or not needed
 };
 
 /// Facts about a run that are not part of its result.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frames/odometry_track.h"
 
+#include <mrpt/math/wrap2pi.h>
+
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "frames/pose_operations.h"
@@ -9,6 +12,16 @@
 namespace psi_slam {
 
 using mrpt::math::TPose2D;
+using mrpt::math::wrapToPi;
+
+bool was_restarted(const TPose2D& last, const TPose2D& now) {
+  constexpr double kZero_m = 0.05;
+  constexpr double kZero_rad = 0.05;
+  constexpr double kLeastJump_m = 1.0;
+  constexpr double kFarthestStep_m = 1000.0;
+  if (std::hypot(now.x - last.x, now.y - last.y) > kFarthestStep_m) return true;
+  return now.norm() < kZero_m && std::abs(wrapToPi(now.phi)) < kZero_rad && last.norm() > kLeastJump_m;
+}
 
 void OdometryTrack::add(TimeUs time_us, const TPose2D& odom_T_robot) {
   auto place = poses_.end();
@@ -28,6 +41,8 @@ TPose2D OdometryTrack::at(TimeUs time_us) const {
   const auto before = std::prev(after);
   const double fraction =
       static_cast<double>(time_us - before->time_us) / static_cast<double>(after->time_us - before->time_us);
+  if (was_restarted(before->odom_T_robot, after->odom_T_robot))
+    return fraction < 0.5 ? before->odom_T_robot : after->odom_T_robot;
   return interpolate(before->odom_T_robot, after->odom_T_robot, fraction);
 }
 

@@ -9,6 +9,10 @@
 
 namespace psi_slam {
 
+/// Returns whether odometry began again at zero: the pose is zero, and the last pose was not nearby. Returns
+/// true also for a step that no robot makes between two scans.
+bool was_restarted(const mrpt::math::TPose2D& last, const mrpt::math::TPose2D& now);
+
 /// Poses of odometry by one clock, interpolated between their times. Poses may be added in any order of time,
 /// since the scans of several lasers may overtake each other in a log.
 class OdometryTrack {
@@ -27,8 +31,9 @@ class OdometryTrack {
   /// Forgets poses that at() does not need for this time and later.
   void forget_before(TimeUs time_us);
 
-  /// Returns the pose at a time, interpolated between the poses before and after it; the first pose before
-  /// the track, and the last pose after it. Needs a pose.
+  /// Returns the pose at a time, interpolated between the poses before and after it; the nearer of both in
+  /// time if odometry was restarted between them; the first pose before the track, and the last pose after
+  /// it. Needs a pose.
   mrpt::math::TPose2D at(TimeUs time_us) const;
 
   /// Time of the latest pose. Needs a pose.

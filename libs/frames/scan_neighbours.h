@@ -3,22 +3,25 @@
 // and the last beam are neighbours, too.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace psi_slam {
 
-/// Returns whether the first and the last beam of a scan are neighbours: their bearings differ by at most 2.5
-/// steps between beams and a full circle. Slices of point clouds need such a limit, because the bearings of
-/// their beams scatter by one step.
+/// Returns whether the first and the last beam of a scan are neighbours: their bearings differ by a full
+/// circle, except for 2.5 steps between beams or 0.2 rad. The bearings of slices of point clouds scatter by
+/// one step, and the ends of a sweep overlap or gape by the robot's turn once its motion is removed.
 inline bool is_full_circle(const std::vector<float>& bearings_rad) {
   if (bearings_rad.size() < 3) return false;
   constexpr double kMaxSteps = 2.5;
+  constexpr double kMaxTurn_rad = 0.2;
   const double span_rad =
       static_cast<double>(bearings_rad.back()) - static_cast<double>(bearings_rad.front());
   const double step_rad = std::abs(span_rad) / static_cast<double>(bearings_rad.size() - 1);
-  return std::abs(span_rad) > M_PI && std::abs(std::remainder(span_rad, 2 * M_PI)) <= kMaxSteps * step_rad;
+  return std::abs(span_rad) > M_PI &&
+         std::abs(std::remainder(span_rad, 2 * M_PI)) <= std::max(kMaxSteps * step_rad, kMaxTurn_rad);
 }
 
 /// Successive elements of a sequence. On a ring, the element after the last is the first, and `first` may be

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "frames/discarded_ranges.h"
+#include "frames/odometry_track.h"
 #include "frames/pose_operations.h"
 #include "frames/sweep_motion.h"
 #include "local_maps/correction_support.h"
@@ -47,18 +48,6 @@ constexpr double kLeastMatchedAgreement = 0.85;
 constexpr double kLeastAgreement = 0.5;
 constexpr int kLostMisses = 5;      // the robot may be lost after this many successive scans without a match
 constexpr double kLostAfter_s = 5;  // and this time
-
-// Returns whether odometry began again at zero: the pose is zero, and the last pose was not nearby. Returns
-// true also for a step that no robot makes between two scans.
-bool was_restarted(const TPose2D& last, const TPose2D& now) {
-  constexpr double kZero_m = 0.05;
-  constexpr double kZero_rad = 0.05;
-  constexpr double kLeastJump_m = 1.0;
-  constexpr double kFarthestStep_m = 1000.0;
-  if (length_m({now.x - last.x, now.y - last.y, 0}) > kFarthestStep_m) return true;
-  return length_m(now) < kZero_m && std::abs(mrpt::math::wrapToPi(now.phi)) < kZero_rad &&
-         length_m(last) > kLeastJump_m;
-}
 
 // Returns at most kCoarsePoints points of a scan, at even steps of the index, for the search of a wide
 // window.

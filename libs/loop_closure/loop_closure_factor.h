@@ -19,8 +19,7 @@ namespace psi_slam {
 
 struct PsiOptions {
   /// Loops are searched exhaustively for Psi <= psi_1. Psi is never negative, so the default disables
-  /// exhaustive searches. The windows are widest after a long path without loops, when Psi is 0. In such
-  /// windows the other matchers find the same loops in a tenth of the time (psi-slam-bench match).
+  /// exhaustive searches: share/doc/matchers.md has the measurements.
   double psi_1 = -1;
   double psi_2 = 1;        ///< kGa searches for Psi >= psi_2, and kCsmGa between psi_1 and psi_2
   int window_frames = 20;  ///< K of equation 13: number of loop searches in the mean, >= 1

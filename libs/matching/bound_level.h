@@ -23,8 +23,8 @@ namespace psi_slam {
 class BoundLevel {
  public:
   /// Makes the tables. Keeps a reference to the lattice. `stride_cells` is a power of two, at least 4. Throws
-  /// std::invalid_argument if the tables take more than 2 GB, as in windows of more than 10,000 cells on
-  /// grids of that size.
+  /// std::invalid_argument if the tables take more than 2 GB, as in windows and grids of more than about
+  /// 14,000 cells along each axis.
   BoundLevel(const SearchLattice& lattice, int stride_cells);
 
   int stride_cells() const { return stride_; }

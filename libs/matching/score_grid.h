@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The score grid M of equation 1: for each cell of a local map, the probability that a scan point falls
 // there. A max-pooled pyramid of the grid bounds the response of whole blocks of poses (Olson 2009; Hess et
-// al. 2016).
+// al. 2016), for the coarse and genetic searches.
 //
 // The memory layout serves the inner loop of the matcher, which sums runs of neighbouring cells for all
 // points of a scan. It has one byte per cell, contiguous rows, and a margin around the grid, so runs need no

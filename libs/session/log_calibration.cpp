@@ -22,6 +22,7 @@ const double kMostLogScale = std::log(2.0);  // of odometry in metres
 constexpr double kMountDeviation_m = 0.02;
 const double kMountDeviation_rad = DEG2RAD(0.5);
 constexpr double kDelayDeviationPerPeriod = 0.2;
+constexpr double kDelayDeviationPerDelay = 0.1;
 constexpr double kSignificant = 4;  // in standard deviations
 // Slip in turns spoils the estimate by about as much as a stated pose is usually wrong.
 constexpr double kUsualError_m = 0.03;
@@ -57,17 +58,23 @@ class Calibrator {
     if (!found_.mount) return say("finds too few scans that show the scale of odometry");
     const double scale = 1 / found_.mount->odometry_scale;
     const double deviation = scale * scale * found_.mount->scale_deviation;
-    const bool is_used = deviation <= kScaleDeviation && std::abs(std::log(scale)) < kMostLogScale;
+    const bool is_determined = deviation <= kScaleDeviation;
+    const bool is_used = is_determined && std::abs(std::log(scale)) < kMostLogScale;
     if (is_used) made_.options.odometry_scale = scale;
     add("log.odometry_scale", scale, deviation, is_used);
     say("estimates the scale of odometry: " + fixed_text(scale, 4) + " (standard deviation " +
-        fixed_text(deviation, 4) + "), " + (is_used ? "used" : kUndetermined));
+        fixed_text(deviation, 4) + "), " +
+        (is_used         ? "used"
+         : is_determined ? "not used, because it differs from 1 by more than a factor of 2"
+                         : kUndetermined));
   }
 
   void use_delay() {
-    if (!found_.delay) return say("finds too few turns that show the delay of scans");
+    if (!found_.delay) return say("finds no turns that show a delay of scans below 1 s");
     const ScanDelay& delay = *found_.delay;
-    const bool is_determined = delay.deviation_s <= kDelayDeviationPerPeriod * found_.median_period_s;
+    const bool is_determined =
+        delay.deviation_s <= std::max(kDelayDeviationPerPeriod * found_.median_period_s,
+                                      kDelayDeviationPerDelay * std::abs(delay.delay_s));
     const bool is_used = is_determined && delay.is_significant();
     if (is_used) made_.options.scan_delay_s = delay.delay_s;
     add("log.scan_delay_s", delay.delay_s, delay.deviation_s, is_used);

@@ -65,7 +65,7 @@ struct MappingSession::Members {
   std::unique_ptr<Mapper> mapper;  ///< null after finish() without stay_open()
   Mapper::AfterFinish after_finish = Mapper::AfterFinish::kNothing;
   std::vector<CalibratedOption> estimates;         ///< of all logs
-  std::vector<std::string> calibration_sentences;  ///< about the last log
+  std::vector<std::string> calibration_sentences;  ///< about all logs
   EditJournal edits;
   std::vector<std::string> edit_complaints;
   Observer observer;

@@ -74,7 +74,8 @@ endfunction()
 # optimisation is enough for it, and it compiles faster. But it makes false warnings of uninitialised values.
 function(psi_slam_configure_light_target target)
   psi_slam_configure_target(${target})
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1 -Wno-maybe-uninitialized>)
+  target_compile_options(${target} PRIVATE
+    $<$<CONFIG:Release>:-O1> $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-Wno-maybe-uninitialized>)
 endfunction()
 
 # psi_slam_add_tests(NAME [SEPARATE] LINK dependency...)

@@ -59,10 +59,7 @@ TEST(ScanDelay, wrong_turns_of_odometry_do_not_disturb) {
 
 TEST(ScanDelay, straight_motion_shows_no_delay) {
   const auto found = delay_of(with_late_stamps(simulated_run({{0.08, 0, 115}, {-0.08, 0, 115}}), 0.2));
-  if (found) {
-    EXPECT_FALSE(found->is_significant());
-    EXPECT_GT(found->deviation_s, 0.05);
-  }
+  EXPECT_FALSE(found && found->is_significant());
 }
 
 TEST(ScanDelay, shifts_the_odometry_of_marks) {

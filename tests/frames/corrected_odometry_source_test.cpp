@@ -121,6 +121,18 @@ TEST(CorrectedOdometrySource, interpolates_on_each_side_of_a_clock_that_was_set_
   }
 }
 
+TEST(CorrectedOdometrySource, invents_no_poses_where_odometry_was_restarted) {
+  std::vector<Frame> frames;
+  for (int i = 0; i < 10; ++i) frames.push_back(frame_at(100'000'000 + 100'000 * i, {40 + 0.1 * i, 20, 0}));
+  for (int i = 0; i < 10; ++i) frames.push_back(frame_at(130'000'000 + 100'000 * i, {0.1 * i, 0, 0}));
+  for (const double delay_s : {-0.08, -0.02, 0.02, 0.08}) {
+    for (const Frame& frame : corrected(numbered(frames), 1, delay_s)) {
+      const TPose2D& pose = frame.odom_T_robot;
+      EXPECT_TRUE((pose.x >= 40 && pose.y == 20) || (pose.x < 1 && pose.y == 0)) << pose << delay_s;
+    }
+  }
+}
+
 TEST(CorrectedOdometrySource, leaves_frames_without_odometry_unchanged) {
   std::vector<Frame> frames = random_run(5);
   for (std::size_t i = 0; i < frames.size(); i += 3) frames[i].has_odometry = false;

@@ -26,12 +26,21 @@ TEST(ScanNeighbours, of_a_full_circle_include_the_ends) {
 }
 
 TEST(ScanNeighbours, of_other_scans_exclude_the_ends) {
-  for (const double field_of_view_deg : {90.0, 180.0, 270.0, 350.0})
+  for (const double field_of_view_deg : {90.0, 180.0, 270.0, 345.0})
     EXPECT_FALSE(is_full_circle(bearings_rad(BeamAngles::kCentredStepInclusive, 361, field_of_view_deg)))
         << field_of_view_deg;
   EXPECT_FALSE(is_full_circle(std::vector<float>(10, 0.5F))) << "all beams have one bearing";
   EXPECT_FALSE(is_full_circle({-3.14F, 3.14F}));
   EXPECT_FALSE(is_full_circle({}));
+}
+
+TEST(ScanNeighbours, of_a_circle_bent_by_a_turn_include_the_ends) {
+  for (const double turn_rad : {-0.15, 0.15}) {
+    std::vector<float> bearings = bearings_rad(BeamAngles::kLeftOpen, 720, 360);
+    for (std::size_t i = 0; i < bearings.size(); ++i)
+      bearings[i] += static_cast<float>(turn_rad * static_cast<double>(i) / 720);
+    EXPECT_TRUE(is_full_circle(bearings)) << turn_rad;
+  }
 }
 
 TEST(ScanNeighbours, end_where_elements_are_not_joined) {

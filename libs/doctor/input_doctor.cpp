@@ -90,9 +90,7 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
   if (diagnosis.odometry_is_sound) {
     std::vector<AlignedPair> aligned = align_pairs(corrected, pairs, library);
     diagnosis.reversals = find_lost_reversals(aligned, library);
-    diagnosis.delay = estimate_scan_delay(marks, reliable_turns(aligned));
-    if (diagnosis.delay && diagnosis.delay->is_significant())
-      set_odometry(aligned, with_scan_delay(marks, diagnosis.delay->delay_s));
+    diagnosis.delay = remove_scan_delay(aligned, marks);
     // The scans are compared as recorded: measured in the middle of the sweep on average.
     if (diagnosis.delay)
       diagnosis.delay->delay_s += std::abs(diagnosis.sweep_direction.stated_sweep_time_s) / 2;

@@ -8,7 +8,6 @@
 
 #include "doctor/input_doctor.h"
 #include "doctor/odometry_check.h"
-#include "frames/laser_choice.h"
 #include "frames/log_format.h"
 #include "frames/log_reader.h"
 #include "psi_slam/open_log.h"
@@ -22,11 +21,6 @@ constexpr std::size_t kMostPairs = 1500;
 constexpr double kDistance_m = 0.25;
 const double kTurn_rad = mrpt::DEG2RAD(12.0);
 constexpr double kMostDelay_s = 1.0;
-
-bool reads_several(const std::filesystem::path& path, const LogOptions& options) {
-  return reads_several_lasers(options, detect_log_format(path)) ||
-         open_log_reader(path, options)->contents().several_lasers;
-}
 
 LogFactsCollector read_once(const std::filesystem::path& path, const LogOptions& options) {
   LogFactsCollector collector;
@@ -64,9 +58,7 @@ OdometryCalibration estimate_once(const std::filesystem::path& path, const LogOp
     return found;
   }
   std::vector<AlignedPair> aligned = align_pairs(corrected, pairs, library);
-  found.delay = estimate_scan_delay(marks, reliable_turns(aligned));
-  if (found.delay && found.delay->is_significant())
-    set_odometry(aligned, with_scan_delay(marks, found.delay->delay_s));
+  found.delay = remove_scan_delay(aligned, marks);
   found.stated_mount = facts.robot_T_laser;
   found.mount = estimate_laser_mount(aligned, facts.robot_T_laser);
   return found;
@@ -75,7 +67,8 @@ OdometryCalibration estimate_once(const std::filesystem::path& path, const LogOp
 }  // namespace
 
 OdometryCalibration calibrate_odometry(const std::filesystem::path& path, const LogOptions& options) {
-  const bool several_lasers = reads_several(path, options);
+  const bool several_lasers =
+      combines_lasers(open_log_reader(path, options)->contents(), options, detect_log_format(path));
   LogOptions of_one_laser = several_lasers ? options_of_first_laser(path, options) : options;
   of_one_laser.every_nth_scan = 1;
   OdometryCalibration found = estimate_once(path, of_one_laser);

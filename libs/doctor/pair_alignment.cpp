@@ -50,8 +50,13 @@ std::vector<ScanTurn> reliable_turns(const std::vector<AlignedPair>& pairs) {
   return turns;
 }
 
-void set_odometry(std::vector<AlignedPair>& pairs, const std::vector<FrameMark>& marks) {
-  for (AlignedPair& pair : pairs) pair.by_odometry = odometry_between(marks, pair.frames);
+std::optional<ScanDelay> remove_scan_delay(std::vector<AlignedPair>& pairs,
+                                           const std::vector<FrameMark>& marks) {
+  const std::optional<ScanDelay> delay = estimate_scan_delay(marks, reliable_turns(pairs));
+  if (!delay || !delay->is_significant()) return delay;
+  const std::vector<FrameMark> shifted = with_scan_delay(marks, delay->delay_s);
+  for (AlignedPair& pair : pairs) pair.by_odometry = odometry_between(shifted, pair.frames);
+  return delay;
 }
 
 LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const ScanLibrary& library) {

@@ -29,8 +29,10 @@ std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const 
 /// Returns the turns of the reliably aligned pairs.
 std::vector<ScanTurn> reliable_turns(const std::vector<AlignedPair>& pairs);
 
-/// Replaces the motions by odometry of all pairs with the odometry of `marks`.
-void set_odometry(std::vector<AlignedPair>& pairs, const std::vector<FrameMark>& marks);
+/// Estimates the delay of the scans from the pairs, see estimate_scan_delay(). If it is significant, replaces
+/// the motions by odometry of all pairs with those between the times at which the scans were measured.
+std::optional<ScanDelay> remove_scan_delay(std::vector<AlignedPair>& pairs,
+                                           const std::vector<FrameMark>& marks);
 
 /// Odometry that counts reversing as driving forwards: the scans move backwards by about as much as odometry
 /// moves forwards.

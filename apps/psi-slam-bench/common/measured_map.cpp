@@ -32,4 +32,13 @@ MeasuredMap map_measured(FrameSource& source, const MapperOptions& options) {
   return map;
 }
 
+RunFigures figures_of(const MeasuredMap& map, const Trajectory& path,
+                      const std::vector<Relation>& relations) {
+  RunFigures figures = evaluate_path(path, relations);
+  figures.scans = map.result.frames.size();
+  figures.wall_s = map.wall_s;
+  figures.cpu_s = map.cpu_s;
+  return figures;
+}
+
 }  // namespace psi_slam

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "batch/run_figures.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/mapper.h"
@@ -19,5 +20,9 @@ struct MeasuredMap {
 
 /// Maps all frames in this thread. Passes on exceptions of the source.
 MeasuredMap map_measured(FrameSource& source, const MapperOptions& options);
+
+/// Errors of `path`, a path of the map, against the true relations, with the times of the map. The memory
+/// stays 0. Throws UserError as evaluate_relations() does.
+RunFigures figures_of(const MeasuredMap& map, const Trajectory& path, const std::vector<Relation>& relations);
 
 }  // namespace psi_slam

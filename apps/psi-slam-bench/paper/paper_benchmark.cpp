@@ -41,10 +41,7 @@ PaperRow row_of(const BenchmarkLog& log, const PaperCandidate& candidate, std::u
   PaperRow row;
   row.log = log.name;
   row.matcher = candidate.name;
-  row.figures = evaluate_path(trajectory_of(result.frames), relations);
-  row.figures.scans = result.frames.size();
-  row.figures.wall_s = map.wall_s;
-  row.figures.cpu_s = map.cpu_s;
+  row.figures = figures_of(map, trajectory_of(result.frames), relations);
   row.loops = loops_accepted(result);
   const LoopJudgement judgement = judge_loops(result, relations);
   row.loops_judged = judgement.judged.size();

@@ -17,10 +17,7 @@ PsiRun run_of(const BenchmarkLog& log, const std::string& matcher, std::uint64_t
   PsiRun run;
   run.log = log.name;
   run.matcher = matcher;
-  run.figures = evaluate_path(trajectory_of(map.result.frames), read_relations(log.relations.value()));
-  run.figures.scans = map.result.frames.size();
-  run.figures.wall_s = map.wall_s;
-  run.figures.cpu_s = map.cpu_s;
+  run.figures = figures_of(map, trajectory_of(map.result.frames), read_relations(log.relations.value()));
   run.loops = loops_accepted(map.result);
   for (const auto& [kind, record] : map.result.loop_matchers)
     run.loop_matching_s += 1e-3 * record.effort.milliseconds;

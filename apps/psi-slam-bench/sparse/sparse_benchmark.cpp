@@ -28,10 +28,7 @@ SparseRow row_of(const BenchmarkLog& log, const Settings& settings, const Measur
   SparseRow row;
   row.log = log.name;
   row.seed = settings.run.seed;
-  row.figures = evaluate_path(path, read_relations(log.relations.value()));
-  row.figures.scans = map.result.frames.size();
-  row.figures.wall_s = map.wall_s;
-  row.figures.cpu_s = map.cpu_s;
+  row.figures = figures_of(map, path, read_relations(log.relations.value()));
   row.nodes = map.result.node_frames.size();
   row.unmatched = unmatched_scans(map.result.frames, runs_of(map.result)).count;
   row.loops = loops_accepted(map.result);

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "matching/exact_search.h"
 #include "score_grids.h"
 #include "slow_search.h"
 
@@ -113,6 +114,10 @@ TEST(CorrelativeMatcher, large_windows_need_neither_the_pyramid_nor_all_poses) {
     with.measure_ambiguity = without.measure_ambiguity = true;
     const MatchResult match = CorrelativeMatcher({}).match(with);
     expect_same_result(match, CorrelativeMatcher({}).match(without));
+    const SearchLattice lattice(room.grid, scan, predicted, match.window);
+    const Candidate best = exhaustive_search(lattice, 0).best.value();
+    EXPECT_EQ(match.lattice_pose, lattice.pose(best.pose));
+    EXPECT_EQ(match.response, lattice.response(best.sum));
     const SearchWindow& window = match.window;
     const std::int64_t poses =
         std::int64_t{2 * window.n_x + 1} * (2 * window.n_y + 1) * (2 * window.n_theta + 1);

@@ -25,7 +25,7 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   if (!can_be_searched(scan, local_map)) return attempt;
   MatchProblem problem{std::as_const(*local_map.map).scores(), scan, candidate.anchor_T_node,
                        candidate.extent};
-  problem.min_response = kReportedShare * min_response(candidate.extent, verification);
+  problem.min_response = (is_wide(candidate.extent, verification) ? 1.0 : kReportedShare) * min_response(candidate.extent, verification);
   problem.measure_ambiguity = true;
   problem.seed = {run_seed, here.frame, local_map.id};
   const auto start = std::chrono::steady_clock::now();

@@ -16,6 +16,14 @@ std::int64_t square_of(float x, float y, double size_m) {
   return row * (std::int64_t{1} << 32) + column;
 }
 
+// Keeps at most `most` elements, at equal distances.
+template <class Element>
+void thin(std::vector<Element>& elements, std::size_t most) {
+  const std::size_t size = elements.size();
+  for (std::size_t i = 0; i < std::min(size, most); ++i) elements[i] = elements[i * size / most];
+  elements.resize(std::min(size, most));
+}
+
 }  // namespace
 
 ScanPoints scan_context(std::size_t node, const KeyframeStore& keyframes, const ScanContextOptions& options) {
@@ -23,7 +31,6 @@ ScanPoints scan_context(std::size_t node, const KeyframeStore& keyframes, const 
   ScanPoints context;
   context.origin = here.points->origin;
   std::unordered_set<std::int64_t> taken;
-  double farthest_squared = 0;
   const auto add = [&](const NodeScan& there) {
     const mrpt::math::TPose2D here_T_there = there.local_T_robot - here.local_T_robot;
     const auto c = static_cast<float>(std::cos(here_T_there.phi));
@@ -39,7 +46,6 @@ ScanPoints scan_context(std::size_t node, const KeyframeStore& keyframes, const 
       if (!taken.insert(square_of(x, y, options.point_spacing_m)).second) continue;
       context.points.emplace_back(x, y);
       context.normals.emplace_back(c * normal.x - s * normal.y, s * normal.x + c * normal.y);
-      farthest_squared = std::max(farthest_squared, static_cast<double>(x * x + y * y));
     }
   };
   add(here);
@@ -51,7 +57,12 @@ ScanPoints scan_context(std::size_t node, const KeyframeStore& keyframes, const 
     last_m = there.travelled_m;
     add(there);
   }
-  context.farthest_m = std::sqrt(farthest_squared);
+  if (context.points.size() > static_cast<std::size_t>(options.max_points)) {
+    thin(context.points, static_cast<std::size_t>(options.max_points));
+    thin(context.normals, static_cast<std::size_t>(options.max_points));
+  }
+  for (const auto& point : context.points)
+    context.farthest_m = std::max(context.farthest_m, std::hypot(double{point.x}, double{point.y}));
   return context;
 }
 

@@ -13,14 +13,25 @@
 namespace psi_slam {
 namespace {
 
-// Windows with at most this many poses are searched exhaustively, because the tables of bounds cost more than
-// they save.
-constexpr std::int64_t kExhaustivePoses = 60'000;
+// A cell of the tables of bounds takes as long to make as the exhaustive search takes to add this many scores.
+constexpr double kScoresPerCell = 40;
 // In windows with more poses than this, another level of large blocks saves more than its tables cost.
 constexpr std::int64_t kHugePoses = 150'000'000;
 
 std::int64_t poses_of(const SearchWindow& window) {
   return static_cast<std::int64_t>(2 * window.n_x + 1) * (2 * window.n_y + 1) * (2 * window.n_theta + 1);
+}
+
+// Returns whether an exhaustive search takes less time than the tables of bounds, which cover the cells that
+// the scan can reach.
+bool is_cheaper_exhaustively(const SearchLattice& lattice) {
+  const SearchWindow& window = lattice.window();
+  const ScoreLevel& grid = lattice.grid().finest();
+  const double reach = lattice.scan().farthest_m / lattice.grid().resolution_m();
+  const double cells = std::min(2 * (reach + window.n_x), double(grid.width())) *
+                       std::min(2 * (reach + window.n_y), double(grid.height()));
+  return static_cast<double>(poses_of(window)) * static_cast<double>(lattice.points()) <=
+         kScoresPerCell * cells;
 }
 
 // Keeps the best candidate of a search.
@@ -253,7 +264,7 @@ ExactSearch::ExactSearch(const SearchLattice& lattice) : lattice_(lattice) {}
 ExactSearch::~ExactSearch() = default;
 
 SearchOutcome ExactSearch::find(std::uint32_t min_sum, const std::optional<ExcludedRegion>& excluded) {
-  if (poses_of(lattice_.window()) <= kExhaustivePoses) return exhaustive_search(lattice_, min_sum, excluded);
+  if (is_cheaper_exhaustively(lattice_)) return exhaustive_search(lattice_, min_sum, excluded);
   if (!branch_and_bound_) branch_and_bound_ = std::make_unique<BranchAndBound>(lattice_);
   return branch_and_bound_->find(min_sum, excluded);
 }

@@ -12,33 +12,29 @@ int ceil_divide(int a, int b) {
   return (a + b - 1) / b;
 }
 
-// Returns a pyramid level: maxima over aligned stride x stride blocks of `fine`, then over 2 x 2 neighbouring
-// blocks.
-ScoreLevel pool(const ScoreLevel& fine, int stride) {
-  const int blocks_x = ceil_divide(fine.width(), stride);
-  const int blocks_y = ceil_divide(fine.height(), stride);
-  ScoreLevel blocks(blocks_x, blocks_y, stride);
-  std::vector<std::uint8_t> highest(static_cast<std::size_t>(fine.width()));  // cells of a row of blocks
-  for (int row = 0; row < blocks_y; ++row) {
-    std::fill(highest.begin(), highest.end(), std::uint8_t{0});
-    for (int y = row * stride; y < std::min((row + 1) * stride, fine.height()); ++y)
-      std::transform(highest.begin(), highest.end(), fine.cell(0, y), highest.begin(),
-                     [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
-    std::uint8_t* block = blocks.cell(0, row);
-    for (auto first = highest.cbegin(); first != highest.cend(); ++block) {
-      const auto last = first + std::min<std::ptrdiff_t>(stride, highest.cend() - first);
-      *block = *std::max_element(first, last);
-      first = last;
-    }
+// Returns the maxima over aligned 2 x 2 blocks of cells.
+ScoreLevel halved(const ScoreLevel& fine) {
+  ScoreLevel blocks(ceil_divide(fine.width(), 2), ceil_divide(fine.height(), 2), 2 * fine.stride_cells());
+  for (int y = 0; y < blocks.height(); ++y) {
+    // The margin of zeros completes the last blocks.
+    const std::uint8_t* low = fine.cell(0, 2 * y);
+    const std::uint8_t* high = fine.cell(0, 2 * y + 1);
+    std::uint8_t* __restrict row = blocks.cell(0, y);
+    for (int x = 0, width = blocks.width(); x < width; ++x)
+      row[x] = std::max(std::max(low[2 * x], low[2 * x + 1]), std::max(high[2 * x], high[2 * x + 1]));
   }
-  // Cells with x or y = -1 lie in the margin. They cover points just left of or below the grid, so they
-  // include the first blocks.
-  ScoreLevel pooled(blocks_x, blocks_y, stride);
-  for (int y = -1; y < blocks_y; ++y) {
+  return blocks;
+}
+
+// Returns the maxima over 2 x 2 neighbouring blocks. Cells with x or y = -1 lie in the margin. They cover
+// points just left of or below the grid, so they include the first blocks.
+ScoreLevel overlapping(const ScoreLevel& blocks) {
+  ScoreLevel pooled(blocks.width(), blocks.height(), blocks.stride_cells());
+  for (int y = -1; y < blocks.height(); ++y) {
     const std::uint8_t* low = blocks.cell(-1, y);
     const std::uint8_t* high = blocks.cell(-1, y + 1);
-    std::uint8_t* cell = pooled.cell(-1, y);
-    for (int i = 0; i <= blocks_x; ++i)
+    std::uint8_t* __restrict cell = pooled.cell(-1, y);
+    for (int i = 0, end = blocks.width(); i <= end; ++i)
       cell[i] = std::max(std::max(low[i], low[i + 1]), std::max(high[i], high[i + 1]));
   }
   return pooled;
@@ -95,7 +91,11 @@ ScoreGrid ScoreGrid::cropped(int x, int y, int width, int height) const {
 
 void ScoreGrid::build_pyramid() {
   pyramid_.clear();
-  for (const int stride : kStrides) pyramid_.push_back(pool(finest_, stride));
+  ScoreLevel blocks = halved(finest_);
+  for (const int stride : kStrides) {
+    while (blocks.stride_cells() < stride) blocks = halved(blocks);
+    pyramid_.push_back(overlapping(blocks));
+  }
 }
 
 ScoreGrid::Sample ScoreGrid::interpolate(double x_m, double y_m) const {

@@ -204,6 +204,8 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
               "Wide windows: least travel between the scans that are searched together.")
       .number("context_point_spacing_m", loops.context.point_spacing_m, above(0).at_most(10), "m",
               "Wide windows: one point is kept in each square of this side length.")
+      .integer("context_max_points", loops.context.max_points, between(10, 1'000'000), "points",
+               "Wide windows: largest number of points that are searched together. More points are thinned evenly.")
       .number(
           "distinct_m", matcher.distinct_m, above(0).at_most(100), "m",
           "Another peak of the response is distinct from the best one if it is this far away along x or y.")

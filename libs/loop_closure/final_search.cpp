@@ -79,8 +79,7 @@ std::vector<Pair> pairs_near_each_other(
 }  // namespace
 
 FinalSearchOutcome final_search(const KeyframeStore& keyframes, const PoseGraph& graph,
-                                const std::function<ChosenMatcher(std::size_t)>& matcher_of,
-                                const LoopVerificationOptions& verification,
+                                const NodeMatchers& matchers, const LoopVerificationOptions& verification,
                                 const FinalSearchOptions& options,
                                 const std::function<bool(std::size_t, std::size_t)>& known,
                                 std::uint64_t run_seed, WorkerPool& pool,
@@ -94,14 +93,14 @@ FinalSearchOutcome final_search(const KeyframeStore& keyframes, const PoseGraph&
     unpack_local_maps(keyframes, local_maps, pool);
     auto attempts = map_in_parallel<LoopAttempt>(pool, end - begin, [&](std::size_t index) {
       const auto& [node, candidate] = pairs[begin + index];
-      return attempt_loop(node, *keyframes.nodes[node].points, candidate, keyframes, matcher_of(node),
-                          verification, run_seed);
+      return attempt_loop(node, *keyframes.nodes[node].points, candidate, keyframes, matchers, verification,
+                          run_seed);
     });
-    for (std::size_t i = 0; i < attempts.size(); ++i) {
-      outcome.effort[matcher_of(pairs[begin + i].node).kind] += attempts[i].effort;
-      if (!attempts[i].loop || attempts[i].loop->verdict == LoopVerdict::kNotFound) continue;
-      attempts[i].loop->in_final_search = true;
-      outcome.loops.push_back(*std::move(attempts[i].loop));
+    for (LoopAttempt& attempt : attempts) {
+      outcome.effort += attempt.effort;
+      if (!attempt.loop || attempt.loop->verdict == LoopVerdict::kNotFound) continue;
+      attempt.loop->in_final_search = true;
+      outcome.loops.push_back(*std::move(attempt.loop));
     }
     if (!progress(static_cast<double>(end) / static_cast<double>(pairs.size()))) break;
   }

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -29,16 +28,15 @@ struct FinalSearchOptions {
 
 struct FinalSearchOutcome {
   std::vector<LoopRecord> loops;  ///< all matches, accepted or refused, by local map and then by node
-  std::map<MatcherKind, LoopEffort> effort;
+  LoopEffort effort;
 };
 
-/// Matches each pair of a node and a nearby local map with `matcher_of(node)`, several pairs in parallel.
+/// Matches each pair of a node and a nearby local map with `matchers`, several pairs in parallel.
 /// Skips nodes of the local map itself, and pairs for which `known(node, local_map)` is true. `run_seed`
 /// becomes MatchSeed::run. Calls `progress` in the calling thread with the completed share of the pairs, in
 /// [0, 1]. If `progress` returns false, the search ends.
 FinalSearchOutcome final_search(const KeyframeStore& keyframes, const PoseGraph& graph,
-                                const std::function<ChosenMatcher(std::size_t node)>& matcher_of,
-                                const LoopVerificationOptions& verification,
+                                const NodeMatchers& matchers, const LoopVerificationOptions& verification,
                                 const FinalSearchOptions& options,
                                 const std::function<bool(std::size_t node, std::size_t local_map)>& known,
                                 std::uint64_t run_seed, WorkerPool& pool,

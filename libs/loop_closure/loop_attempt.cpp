@@ -17,7 +17,7 @@ bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
 }  // namespace
 
 LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCandidate& candidate,
-                         const KeyframeStore& keyframes, const ChosenMatcher& matcher,
+                         const KeyframeStore& keyframes, const NodeMatchers& matchers,
                          const LoopVerificationOptions& verification, std::uint64_t run_seed) {
   LoopAttempt attempt;
   const NodeScan& here = keyframes.nodes[node];
@@ -25,9 +25,11 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   if (!can_be_searched(scan, local_map)) return attempt;
   MatchProblem problem{std::as_const(*local_map.map).scores(), scan, candidate.anchor_T_node,
                        candidate.extent};
-  problem.min_response = (is_wide(candidate.extent, verification) ? 1.0 : kReportedShare) * min_response(candidate.extent, verification);
+  problem.min_response = least_reported_response(candidate.extent, verification);
   problem.measure_ambiguity = true;
   problem.seed = {run_seed, here.frame, local_map.id};
+  const ChosenMatcher& matcher =
+      matchers.in(make_search_window(problem.extent, problem.grid.resolution_m(), scan.farthest_m));
   const auto start = std::chrono::steady_clock::now();
   const MatchResult match = matcher.matcher.match(problem);
   const auto time = std::chrono::steady_clock::now() - start;

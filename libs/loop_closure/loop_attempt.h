@@ -19,7 +19,7 @@ struct LoopAttempt {
 /// Matches `scan` with one local map and verifies the match. `scan` holds the points of the node or of its
 /// context. The local map must be unpacked. `run_seed` becomes MatchSeed::run. Thread-safe.
 LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCandidate& candidate,
-                         const KeyframeStore& keyframes, const ChosenMatcher& matcher,
+                         const KeyframeStore& keyframes, const NodeMatchers& matchers,
                          const LoopVerificationOptions& verification, std::uint64_t run_seed);
 
 }  // namespace psi_slam

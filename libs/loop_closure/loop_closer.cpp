@@ -11,9 +11,9 @@
 namespace psi_slam {
 namespace {
 
-// At the beginning of a run whose place is unknown, each node searches this many local maps from before the
-// interruption, because the robot is often still there. The other local maps take turns.
-constexpr std::size_t kNewestMaps = 2;
+// At the beginning of a run whose place is unknown, every second search takes one of this many local maps
+// from before the interruption, because the robot is often still there. The other local maps take turns.
+constexpr std::ptrdiff_t kNewestMaps = 2;
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
@@ -71,11 +71,9 @@ std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const Keyfra
     wide = whole_map_candidates(node, keyframes, graph, options_.candidates);
     const double run_m =
         keyframes.nodes[node].travelled_m - keyframes.nodes[keyframes.unplaced.back().begin].travelled_m;
-    if (run_m < options_.candidates.min_travel_m) {
-      const auto newest = wide.end() - static_cast<std::ptrdiff_t>(std::min(kNewestMaps, wide.size()));
-      chosen.insert(chosen.end(), newest, wide.end());
-      wide.erase(newest, wide.end());
-    }
+    if (run_m < options_.candidates.min_travel_m && wide.size() > std::size_t{kNewestMaps} &&
+        ++unplaced_searches_ % 2 != 0)
+      wide.erase(wide.begin(), wide.end() - kNewestMaps);
   } else if (chosen.empty()) {
     const std::vector<LoopCandidate> far =
         far_candidates(node, keyframes, graph, options_.candidates, chains_to_anchors);
@@ -94,7 +92,7 @@ std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const Keyfra
 }
 
 LoopCloser::Outcome LoopCloser::close(std::size_t node, const KeyframeStore& keyframes,
-                                      const PoseGraph& graph, const ChosenMatcher& matcher,
+                                      const PoseGraph& graph, const NodeMatchers& matchers,
                                       WorkerPool& pool) {
   Outcome outcome;
   if (!begins_stretch(node, keyframes.nodes, options_.attempt_distance_m)) return outcome;
@@ -113,10 +111,11 @@ LoopCloser::Outcome LoopCloser::close(std::size_t node, const KeyframeStore& key
 
   for (LoopAttempt& attempt : map_in_parallel<LoopAttempt>(pool, candidates.size(), [&](std::size_t index) {
          const LoopCandidate& candidate = candidates[index];
-         return attempt_loop(node, wide(candidate) ? context : scan, candidate, keyframes, matcher,
+         return attempt_loop(node, wide(candidate) ? context : scan, candidate, keyframes, matchers,
                              options_.verification, run_seed_);
        })) {
     outcome.effort += attempt.effort;
+    if (attempt.loop) outcome.effort_of[attempt.loop->matcher] += attempt.effort;
     if (attempt.loop && is_wide(attempt.loop->window, options_.verification))
       schedule_.searched(attempt.loop->local_map, attempt.loop->verdict == LoopVerdict::kPending);
     if (attempt.loop) outcome.loops.push_back(*std::move(attempt.loop));
@@ -125,13 +124,13 @@ LoopCloser::Outcome LoopCloser::close(std::size_t node, const KeyframeStore& key
 }
 
 std::optional<LoopRecord> LoopCloser::match(std::size_t node, const LoopCandidate& candidate,
-                                            const KeyframeStore& keyframes, const ChosenMatcher& matcher,
+                                            const KeyframeStore& keyframes, const NodeMatchers& matchers,
                                             WorkerPool& pool) const {
   unpack_local_maps(keyframes, {candidate.local_map}, pool);
   const bool wide = is_wide(candidate.extent, options_.verification);
   return attempt_loop(node,
                       wide ? scan_context(node, keyframes, options_.context) : *keyframes.nodes[node].points,
-                      candidate, keyframes, matcher, options_.verification, run_seed_)
+                      candidate, keyframes, matchers, options_.verification, run_seed_)
       .loop;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -39,15 +40,16 @@ class LoopCloser {
     bool searched = false;
     std::vector<LoopRecord> loops;  ///< all attempts, in the order of the local maps
     LoopEffort effort;
+    std::map<MatcherKind, LoopEffort> effort_of;  ///< the same effort, divided by matcher
   };
   /// Matches `node` with all its candidates, several in parallel.
   Outcome close(std::size_t node, const KeyframeStore& keyframes, const PoseGraph& graph,
-                const ChosenMatcher& matcher, WorkerPool& pool);
+                const NodeMatchers& matchers, WorkerPool& pool);
 
   /// Matches `node` with one local map in a given window, and verifies the match. Returns nothing if the scan
   /// has no points to match.
   std::optional<LoopRecord> match(std::size_t node, const LoopCandidate& candidate,
-                                  const KeyframeStore& keyframes, const ChosenMatcher& matcher,
+                                  const KeyframeStore& keyframes, const NodeMatchers& matchers,
                                   WorkerPool& pool) const;
 
  private:
@@ -58,6 +60,7 @@ class LoopCloser {
   std::uint64_t run_seed_;
   PathCovarianceSearch search_;
   WideSearchSchedule schedule_;
+  std::size_t unplaced_searches_ = 0;  ///< searches at the beginnings of runs whose place is unknown
 };
 
 }  // namespace psi_slam

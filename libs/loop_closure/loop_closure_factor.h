@@ -18,10 +18,12 @@
 namespace psi_slam {
 
 struct PsiOptions {
-  /// Loops are searched exhaustively for Psi <= psi_1. Psi is never negative, so the default disables
-  /// exhaustive searches: share/doc/matchers.md has the measurements.
-  double psi_1 = -1;
-  double psi_2 = 1;        ///< kGa searches for Psi >= psi_2, and kCsmGa between psi_1 and psi_2
+  double psi_1 = 1;  ///< kCsm searches for loops for Psi <= psi_1
+  /// kGa searches for Psi >= psi_2, and kCsmGa between psi_1 and psi_2. By default kCsmGa is never chosen:
+  /// share/doc/matchers.md has the measurements.
+  double psi_2 = 1;
+  /// Number of poses of a window up to which Psi chooses the matcher. kGa searches larger windows.
+  double max_poses = 3e6;
   int window_frames = 20;  ///< K of equation 13: number of loop searches in the mean, >= 1
   double eta_max = 20;     ///< upper bound of eta, which is infinite at the start
 };

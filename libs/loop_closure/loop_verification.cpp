@@ -109,6 +109,11 @@ double min_response(const SearchExtent& extent, const LoopVerificationOptions& o
   return is_wide(extent, options) ? options.min_context_response : options.min_response;
 }
 
+double least_reported_response(const SearchExtent& extent, const LoopVerificationOptions& options) {
+  constexpr double kReportedShare = 0.8;
+  return (is_wide(extent, options) ? 1 : kReportedShare) * min_response(extent, options);
+}
+
 void verify(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& keyframes,
             const LoopVerificationOptions& options) {
   loop.refusal = find_objection(loop, scan, keyframes, options);

@@ -32,9 +32,9 @@ bool is_wide(const SearchExtent& extent, const LoopVerificationOptions& options)
 /// Returns the minimum response of a match in this window.
 double min_response(const SearchExtent& extent, const LoopVerificationOptions& options);
 
-/// Searches report matches down to this share of min_response(). Records then show which matches were
-/// refused, and why.
-inline constexpr double kReportedShare = 0.8;
+/// Returns the least response of a match that a search reports. In narrow windows it is below min_response(),
+/// so that records show which matches were refused, and why. In wide windows that would cost much time.
+double least_reported_response(const SearchExtent& extent, const LoopVerificationOptions& options);
 
 /// Sets the verdict, the shares and the refusal of `loop`. A verified match in a wide window is pending until
 /// other matches agree, see LoopConsensus. `scan` holds the points that were matched.

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop_closure/matcher_policy.h"
 
-#include <stdexcept>
-#include <string>
-
 namespace psi_slam {
 
 MatcherKind matcher_kind(std::optional<MatcherKind> choice, const PsiOptions& options, double psi) {
@@ -21,9 +18,14 @@ MatcherPolicy::MatcherPolicy(std::optional<MatcherKind> choice, const PsiOptions
 }
 
 ChosenMatcher MatcherPolicy::matcher(MatcherKind kind) const {
-  const auto& matcher = matchers_.at(static_cast<std::size_t>(kind));
-  if (!matcher) throw std::invalid_argument(std::string("MatcherPolicy never chooses ") + name(kind));
-  return {kind, *matcher};
+  return {kind, *matchers_.at(static_cast<std::size_t>(kind))};
+}
+
+NodeMatchers MatcherPolicy::matchers(double psi) const {
+  NodeMatchers matchers = {matcher(kind(psi))};
+  if (!choice_) matchers.of_large_windows.emplace(matcher(MatcherKind::kGa));
+  matchers.max_poses = psi_.max_poses;
+  return matchers;
 }
 
 }  // namespace psi_slam

@@ -2,6 +2,7 @@
 #include "mapping/back_end.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -24,13 +25,13 @@ NodeLoops BackEnd::close(std::size_t node, const KeyframeStore& keyframes, PoseG
 }
 
 NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph) {
-  matcher_of_node_.push_back(policy_.kind(factor_.value().psi));
-  const ChosenMatcher matcher = policy_.matcher(matcher_of_node_.back());
-  LoopCloser::Outcome outcome = closer_.close(node, keyframes, graph, matcher, pool_);
+  const NodeMatchers matchers = policy_.matchers(factor_.value().psi);
+  LoopCloser::Outcome outcome = closer_.close(node, keyframes, graph, matchers, pool_);
   NodeLoops loops;
-  loops.matcher = matcher.kind;
+  loops.matcher = matchers.by_psi.kind;
   loops.searched = outcome.searched;
   loops.effort = outcome.effort;
+  loops.effort_of = std::move(outcome.effort_of);
   for (LoopRecord& loop : outcome.loops) {
     const bool waits = loop.verdict == LoopVerdict::kPending;
     for (const std::size_t confirmed : confirmed_by(ledger_.add(std::move(loop)), keyframes, graph)) {
@@ -69,10 +70,11 @@ double BackEnd::optimize(PoseGraph& graph, SparsePoseAdjustment& solver) {
   });
 }
 
-std::map<MatcherKind, LoopEffort> BackEnd::finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
-                                                        SparsePoseAdjustment& solver,
-                                                        FinalProgress& progress) {
-  std::map<MatcherKind, LoopEffort> effort;
+std::pair<MatcherKind, LoopEffort> BackEnd::finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
+                                                         SparsePoseAdjustment& solver,
+                                                         FinalProgress& progress) {
+  const NodeMatchers matchers = policy_.matchers(std::numeric_limits<double>::infinity());
+  LoopEffort effort;
   const auto settle = [&] {
     graph_clock_.time([&] { ledger_.settle(graph, solver, options_.max_loop_chi); });
   };
@@ -80,25 +82,24 @@ std::map<MatcherKind, LoopEffort> BackEnd::finish_loops(const KeyframeStore& key
   settle();
   for (int pass = 0; pass < progress.passes() && !progress.cut_short(); ++pass) {
     final_search_clock_.time([&] {
-      for (const auto& [matcher, of_pass] : run_final_search(keyframes, graph, [&](double share) {
-             return final_search_clock_.leave_out([&] { return progress.at(pass + share); });
-           }))
-        effort[matcher] += of_pass;
+      effort += run_final_search(keyframes, graph, matchers, [&](double share) {
+        return final_search_clock_.leave_out([&] { return progress.at(pass + share); });
+      });
     });
     settle();
   }
   ledger_.refuse_pending();
-  return effort;
+  return {matchers.by_psi.kind, effort};
 }
 
-std::map<MatcherKind, LoopEffort> BackEnd::run_final_search(const KeyframeStore& keyframes, PoseGraph& graph,
-                                                            const std::function<bool(double)>& progress) {
+LoopEffort BackEnd::run_final_search(const KeyframeStore& keyframes, PoseGraph& graph,
+                                     const NodeMatchers& matchers,
+                                     const std::function<bool(double)>& progress) {
   const std::set<LoopPair> searched = ledger_.searched_pairs();
   const auto known = [&](std::size_t node, std::size_t local_map) {
     return searched.count({node, local_map}) != 0;
   };
-  const auto matcher_of = [&](std::size_t node) { return policy_.matcher(matcher_of_node_[node]); };
-  FinalSearchOutcome outcome = final_search(keyframes, graph, matcher_of, options_.loop_closure.verification,
+  FinalSearchOutcome outcome = final_search(keyframes, graph, matchers, options_.loop_closure.verification,
                                             options_.final_search, known, options_.seed, pool_, progress);
   for (LoopRecord& loop : outcome.loops) {
     const std::size_t entered = ledger_.add(std::move(loop));
@@ -138,7 +139,7 @@ bool BackEnd::match_by_hand(const LoopEdit& edit, std::size_t node, const Keyfra
   const auto matcher = make_matcher(edit.matcher, options_.loop_matcher, options_.genetic);
   std::optional<LoopRecord> loop;
   loop_clock_.time([&] {
-    loop = closer_.match(node, candidate, keyframes, {edit.matcher, *matcher}, pool_);
+    loop = closer_.match(node, candidate, keyframes, {{edit.matcher, *matcher}}, pool_);
   });
   if (!loop) return false;
   if (loop->verdict == LoopVerdict::kPending) loop->verdict = LoopVerdict::kAccepted;

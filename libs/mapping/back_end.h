@@ -45,9 +45,10 @@ struct BackEndOptions {
 
 /// Result of a node's search for loops.
 struct NodeLoops {
-  MatcherKind matcher = MatcherKind::kCsm;  ///< matcher chosen for the node, also if it does not search
+  MatcherKind matcher = MatcherKind::kCsm;  ///< matcher chosen by Psi, also if the node does not search
   bool searched = false;                    ///< whether the node searched for loops
   LoopEffort effort;
+  std::map<MatcherKind, LoopEffort> effort_of;  ///< the same effort, divided by matcher
   int accepted = 0;  ///< number of new constraints, including pending loops of earlier nodes now confirmed
   double milliseconds = 0;
 };
@@ -97,9 +98,10 @@ class BackEnd {
   double optimize(PoseGraph& graph, SparsePoseAdjustment& solver);
 
   /// Runs the final loop search after the last scan. Before the first pass and after each pass, optimises the
-  /// graph and switches off outlier loops. Refuses all pending loops. Returns the effort of each matcher.
-  std::map<MatcherKind, LoopEffort> finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
-                                                 SparsePoseAdjustment& solver, FinalProgress& progress);
+  /// graph and switches off outlier loops. Refuses all pending loops. Returns the matcher and its effort. The
+  /// matcher is that of the largest Psi, because a loop is expected in every window.
+  std::pair<MatcherKind, LoopEffort> finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
+                                                  SparsePoseAdjustment& solver, FinalProgress& progress);
 
   /// Refines the poses of all scans jointly, and sets the graph's nodes to the refined poses. The first node
   /// keeps its pose. Does nothing if `progress` was cut short.
@@ -120,8 +122,8 @@ class BackEnd {
   std::vector<std::size_t> confirmed_by(std::size_t loop, const KeyframeStore& keyframes,
                                         const PoseGraph& graph);
   NodeLoops search(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph);
-  std::map<MatcherKind, LoopEffort> run_final_search(const KeyframeStore& keyframes, PoseGraph& graph,
-                                                     const std::function<bool(double)>& progress);
+  LoopEffort run_final_search(const KeyframeStore& keyframes, PoseGraph& graph, const NodeMatchers& matchers,
+                              const std::function<bool(double)>& progress);
 
   BackEndOptions options_;
   MatcherPolicy policy_;
@@ -131,7 +133,6 @@ class BackEnd {
   LoopLedger ledger_;
   WorkerPool pool_;
   OptimizationSchedule schedule_;
-  std::vector<MatcherKind> matcher_of_node_;  ///< matcher chosen at each node
   StageClock loop_clock_{"close loops"};
   StageClock graph_clock_{"optimise pose graph"};
   StageClock final_search_clock_{"final loop search"};

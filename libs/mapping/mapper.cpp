@@ -260,15 +260,15 @@ void Mapper::Implementation::close_loops(std::size_t node, FrameRecord& record) 
   record.evaluations += loops.effort.evaluations;
   record.loop_matching_ms = loops.effort.milliseconds;
   record.loop_closing_ms = loops.milliseconds;
-  result_.loop_matchers[loops.matcher].effort += loops.effort;
+  for (const auto& [matcher, effort] : loops.effort_of) result_.loop_matchers[matcher].effort += effort;
   record.pose_graph_ms = back_end_.optimize_if_due(graph_, solver_);
 }
 
 void Mapper::Implementation::finish_loops(FinalProgress& progress) {
-  for (const auto& [matcher, effort] : back_end_.finish_loops(keyframes_, graph_, solver_, progress)) {
-    result_.loop_matchers[matcher].effort += effort;
-    result_.loop_matchers[matcher].final_search_effort += effort;
-  }
+  const auto& [matcher, effort] = back_end_.finish_loops(keyframes_, graph_, solver_, progress);
+  if (effort.attempts == 0) return;
+  result_.loop_matchers[matcher].effort += effort;
+  result_.loop_matchers[matcher].final_search_effort += effort;
 }
 
 void Mapper::Implementation::count_accepted_loops() {

@@ -13,14 +13,11 @@
 namespace psi_slam {
 namespace {
 
-// A cell of the tables of bounds takes as long to make as the exhaustive search takes to add this many scores.
+// A cell of the tables of bounds takes as long to make as the exhaustive search takes to add this many
+// scores.
 constexpr double kScoresPerCell = 40;
 // In windows with more poses than this, another level of large blocks saves more than its tables cost.
-constexpr std::int64_t kHugePoses = 150'000'000;
-
-std::int64_t poses_of(const SearchWindow& window) {
-  return static_cast<std::int64_t>(2 * window.n_x + 1) * (2 * window.n_y + 1) * (2 * window.n_theta + 1);
-}
+constexpr double kHugePoses = 150e6;
 
 // Returns whether an exhaustive search takes less time than the tables of bounds, which cover the cells that
 // the scan can reach.
@@ -30,8 +27,7 @@ bool is_cheaper_exhaustively(const SearchLattice& lattice) {
   const double reach = lattice.scan().farthest_m / lattice.grid().resolution_m();
   const double cells = std::min(2 * (reach + window.n_x), double(grid.width())) *
                        std::min(2 * (reach + window.n_y), double(grid.height()));
-  return static_cast<double>(poses_of(window)) * static_cast<double>(lattice.points()) <=
-         kScoresPerCell * cells;
+  return window.poses() * static_cast<double>(lattice.points()) <= kScoresPerCell * cells;
 }
 
 // Keeps the best candidate of a search.
@@ -86,7 +82,7 @@ class ExactSearch::BranchAndBound {
   explicit BranchAndBound(const SearchLattice& lattice) : lattice_(lattice), window_(lattice.window()) {
     levels_.reserve(kStrides.size());
     for (const int stride : kStrides)
-      if (stride != kStrides.front() || poses_of(window_) > kHugePoses) levels_.emplace_back(lattice, stride);
+      if (stride != kStrides.front() || window_.poses() > kHugePoses) levels_.emplace_back(lattice, stride);
   }
 
   SearchOutcome find(std::uint32_t min_sum, const std::optional<ExcludedRegion>& excluded) {

@@ -20,6 +20,8 @@ struct SearchWindow {
   int n_x = 0;
   int n_y = 0;
   int n_theta = 0;
+
+  double poses() const { return (2.0 * n_x + 1) * (2.0 * n_y + 1) * (2.0 * n_theta + 1); }
 };
 
 /// Computes equations 7 and 8. `farthest_point_m` is d_max, the largest distance of a point from the robot.

@@ -229,7 +229,7 @@ void check_values(const Settings& settings) {
                   {"verification.wide_window_m", back_end.loop_closure.verification.wide_window_m});
   require_at_most({"loop_closure.min_sigma_m", back_end.loop_matcher.min_sigma_m},
                   {"loop_closure.max_sigma_m", back_end.loop_matcher.max_sigma_m});
-  require_below({"psi.psi_1", back_end.psi.psi_1}, {"psi.psi_2", back_end.psi.psi_2});
+  require_at_most({"psi.psi_1", back_end.psi.psi_1}, {"psi.psi_2", back_end.psi.psi_2});
   check_log_options(log_options(settings));
 }
 

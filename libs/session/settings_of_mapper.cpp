@@ -205,7 +205,8 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
       .number("context_point_spacing_m", loops.context.point_spacing_m, above(0).at_most(10), "m",
               "Wide windows: one point is kept in each square of this side length.")
       .integer("context_max_points", loops.context.max_points, between(10, 1'000'000), "points",
-               "Wide windows: largest number of points that are searched together. More points are thinned evenly.")
+               "Wide windows: largest number of points that are searched together. More points are thinned "
+               "evenly.")
       .number(
           "distinct_m", matcher.distinct_m, above(0).at_most(100), "m",
           "Another peak of the response is distinct from the best one if it is this far away along x or y.")
@@ -228,7 +229,9 @@ void describe_psi(OptionTable& table, PsiOptions& psi) {
           "Up to this value of Psi, csm searches for loops; for larger values, csm_ga or ga. Psi is never "
           "negative, so a negative value never uses csm.")
       .number("psi_2", psi.psi_2, any_number(), "",
-              "From this value of Psi on, ga searches for loops; for smaller values, csm_ga or csm.")
+              "From this value of Psi on, ga searches for loops; between psi_1 and psi_2, csm_ga.")
+      .number("max_poses", psi.max_poses, at_least(0), "poses",
+              "In windows with more poses than this, ga searches for loops at any Psi.")
       .integer("window_frames", psi.window_frames, between(1, 1'000'000), "searches",
                "Number of previous loop searches whose loops are averaged: K of equation 13.")
       .number("eta_max", psi.eta_max, at_least(1), "",

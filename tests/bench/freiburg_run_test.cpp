@@ -79,6 +79,7 @@ TEST_F(FreiburgRuns, each_matcher_and_seed_has_its_own_settings) {
       << "the paper searches exhaustively where loops are rare, and Psi is 0 without loops";
   EXPECT_EQ(matcher_kind({}, psi, 0), MatcherKind::kCsm);
   EXPECT_EQ(matcher_kind({}, psi, psi.psi_2), MatcherKind::kGa);
+  EXPECT_GT(psi.max_poses, 1e15) << "the paper chooses by Psi alone";
   EXPECT_THAT(settings_text(settings_of(run("adaptive"))), HasSubstr("genetic.variant = memetic\n"));
 }
 

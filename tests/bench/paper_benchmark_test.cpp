@@ -58,6 +58,7 @@ TEST(PaperBenchmark, every_candidate_has_the_windows_of_the_paper_and_settings_o
     EXPECT_EQ(options.back_end.matcher.has_value(), !is_switch);
     if (is_switch) {
       EXPECT_EQ(matcher_kind({}, options.back_end.psi, 0), MatcherKind::kCsm);
+      EXPECT_GT(options.back_end.psi.max_poses, 1e15) << "the paper chooses by Psi alone";
     }
   }
   PaperOptions some;

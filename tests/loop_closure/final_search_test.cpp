@@ -16,22 +16,12 @@ using Known = std::function<bool(std::size_t, std::size_t)>;
 
 const CorrelativeMatcher kExact({});
 
-bool is_late(std::size_t node) {
-  return node >= two_rounds().node;
-}
-
-// Matcher kind recorded for a node. The exact matcher does the work under both kinds.
-MatcherKind kind_of(std::size_t node) {
-  return is_late(node) ? MatcherKind::kGa : MatcherKind::kCsm;
-}
-
 FinalSearchOutcome pass(
     int threads, const Known& known = [](std::size_t, std::size_t) { return false; },
     const std::function<bool(double)>& progress = [](double) { return true; }) {
   WorkerPool pool(threads);
-  const auto matcher_of = [](std::size_t node) { return ChosenMatcher{kind_of(node), kExact}; };
-  return final_search(two_rounds().keyframes, two_rounds().graph(), matcher_of, {}, {}, known, 1, pool,
-                      progress);
+  return final_search(two_rounds().keyframes, two_rounds().graph(), {{MatcherKind::kCsm, kExact}}, {}, {},
+                      known, 1, pool, progress);
 }
 
 TEST(FinalSearch, finds_true_loops_and_nothing_else) {
@@ -66,26 +56,16 @@ TEST(FinalSearch, matches_all_pairs_near_each_other) {
   }
   WorkerPool pool(1);
   const FinalSearchOutcome outcome = final_search(
-      rounds.keyframes, graph,
-      [](std::size_t) {
-        return ChosenMatcher{MatcherKind::kCsm, kExact};
-      },
-      {}, options, [](std::size_t, std::size_t) { return false; }, 1, pool, [](double) { return true; });
-  EXPECT_EQ(outcome.effort.at(MatcherKind::kCsm).attempts, near_pairs);
+      rounds.keyframes, graph, {{MatcherKind::kCsm, kExact}}, {}, options,
+      [](std::size_t, std::size_t) { return false; }, 1, pool, [](double) { return true; });
+  EXPECT_EQ(outcome.effort.attempts, near_pairs);
   EXPECT_LT(near_pairs, rounds.keyframes.nodes.size() * rounds.keyframes.local_maps.size() / 2);
 }
 
-TEST(FinalSearch, each_node_is_matched_by_its_own_matcher_and_counted_there) {
+TEST(FinalSearch, counts_the_matches_that_it_found) {
   const FinalSearchOutcome outcome = pass(2);
-  ASSERT_EQ(outcome.effort.size(), 2U);
-  std::size_t late = 0;
-  for (const LoopRecord& loop : outcome.loops) {
-    EXPECT_EQ(loop.matcher, kind_of(loop.node));
-    late += is_late(loop.node) ? 1 : 0;
-  }
-  EXPECT_GT(late, 0U);
-  EXPECT_EQ(outcome.effort.at(MatcherKind::kGa).found, late);
-  EXPECT_EQ(outcome.effort.at(MatcherKind::kCsm).found, outcome.loops.size() - late);
+  EXPECT_EQ(outcome.effort.found, outcome.loops.size());
+  for (const LoopRecord& loop : outcome.loops) EXPECT_EQ(loop.matcher, MatcherKind::kCsm);
 }
 
 TEST(FinalSearch, leaves_out_known_pairs) {
@@ -113,8 +93,7 @@ TEST(FinalSearch, finds_the_same_in_the_same_order_with_any_number_of_threads) {
       EXPECT_EQ(together.loops[i].anchor_T_node, alone.loops[i].anchor_T_node);
       EXPECT_EQ(together.loops[i].verdict, alone.loops[i].verdict);
     }
-    EXPECT_EQ(together.effort.at(MatcherKind::kGa).evaluations,
-              alone.effort.at(MatcherKind::kGa).evaluations);
+    EXPECT_EQ(together.effort.evaluations, alone.effort.evaluations);
   }
 }
 

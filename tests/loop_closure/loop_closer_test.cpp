@@ -50,7 +50,7 @@ LoopCloser::Outcome close(const PoseGraph& graph, const Matcher& matcher, int th
                           const KeyframeStore& keyframes = two_rounds().keyframes) {
   WorkerPool pool(threads);
   LoopCloser closer(near_maps_too(), 5);
-  return closer.close(two_rounds().node, keyframes, graph, {MatcherKind::kCsm, matcher}, pool);
+  return closer.close(two_rounds().node, keyframes, graph, {{MatcherKind::kCsm, matcher}}, pool);
 }
 
 TEST(LoopCloser, attempts_that_find_nothing_are_listed_and_counted) {
@@ -98,7 +98,7 @@ TEST(LoopCloser, searches_once_in_each_stretch) {
   LoopCloser closer(near_maps_too(), 5);
   const TwoRounds& rounds = two_rounds();
   const auto attempts = [&](std::size_t node) {
-    return closer.close(node, rounds.keyframes, rounds.graph(), {MatcherKind::kCsm, matcher}, pool)
+    return closer.close(node, rounds.keyframes, rounds.graph(), {{MatcherKind::kCsm, matcher}}, pool)
         .effort.attempts;
   };
   ASSERT_FALSE(
@@ -144,10 +144,32 @@ TEST(LoopCloser, a_node_searches_few_wide_windows_and_the_next_nodes_the_others)
   std::set<std::size_t> searched;
   for (int attempt = 0; attempt < 3; ++attempt) {
     const LoopCloser::Outcome outcome =
-        closer.close(two_rounds().node, two_rounds().keyframes, graph, {MatcherKind::kCsm, matcher}, pool);
+        closer.close(two_rounds().node, two_rounds().keyframes, graph, {{MatcherKind::kCsm, matcher}}, pool);
     ASSERT_EQ(outcome.loops.size(), 1U);
     EXPECT_TRUE(searched.insert(outcome.loops.front().local_map).second) << "every local map gets its turn";
   }
+}
+
+TEST(LoopCloser, effort_is_divided_by_the_matchers_of_small_and_large_windows) {
+  PoseGraph graph = two_rounds().graph();
+  for (const std::uint32_t constraint : graph.constraints_of(two_rounds().node))
+    graph.set_enabled(constraint, false);
+  const AskedMatcher small;
+  const AskedMatcher large;
+  NodeMatchers matchers = {{MatcherKind::kCsm, small}};
+  matchers.of_large_windows.emplace(ChosenMatcher{MatcherKind::kGa, large});
+  matchers.max_poses = 1e5;
+  WorkerPool pool(1);
+  LoopCloser closer(near_maps_too(), 5);
+  const std::size_t node = two_rounds().node;
+  const auto narrow = closer.close(node, two_rounds().keyframes, two_rounds().graph(), matchers, pool);
+  EXPECT_FALSE(small.questions().empty());
+  EXPECT_TRUE(large.questions().empty());
+  EXPECT_EQ(narrow.effort_of.at(MatcherKind::kCsm).attempts, small.questions().size());
+  const auto wide = closer.close(node, two_rounds().keyframes, graph, matchers, pool);
+  ASSERT_FALSE(large.questions().empty());
+  EXPECT_EQ(wide.effort_of.at(MatcherKind::kGa).attempts, large.questions().size());
+  for (const LoopRecord& loop : wide.loops) EXPECT_EQ(loop.matcher, MatcherKind::kGa);
 }
 
 // Drift has moved the node in the graph farther from its true place than the largest window reaches.
@@ -165,7 +187,7 @@ TEST(LoopCloser, finds_a_place_that_drift_has_moved_out_of_the_largest_window) {
   bool found = false;
   for (int attempt = 0; attempt < 8 && !found; ++attempt) {
     for (const LoopRecord& loop :
-         closer.close(node, keyframes, graph, {MatcherKind::kCsm, matcher}, pool).loops) {
+         closer.close(node, keyframes, graph, {{MatcherKind::kCsm, matcher}}, pool).loops) {
       if (loop.verdict != LoopVerdict::kPending) continue;
       const TPose2D pose = graph.pose(loop.anchor) + loop.anchor_T_node;
       EXPECT_NEAR(pose.x, truth.x, 0.3);

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace psi_slam {
 namespace {
@@ -41,15 +40,40 @@ TEST(MatcherPolicy, a_fixed_choice_does_not_depend_on_psi) {
     for (const MatcherKind kind : kMatcherKinds) EXPECT_EQ(matcher_kind(kind, {}, psi), kind);
 }
 
-TEST(MatcherPolicy, owns_the_matchers_it_may_choose) {
-  const MatcherPolicy adaptive(std::nullopt, thresholds(1, 4), {}, {});
-  for (const MatcherKind kind : kMatcherKinds) EXPECT_EQ(adaptive.matcher(kind).matcher.name(), name(kind));
-  EXPECT_EQ(adaptive.kind(2), MatcherKind::kCsmGa);
+SearchWindow window_of_poses(int poses) {
+  SearchWindow window;
+  window.n_theta = (poses - 1) / 2;
+  return window;
+}
 
-  const MatcherPolicy fixed(MatcherKind::kGa, {}, {}, {});
-  EXPECT_EQ(fixed.matcher(fixed.kind(0)).matcher.name(), "ga");
-  EXPECT_THROW(fixed.matcher(MatcherKind::kCsm), std::invalid_argument);
-  EXPECT_THROW(fixed.matcher(MatcherKind::kCsmGa), std::invalid_argument);
+TEST(MatcherPolicy, makes_the_matchers_that_it_chooses) {
+  const MatcherPolicy adaptive(std::nullopt, thresholds(1, 4), {}, {});
+  for (const double psi : {0.0, 2.0, 5.0}) {
+    const NodeMatchers matchers = adaptive.matchers(psi);
+    EXPECT_EQ(matchers.by_psi.kind, adaptive.kind(psi));
+    EXPECT_EQ(matchers.by_psi.matcher.name(), name(adaptive.kind(psi)));
+  }
+}
+
+TEST(MatcherPolicy, large_windows_are_searched_genetically_at_any_psi) {
+  PsiOptions options = thresholds(1, 4);
+  options.max_poses = 1001;
+  const MatcherPolicy policy(std::nullopt, options, {}, {});
+  for (const double psi : {0.0, 2.0, 5.0}) {
+    const NodeMatchers matchers = policy.matchers(psi);
+    EXPECT_EQ(matchers.in(window_of_poses(1001)).kind, matchers.by_psi.kind);
+    EXPECT_EQ(matchers.in(window_of_poses(1003)).kind, MatcherKind::kGa);
+    EXPECT_EQ(matchers.in(window_of_poses(1003)).matcher.name(), "ga");
+  }
+}
+
+TEST(MatcherPolicy, a_fixed_choice_searches_all_windows) {
+  PsiOptions options;
+  options.max_poses = 0;
+  for (const MatcherKind kind : kMatcherKinds) {
+    const MatcherPolicy fixed(kind, options, {}, {});
+    EXPECT_EQ(fixed.matchers(0).in(window_of_poses(1'000'001)).matcher.name(), name(kind));
+  }
 }
 
 }  // namespace

@@ -152,5 +152,28 @@ TEST(ScanContext, lies_on_the_walls_and_extends_along_the_past_path) {
   EXPECT_GT(behind, 50);
 }
 
+TEST(ScanContext, keeps_at_most_the_largest_number_of_points_evenly) {
+  ScanContextOptions options;
+  options.travel_m = 100;
+  const KeyframeStore keyframes = straight_drive(60, 1.0);
+  const ScanPoints all = scan_context(59, keyframes, options);
+  ASSERT_EQ(all.points.size(), 60U);
+  options.max_points = 60;
+  EXPECT_EQ(scan_context(59, keyframes, options).points.size(), 60U);
+  options.max_points = 25;
+  const ScanPoints some = scan_context(59, keyframes, options);
+  ASSERT_EQ(some.points.size(), 25U);
+  ASSERT_EQ(some.normals.size(), 25U);
+  EXPECT_EQ(some.points.front(), all.points.front());
+  for (std::size_t i = 1; i < some.points.size(); ++i) {
+    const double step = std::abs(double{some.points[i].x} - double{some.points[i - 1].x});
+    EXPECT_GT(step, 1.5);
+    EXPECT_LT(step, 3.5);
+  }
+  EXPECT_LT(some.farthest_m, all.farthest_m + 1e-9);
+  for (const auto& point : some.points)
+    EXPECT_LE(std::hypot(double{point.x}, double{point.y}), some.farthest_m + 1e-9);
+}
+
 }  // namespace
 }  // namespace psi_slam

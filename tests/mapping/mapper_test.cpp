@@ -297,7 +297,7 @@ TEST(Mapper, records_the_factor_of_loop_closing) {
   EXPECT_GT(largest_psi, 1);
 }
 
-TEST(Mapper, uses_the_matcher_chosen_by_psi_in_the_final_search_too) {
+TEST(Mapper, uses_the_matcher_chosen_by_psi_and_that_of_frequent_loops_in_the_final_search) {
   const MappingResult& result = office_map();
   std::size_t genetic_in_final_search = 0;
   for (const FrameRecord& frame : result.frames) {
@@ -305,8 +305,9 @@ TEST(Mapper, uses_the_matcher_chosen_by_psi_in_the_final_search_too) {
     EXPECT_EQ(frame.matcher, frame.node ? std::optional(kind) : std::nullopt);
   }
   for (const LoopRecord& loop : result.loops) {
-    EXPECT_EQ(loop.matcher, result.frames[loop.frame].matcher);
-    genetic_in_final_search += loop.in_final_search && loop.matcher != MatcherKind::kCsm ? 1 : 0;
+    if (!loop.in_final_search) continue;
+    EXPECT_EQ(loop.matcher, MatcherKind::kGa);
+    ++genetic_in_final_search;
   }
   EXPECT_GT(genetic_in_final_search, 0U);
   EXPECT_GT(result.loop_matchers.size(), 1U);

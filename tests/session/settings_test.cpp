@@ -164,10 +164,9 @@ TEST_F(SettingsTest, every_help_text_stands_alone) {
   }
 }
 
-TEST_F(SettingsTest, rejects_equal_thresholds_of_psi) {
-  EXPECT_EQ(refusal({"psi.psi_1=5", "psi.psi_2=4"}), "psi.psi_1 = 5 must be less than psi.psi_2 = 4");
-  EXPECT_EQ(refusal({"psi.psi_1=4"}), "psi.psi_1 = 4 must be less than psi.psi_2 = 4");
-  EXPECT_EQ(refusal({"psi.psi_1=3.9"}), "");
+TEST_F(SettingsTest, rejects_thresholds_of_psi_in_the_wrong_order) {
+  EXPECT_EQ(refusal({"psi.psi_1=5", "psi.psi_2=4"}), "psi.psi_1 = 5 must not be more than psi.psi_2 = 4");
+  EXPECT_EQ(refusal({"psi.psi_1=4", "psi.psi_2=4"}), "");
 }
 
 TEST_F(SettingsTest, rejects_a_coordinate_system_that_is_not_in_metres) {

@@ -67,7 +67,7 @@ Settings benchmark_settings(const fs::path& ini, const std::vector<std::string>&
 }
 
 std::vector<std::string> paper_switch_settings() {
-  return {"loop_closure.matcher=adaptive", "psi.psi_1=0.5", "psi.psi_2=1"};
+  return {"loop_closure.matcher=adaptive", "psi.psi_1=0.5", "psi.psi_2=1", "psi.max_poses=1e18"};
 }
 
 MappingResult map_source(FrameSource& source, const MapperOptions& options,

@@ -46,8 +46,8 @@ Settings benchmark_settings(const std::filesystem::path& ini,
                             std::vector<std::string>* warnings = nullptr);
 
 /// Settings "section.key=value" that choose the matcher by Psi as in the paper: exact search up to psi_1, the
-/// genetic search from psi_2 on, both combined between them. By default, psi_1 is negative, so that exact
-/// search is never chosen. The paper gives no values of psi_1 and psi_2; these values are ours.
+/// genetic search from psi_2 on, both combined between them, in windows of any size. The paper gives no
+/// values of psi_1 and psi_2; these values are ours.
 std::vector<std::string> paper_switch_settings();
 
 /// Maps all frames. Calls `progress` with the share of the log that is read, in [0, 1]. Passes on exceptions

@@ -11,6 +11,7 @@
 #include "doctor/log_facts.h"
 #include "doctor/scan_delay.h"
 #include "doctor/scan_sampling.h"
+#include "base/share_observer.h"
 #include "frames/scan_alignment.h"
 
 namespace psi_slam {
@@ -24,7 +25,7 @@ struct AlignedPair {
 
 /// Aligns all pairs. The result includes unreliable alignments.
 std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
-                                     const ScanLibrary& library);
+                                     const ScanLibrary& library, const ShareObserver& progress = {});
 
 /// Returns the turns of the reliably aligned pairs.
 std::vector<ScanTurn> reliable_turns(const std::vector<AlignedPair>& pairs);

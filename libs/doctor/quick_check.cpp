@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/quick_check.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "doctor/input_doctor.h"
+#include "frames/laser_choice.h"
 
 namespace psi_slam {
 namespace {
@@ -49,10 +51,16 @@ std::vector<std::string> quick_check(const std::vector<Frame>& log, std::size_t 
   diagnosis.options = options;
   diagnosis.options.odometry_scale.reset();  // the frames have the corrected odometry
   diagnosis.facts = collector.facts();
+  diagnosis.facts.contents.several_lasers = std::any_of(
+      log.begin() + static_cast<std::ptrdiff_t>(begin), log.begin() + static_cast<std::ptrdiff_t>(end),
+      [](const Frame& frame) { return frame.scan.laser != 0 || !frame.companions.empty(); });
   diagnosis.marks = collector.marks();
   if (diagnosis.facts.scans_without_odometry == 0) compare_odometry_with(scans, diagnosis);
-  if (options.calibrate && !options.scan_delay_s) diagnosis.delay.reset();  // log.calibrate has named it
-  if (diagnosis.delay) diagnosis.delay->delay_s += options.scan_delay_s.value_or(0);
+  const std::vector<StatedDelay> delays = stated_delays(options);
+  const bool is_of_one_laser = !delays.empty() && !delays.front().name.empty();
+  // log.calibrate has named the delay; a frame does not tell the name of its laser.
+  if ((options.calibrate && delays.empty()) || is_of_one_laser) diagnosis.delay.reset();
+  if (diagnosis.delay) diagnosis.delay->delay_s += delay_of_laser(delays, {});
   std::vector<std::string> faults;
   for (Finding& finding : judge(diagnosis)) {
     const bool is_minor = finding.code == "max_range" || finding.code == "empty_scans";

@@ -12,6 +12,7 @@
 #include "psi_slam/frame_source.h"
 #include "psi_slam/mapper.h"
 #include "session/edit_journal.h"
+#include "session/log_calibration.h"
 
 namespace psi_slam {
 
@@ -23,6 +24,7 @@ struct RecordedLog {
   SkippedLines skipped{};
   std::optional<std::string> broken_off{};  ///< damage after the last frame, as a sentence
   bool scans_left = false;                  ///< whether the log is known to have more scans
+  std::optional<LogCalibration> calibration{};  ///< by which the log was read; empty without log.calibrate
 };
 
 /// A merged run other than the first one; see RunStart.

@@ -70,7 +70,7 @@ TEST(QuickCheck, finds_late_scans) {
   EXPECT_THAT(faults[0], HasSubstr("turns show that the scans are stamped 0."));
   EXPECT_THAT(faults[0], HasSubstr("s later than odometry"));
   LogOptions corrected;  // the frames of a mapped log are corrected already
-  corrected.scan_delay_s = 0.3;
+  corrected.scan_delay_s = "0.3";
   const std::vector<Frame> sound = frames_of(round_trips(2));
   EXPECT_THAT(quick_check(sound, 0, sound.size(), corrected), IsEmpty());
 }

@@ -405,6 +405,7 @@ class Judge {
 
   void judge_scale(const LaserMountEstimate& mount) {
     constexpr double kLeast = 0.01;
+    constexpr double kUsual = 0.04;  // wheels that slip or wear
     const double off = std::abs(mount.odometry_scale * diagnosis_.options.odometry_scale.value_or(1) - 1);
     if (off <= std::max(kLeast, 4 * mount.scale_deviation)) return;
     const std::string sentence = std::string("odometry ") +
@@ -413,7 +414,11 @@ class Judge {
                                  " % (accurate to " + fixed(100 * mount.scale_deviation, 1) + " %)";
     const std::string remedy =
         "log.calibrate = true, or log.odometry_scale = " + fixed(1 / mount.odometry_scale, 4);
-    note("odometry_scale", sentence, remedy);
+    const bool is_bent = diagnosis_.sweep_direction.stated_sweep_time_s != 0;  // which spoils the estimate
+    if (off > kUsual + 4 * mount.scale_deviation && !is_bent)
+      warn("odometry_scale", sentence, remedy);
+    else
+      note("odometry_scale", sentence, remedy);
   }
 
   void judge_beam_angles() {

@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
+#include "base/share_observer.h"
 #include "doctor/log_facts.h"
 #include "doctor/scan_delay.h"
 #include "doctor/scan_sampling.h"
-#include "base/share_observer.h"
 #include "frames/scan_alignment.h"
 
 namespace psi_slam {

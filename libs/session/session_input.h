@@ -35,8 +35,8 @@ class SessionInput {
   SessionInput with_edits(EditJournal edits) const;
 
   /// Estimates the options that log.calibrate leaves open, unless that was done or the recording has the
-  /// estimates. open_input() does this too, but each time and without progress. Throws UserError if the log is
-  /// unreadable.
+  /// estimates. open_input() does this too, but each time and without progress. Throws UserError if the log
+  /// is unreadable.
   void calibrate(const LogOptions& options, const ShareObserver& progress = {});
 
   /// Returns a source of all frames, recorded frames first, numbered from 0. Throws UserError if the log is

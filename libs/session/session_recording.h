@@ -22,8 +22,8 @@ struct RecordedLog {
   std::string sha256;     ///< see sha256_of_log(); empty if the log was unreadable when the session was saved
   std::size_t scans = 0;  ///< number of scans taken, from the log's beginning
   SkippedLines skipped{};
-  std::optional<std::string> broken_off{};  ///< damage after the last frame, as a sentence
-  bool scans_left = false;                  ///< whether the log is known to have more scans
+  std::optional<std::string> broken_off{};      ///< damage after the last frame, as a sentence
+  bool scans_left = false;                      ///< whether the log is known to have more scans
   std::optional<LogCalibration> calibration{};  ///< by which the log was read; empty without log.calibrate
 };
 

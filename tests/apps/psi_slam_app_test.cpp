@@ -212,8 +212,8 @@ TEST_F(PsiSlamApp, an_interrupt_ends_the_mapping_with_a_map) {
 
 TEST_F(PsiSlamApp, an_interrupt_ends_the_calibration_without_a_map) {
   const std::string log = room_log(3000);
-  const AppProcess process(
-      {log, "-o", output("out").string(), "--verbose", "--set", "log.calibrate=true"}, folder_.path());
+  const AppProcess process({log, "-o", output("out").string(), "--verbose", "--set", "log.calibrate=true"},
+                           folder_.path());
   const auto began = std::chrono::steady_clock::now();
   while (bytes_of(folder_.path() / "stderr").empty() &&
          std::chrono::steady_clock::now() - began < std::chrono::seconds(60))

@@ -11,6 +11,7 @@
 #include "psi_slam/mapping_session.h"
 #include "psi_slam_app.h"
 #include "report/output_folder.h"
+#include "session/session_input.h"
 #include "session/session_recording.h"
 
 namespace psi_slam {
@@ -29,7 +30,7 @@ int localize(const CommandLine& line, const Streams& streams);
 /// 2 if damage ends the log early.
 int check_log(const CommandLine& line, const Streams& streams);
 
-// Steps that map_log() and merge_runs() share.
+// Steps that several commands share.
 
 /// Throws UserError if the file of --save-session cannot be written, or if it exists without --force. A
 /// session that is resumed may be overwritten.
@@ -39,6 +40,11 @@ void check_session_to_save(const CommandLine& line);
 /// warns, unless --quiet is given, if another version of the program recorded the session.
 void load_recorded_settings(const CommandLine& line, const std::string& file, const SessionFacts& facts,
                             BoundSettings& bound, const Streams& streams);
+
+/// Calibrates the log of `input` if log.calibrate is true. Shows the progress on a terminal, unless --quiet
+/// is given. Throws SystemFailure after an interrupt.
+void calibrate(SessionInput& input, const Settings& settings, const CommandLine& line,
+               const InterruptSignals& signals, const Streams& streams);
 
 /// Sets an observer of `session` that shows the progress on a terminal, unless --quiet is given, and prints a
 /// message after an interrupt. The observer keeps references to all arguments.

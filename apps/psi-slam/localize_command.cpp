@@ -44,9 +44,11 @@ int localize(const CommandLine& line, const Streams& streams) {
   load_settings(line, bound, streams);
   Localizer localizer(read_map_file(line.map), localizer_options(bound.settings));
   if (!line.start.empty()) localizer.start_at(parse_start(line.start));
-  const LogCalibration calibration = calibrate_log(line.log, log_options(bound.settings));
-  const auto log = open_log(line.log, calibration.options);
   const InterruptSignals signals;
+  SessionInput input(line.log);
+  calibrate(input, bound.settings, line, signals, streams);
+  const LogCalibration calibration = input.logs().back().calibration.value_or(LogCalibration());
+  const auto log = open_log(line.log, calibrated_options(log_options(bound.settings), calibration));
   std::optional<OutputFolder> folder;
   if (!line.output.empty()) folder = OutputFolder::prepare(line.output, line.force);
 

@@ -92,6 +92,18 @@ void load_recorded_settings(const CommandLine& line, const std::string& file, co
     streams.err << "psi-slam: " << *other << '\n';
 }
 
+void calibrate(SessionInput& input, const Settings& settings, const CommandLine& line,
+               const InterruptSignals& signals, const Streams& streams) {
+  check(settings);
+  WorkProgress progress(streams.err_is_terminal && !line.quiet ? &streams.err : nullptr);
+  const std::string log = input.logs().back().name;
+  input.calibrate(log_options(settings), [&](double share) {
+    if (signals.came())
+      throw SystemFailure("interrupted before " + log + " was calibrated. Nothing was written");
+    progress.show("calibrating " + log, share, 1);
+  });
+}
+
 void watch(MappingSession& session, const InterruptSignals& signals, const CommandLine& line,
            const Streams& streams, std::optional<ProgressLine>& progress_line) {
   if (streams.err_is_terminal && !line.quiet) progress_line.emplace(streams.err);
@@ -137,9 +149,10 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
 
 int map_log(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
-  const SessionInput input = input_of(line, bound, streams);
+  SessionInput input = input_of(line, bound, streams);
   if (line.verbose) streams.err << changed_settings(bound.table);
   const InterruptSignals signals;
+  calibrate(input, bound.settings, line, signals, streams);
   MappingSession session(input, bound.settings);
   if (!line.edits.empty()) session.add_edits(EditJournal::read(line.edits));
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);

@@ -65,11 +65,12 @@ void add_run(MappingSession& session, const SessionInput& input, const CommandLi
 
 int merge_runs(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
-  const std::vector<SessionInput> inputs = open_inputs(line, bound, streams);
+  std::vector<SessionInput> inputs = open_inputs(line, bound, streams);
   if (!line.start.empty()) parse_start(line.start);
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
   check_session_to_save(line);
   const InterruptSignals signals;
+  for (SessionInput& input : inputs) calibrate(input, bound.settings, line, signals, streams);
   std::optional<ProgressLine> progress_line;
   MappingSession session(inputs.front(), bound.settings);
   session.stay_open();

@@ -269,8 +269,7 @@ double max_range_by_readings_m(const std::filesystem::path& path, std::string_vi
 CarmenLasers::CarmenLasers(const std::filesystem::path& path, const LogOptions& options)
     : path_(path), options_(options) {
   const LaserChoice choice = laser_choice("log.laser", options.laser);
-  for (const StatedMount& mount : stated_mounts(options))
-    carmen_laser_messages(mount.name, "log.laser_mounts");
+  for (const auto& [option, name] : lasers_with_stated_values(options)) carmen_laser_messages(name, option);
   Messages found = messages_in(path, kLinesOfHead);
   const bool states_none = !choice.all && choice.names.empty() && !options.robot_T_laser;
   for (auto& candidates : states_none ? usual_candidates(found) : messages_wanted(choice))
@@ -310,8 +309,13 @@ CarmenLasers::Candidates CarmenLasers::usual_candidates(const Messages& found) {
   return wanted;
 }
 
-std::string CarmenLasers::first_message() const {
-  return slots_.front().laser ? slots_.front().laser->laser.message_name() : "";
+std::vector<std::vector<std::string>> CarmenLasers::names() const {
+  std::vector<std::vector<std::string>> names;
+  for (const Slot& slot : slots_) {
+    names.emplace_back();
+    if (slot.laser) names.back() = {slot.laser->laser.message_name(), slot.laser->laser.position()};
+  }
+  return names;
 }
 
 void CarmenLasers::choose(Slot& slot, const std::string& message) {

@@ -130,8 +130,8 @@ class CarmenLasers {
   /// Says which lasers were selected, if the user selects none and the log has several; otherwise empty.
   const std::string& assumption() const { return assumption_; }
 
-  /// Name of the messages of the preferred laser; empty if its scans have not appeared.
-  std::string first_message() const;
+  /// Names of each laser, see LogContents::laser_names.
+  std::vector<std::vector<std::string>> names() const;
 
  private:
   struct Slot {

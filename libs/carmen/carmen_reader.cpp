@@ -36,7 +36,7 @@ class CarmenReader : public LogReader {
       : lasers_(path, options), lines_(path), with_odometry_(!ignores_odometry(options)) {
     if (!with_odometry_) interpolator_.expect_no_odometry();
     contents_.several_lasers = lasers_.several();
-    if (lasers_.several()) contents_.first_laser = lasers_.first_message();
+    contents_.laser_names = lasers_.names();
     if (!lasers_.assumption().empty()) contents_.assumptions.push_back(lasers_.assumption());
   }
 
@@ -156,6 +156,7 @@ class CarmenReader : public LogReader {
       }
     }
     if (lasers_.several() && !laser.laser.stated_mount()) fail_without_mount(laser.laser);
+    contents_.laser_names = lasers_.names();
   }
 
   void end_of_log() {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/input_doctor.h"
 
-#include <mrpt/core/bits_math.h>
-
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -11,15 +9,12 @@
 #include "frames/log_format.h"
 #include "frames/log_reader.h"
 #include "psi_slam/user_error.h"
-#include "rosbag/bag_plan.h"
 
 namespace psi_slam {
 namespace {
 
 constexpr std::size_t kTracks = 90;
 constexpr std::size_t kPairs = 1500;
-constexpr double kPairDistance_m = 0.25;
-const double kPairTurn_rad = mrpt::DEG2RAD(12.0);
 constexpr double kUnlimited_m = 1e6;
 
 /// Results of the first pass over the log.
@@ -70,7 +65,7 @@ double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {
 void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& options, LogDiagnosis& diagnosis) {
   const std::vector<FrameMark>& marks = pass.marks;
   const auto tracks = tracks_from(frames_in_motion(marks, kTracks), marks.size());
-  const auto pairs = pairs_by_motion(marks, kPairDistance_m, kPairTurn_rad, kPairs);
+  const auto pairs = pairs_by_motion(marks, kComparedMotion_m, kComparedTurn_rad, kPairs);
   const auto suspects = suspected_jumps(marks, pass.facts.time.median_period_s, 100);
   const auto revisits = revisiting_pairs(marks, 0.5, 0.5, 30, 150);
   const BeamAngleEvidence evidence =
@@ -115,28 +110,41 @@ SweepDirectionStudy study_first_laser(const std::filesystem::path& path, const L
 
 }  // namespace
 
-LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions options) {
+std::vector<SingleLaser> single_lasers(const std::filesystem::path& path, const LogOptions& options) {
   const LogFormat format = detect_log_format(path);
-  reads_several_lasers(options, format);  // rejects a mount of one laser for several
-  if (is_bag(format)) {
-    options.scan_topic = plan_bag(path, options).scan_topics.front();
-    return options;
+  const LogContents contents = open_log_reader(path, options)->contents();
+  if (!combines_lasers(contents, options, format)) {
+    const auto names =
+        contents.laser_names.empty() ? std::vector<std::string>() : contents.laser_names.front();
+    SingleLaser only{"", options};
+    only.options.scan_delay_s = options_of_laser(options, names).scan_delay_s;
+    return {only};
   }
-  const LaserChoice choice = laser_choice("log.laser", options.laser);
-  if (choice.several()) options.laser = choice.all ? "" : choice.names.front();
-  const std::string first_laser = open_log_reader(path, options)->contents().first_laser;
-  if (!first_laser.empty()) options.laser = first_laser;
-  return options;
+  std::vector<SingleLaser> lasers;
+  for (const std::vector<std::string>& names : contents.laser_names) {
+    if (names.empty()) continue;  // its first scan is further down
+    SingleLaser one{names.front(), options};
+    (is_bag(format) ? one.options.scan_topic : one.options.laser) = names.front();
+    one.options.scan_delay_s = options_of_laser(options, names).scan_delay_s;
+    lasers.push_back(std::move(one));
+  }
+  if (lasers.empty()) {
+    lasers.push_back({"", options});
+    lasers.front().options.laser.clear();
+  }
+  return lasers;
 }
 
 LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options) {
   LogDiagnosis diagnosis;
   diagnosis.path = path;
-  diagnosis.options = options_of_first_laser(path, options);
+  const std::vector<SingleLaser> lasers = single_lasers(path, options);
+  diagnosis.options = lasers.front().options;
   diagnosis.options.every_nth_scan = 1;
   diagnosis.options.sweep_time_s = 0;  // judge the log as recorded
   FirstPass pass = read_once(path, diagnosis.options);
   diagnosis.facts = pass.facts;
+  diagnosis.facts.contents.several_lasers = lasers.size() > 1;
   diagnosis.own_body = find_own_body(*open_log_reader(path, diagnosis.options)).sectors();
   if (!pass.facts.contents.states_beam_angles) {
     diagnosis.used_beam_angles =

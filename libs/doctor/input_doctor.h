@@ -58,9 +58,15 @@ struct LogDiagnosis {
 /// damaged log up to the damage. Throws UserError if the first scan cannot be read.
 LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options = {});
 
-/// Returns options that read only the first of the lasers that `options` select. Throws UserError if the log
-/// is unreadable.
-LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions options);
+/// A laser of a log.
+struct SingleLaser {
+  std::string name;    ///< name for options such as log.scan_delay_s; empty if the log has no other laser
+  LogOptions options;  ///< read this laser alone, with its stated delay
+};
+
+/// Returns the lasers that `options` select and that have appeared in the beginning of the log, at least one.
+/// Throws UserError if the log is unreadable.
+std::vector<SingleLaser> single_lasers(const std::filesystem::path& path, const LogOptions& options);
 
 /// Derives findings from the measurements, warnings first. diagnose() calls this function.
 std::vector<Finding> judge(const LogDiagnosis& diagnosis);

@@ -12,6 +12,7 @@
 #include "base/number_text.h"
 #include "doctor/clock_jumps.h"
 #include "doctor/input_doctor.h"
+#include "frames/laser_choice.h"
 
 namespace psi_slam {
 namespace {
@@ -366,13 +367,14 @@ class Judge {
     constexpr double kLarge_s = 0.1;
     if (!diagnosis_.delay) return;
     const ScanDelay& delay = *diagnosis_.delay;
-    const double off_s = std::abs(delay.delay_s - diagnosis_.options.scan_delay_s.value_or(0));
+    const double off_s = std::abs(delay.delay_s - delay_of_laser(stated_delays(diagnosis_.options), {}));
     if (off_s < std::max(kLeast_s, 4 * delay.deviation_s)) return;
     const std::string sentence = "turns show that the scans are stamped " +
                                  fixed(std::abs(delay.delay_s), 3) + " s " +
                                  (delay.delay_s > 0 ? "later" : "earlier") + " than odometry (accurate to " +
                                  fixed(delay.deviation_s, 3) + " s)";
-    const std::string remedy = "log.calibrate = true, or log.scan_delay_s = " + fixed(delay.delay_s, 3);
+    std::string remedy = "log.calibrate = true";
+    if (!facts_.contents.several_lasers) remedy += ", or log.scan_delay_s = " + fixed(delay.delay_s, 3);
     if (off_s > kLarge_s)
       warn("scan_delay", sentence, remedy);
     else
@@ -398,14 +400,25 @@ class Judge {
                " m, y " + fixed(stated.y, 3) + " m, yaw " + fixed(RAD2DEG(stated.phi), 2) + " degrees",
            "log.laser_x_m = " + x + ", log.laser_y_m = " + y + ", log.laser_yaw_deg = " + yaw);
     }
+    judge_scale(mount);
+  }
+
+  void judge_scale(const LaserMountEstimate& mount) {
+    constexpr double kLeast = 0.01;
+    constexpr double kUsual = 0.04;  // wheels that slip or wear
     const double off = std::abs(mount.odometry_scale * diagnosis_.options.odometry_scale.value_or(1) - 1);
-    if (off > std::max(0.01, 4 * mount.scale_deviation)) {
-      note("odometry_scale",
-           std::string("odometry ") + (mount.odometry_scale > 1 ? "overstates" : "understates") +
-               " distances by " + fixed(100 * std::abs(mount.odometry_scale - 1), 1) + " % (accurate to " +
-               fixed(100 * mount.scale_deviation, 1) + " %)",
-           "log.calibrate = true, or log.odometry_scale = " + fixed(1 / mount.odometry_scale, 4));
-    }
+    if (off <= std::max(kLeast, 4 * mount.scale_deviation)) return;
+    const std::string sentence = std::string("odometry ") +
+                                 (mount.odometry_scale > 1 ? "overstates" : "understates") +
+                                 " distances by " + fixed(100 * std::abs(mount.odometry_scale - 1), 1) +
+                                 " % (accurate to " + fixed(100 * mount.scale_deviation, 1) + " %)";
+    const std::string remedy =
+        "log.calibrate = true, or log.odometry_scale = " + fixed(1 / mount.odometry_scale, 4);
+    const bool is_bent = diagnosis_.sweep_direction.stated_sweep_time_s != 0;  // which spoils the estimate
+    if (off > kUsual + 4 * mount.scale_deviation && !is_bent)
+      warn("odometry_scale", sentence, remedy);
+    else
+      note("odometry_scale", sentence, remedy);
   }
 
   void judge_beam_angles() {

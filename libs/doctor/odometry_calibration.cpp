@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/odometry_calibration.h"
 
-#include <mrpt/core/bits_math.h>
-
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "doctor/input_doctor.h"
 #include "doctor/odometry_check.h"
-#include "frames/log_format.h"
-#include "frames/log_reader.h"
+#include "frames/laser_choice.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 
@@ -18,26 +16,39 @@ namespace {
 
 constexpr std::size_t kTracks = 30;
 constexpr std::size_t kMostPairs = 1500;
-constexpr double kDistance_m = 0.25;
-const double kTurn_rad = mrpt::DEG2RAD(12.0);
 constexpr double kMostDelay_s = 1.0;
+constexpr double kShareOfReading = 0.25;  // of the time of an estimate, for each reading of the log
 
-LogFactsCollector read_once(const std::filesystem::path& path, const LogOptions& options) {
+LogFactsCollector read_once(const std::filesystem::path& path, const LogOptions& options,
+                            const ShareObserver& progress) {
   LogFactsCollector collector;
   const auto log = open_log(path, options);
   try {
-    while (const auto frame = log->next()) collector.add(*frame, frame->scan.max_range_m);
+    while (const auto frame = log->next()) {
+      collector.add(*frame, frame->scan.max_range_m);
+      if (progress) progress(log->progress());
+    }
   } catch (const UserError&) {
     if (collector.marks().empty()) throw;  // otherwise, mapping reports the damage
   }
   return collector;
 }
 
+/// Estimates by the scans of one laser; see OdometryCalibration.
+struct LaserEstimate {
+  std::string obstacle;
+  double median_period_s = 0;
+  mrpt::math::TPose2D stated_mount;
+  std::optional<ScanDelay> delay;
+  std::optional<LaserMountEstimate> mount;
+};
+
 /// Estimates what the odometry of the log lacks as `options` read it. Aligns each scan with the scan after a
 /// short motion.
-OdometryCalibration estimate_once(const std::filesystem::path& path, const LogOptions& options) {
-  OdometryCalibration found;
-  const LogFactsCollector collector = read_once(path, options);
+LaserEstimate estimate_once(const std::filesystem::path& path, const LogOptions& options,
+                            const ShareObserver& progress) {
+  LaserEstimate found;
+  const LogFactsCollector collector = read_once(path, options, part_of(progress, 0, kShareOfReading));
   const LogFacts facts = collector.facts();
   const std::vector<FrameMark>& marks = collector.marks();
   found.median_period_s = facts.time.median_period_s;
@@ -47,40 +58,61 @@ OdometryCalibration estimate_once(const std::filesystem::path& path, const LogOp
     return found;
   }
   const auto tracks = tracks_from(frames_in_motion(marks, kTracks), marks.size());
-  const auto pairs = overlapping_pairs(marks, kDistance_m, kTurn_rad, kMostPairs);
+  const auto pairs = overlapping_pairs(marks, kComparedMotion_m, kComparedTurn_rad, kMostPairs);
   ScanLibrary library;
   for (const auto& track : tracks) library.want(track);
   library.want(pairs);
-  library.fetch(path, options);
+  library.fetch(path, options, part_of(progress, kShareOfReading, 2 * kShareOfReading));
   std::vector<FrameMark> corrected = marks;
   if (!is_sound(check_odometry_and_delay(corrected, tracks, library))) {
     found.obstacle = "odometry contradicts the scans. See psi-slam check";
     return found;
   }
-  std::vector<AlignedPair> aligned = align_pairs(corrected, pairs, library);
+  std::vector<AlignedPair> aligned =
+      align_pairs(corrected, pairs, library, part_of(progress, 2 * kShareOfReading, 1));
   found.delay = remove_scan_delay(aligned, marks);
   found.stated_mount = facts.robot_T_laser;
   found.mount = estimate_laser_mount(aligned, facts.robot_T_laser);
   return found;
 }
 
+/// Estimates twice if the scans are stamped late: the delay has spoilt the removal of the motion during a
+/// sweep, and the guesses for the alignment.
+LaserEstimate estimate(const std::filesystem::path& path, LogOptions options, const ShareObserver& progress) {
+  const bool states_delay = !stated_delays(options).empty();
+  LaserEstimate found = estimate_once(path, options, part_of(progress, 0, 0.5));
+  if (!found.delay || !found.delay->is_significant() || states_delay) return found;
+  const double delay_s = found.delay->delay_s;
+  options.scan_delay_s = scan_delay_text({{"", delay_s}});
+  found = estimate_once(path, options, part_of(progress, 0.5, 1));
+  if (found.delay) found.delay->delay_s += delay_s;
+  if (found.delay && std::abs(found.delay->delay_s) > kMostDelay_s) found.delay.reset();
+  return found;
+}
+
 }  // namespace
 
-OdometryCalibration calibrate_odometry(const std::filesystem::path& path, const LogOptions& options) {
-  const bool several_lasers =
-      combines_lasers(open_log_reader(path, options)->contents(), options, detect_log_format(path));
-  LogOptions of_one_laser = several_lasers ? options_of_first_laser(path, options) : options;
-  of_one_laser.every_nth_scan = 1;
-  OdometryCalibration found = estimate_once(path, of_one_laser);
-  if (found.delay && found.delay->is_significant() && !options.scan_delay_s) {
-    // The delay has spoilt the removal of the motion during a sweep, and the guesses for the alignment.
-    of_one_laser.scan_delay_s = found.delay->delay_s;
-    found = estimate_once(path, of_one_laser);
-    if (found.delay) found.delay->delay_s += *of_one_laser.scan_delay_s;
-    if (found.delay && std::abs(found.delay->delay_s) > kMostDelay_s) found.delay.reset();
+OdometryCalibration calibrate_odometry(const std::filesystem::path& path, const LogOptions& options,
+                                       const ShareObserver& progress) {
+  const std::vector<SingleLaser> lasers = single_lasers(path, options);
+  const std::size_t estimated = stated_delays(options).empty() ? lasers.size() : 1;
+  OdometryCalibration calibration;
+  calibration.several_lasers = lasers.size() > 1;
+  for (std::size_t i = 0; i < estimated; ++i) {
+    LogOptions alone = lasers[i].options;
+    alone.every_nth_scan = 1;
+    const auto share = [&](std::size_t laser) {
+      return static_cast<double>(laser) / static_cast<double>(estimated);
+    };
+    const LaserEstimate found = estimate(path, alone, part_of(progress, share(i), share(i + 1)));
+    calibration.delays.push_back({lasers[i].name, found.median_period_s, found.delay});
+    if (i > 0) continue;
+    calibration.obstacle = found.obstacle;
+    calibration.stated_mount = found.stated_mount;
+    calibration.mount = found.mount;
+    if (!found.obstacle.empty()) break;
   }
-  found.several_lasers = several_lasers;
-  return found;
+  return calibration;
 }
 
 }  // namespace psi_slam

@@ -65,7 +65,8 @@ std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vect
     const AlignableScan scan(library.at(frames[k]));
     const FramePair step{frames[k - 1], frames[k]};
     const TPose2D odometry_step = odometry_between(marks, step);
-    ScanAlignment alignment = align_scans(reference, scan, std::vector<TPose2D>{now, now + last_step});
+    ScanAlignment alignment = align_scans(reference, scan, now + last_step);
+    if (!alignment.is_reliable(kGoodCost_m)) alignment = align_scans(reference, scan, now);
     if (!alignment.is_reliable(kGoodCost_m)) {
       std::vector<TPose2D> guesses = fan_of_guesses(now);
       guesses.push_back(now + odometry_step);

@@ -27,7 +27,7 @@ const double kJump_rad = DEG2RAD(30.0);
 }  // namespace
 
 std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
-                                     const ScanLibrary& library) {
+                                     const ScanLibrary& library, const ShareObserver& progress) {
   std::vector<AlignedPair> aligned;
   aligned.reserve(pairs.size());
   for (const FramePair& pair : pairs) {
@@ -35,6 +35,7 @@ std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const 
     const AlignableScan reference(library.at(pair.first));
     const AlignableScan scan(library.at(pair.second));
     aligned.push_back({pair, by_odometry, align_scans(reference, scan, by_odometry)});
+    if (progress) progress(static_cast<double>(aligned.size()) / static_cast<double>(pairs.size()));
   }
   return aligned;
 }

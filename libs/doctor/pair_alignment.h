@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/share_observer.h"
 #include "doctor/log_facts.h"
 #include "doctor/scan_delay.h"
 #include "doctor/scan_sampling.h"
@@ -24,7 +25,7 @@ struct AlignedPair {
 
 /// Aligns all pairs. The result includes unreliable alignments.
 std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
-                                     const ScanLibrary& library);
+                                     const ScanLibrary& library, const ShareObserver& progress = {});
 
 /// Returns the turns of the reliably aligned pairs.
 std::vector<ScanTurn> reliable_turns(const std::vector<AlignedPair>& pairs);

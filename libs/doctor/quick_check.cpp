@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/quick_check.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "doctor/input_doctor.h"
+#include "frames/laser_choice.h"
 
 namespace psi_slam {
 namespace {
@@ -11,6 +13,7 @@ namespace {
 constexpr std::size_t kTracks = 30;
 constexpr std::size_t kJumps = 30;
 constexpr std::size_t kRevisits = 60;
+constexpr std::size_t kPairs = 200;
 
 /// Compares odometry with the alignment of a few scans. `scans` are in the order of the marks.
 void compare_odometry_with(const std::vector<const LaserScan*>& scans, LogDiagnosis& diagnosis) {
@@ -18,16 +21,22 @@ void compare_odometry_with(const std::vector<const LaserScan*>& scans, LogDiagno
   const auto tracks = tracks_from(frames_in_motion(marks, kTracks), marks.size());
   const auto suspects = suspected_jumps(marks, diagnosis.facts.time.median_period_s, kJumps);
   const auto revisits = revisiting_pairs(marks, 0.5, 0.5, 30, kRevisits);
+  const auto pairs = pairs_by_motion(marks, kComparedMotion_m, kComparedTurn_rad, kPairs);
   ScanLibrary library;
   for (const auto& track : tracks) library.want(track);
   library.want(suspects);
   library.want(revisits);
+  library.want(pairs);
   library.take(scans);
   std::vector<FrameMark> corrected = marks;
   diagnosis.odometry = check_odometry_and_delay(corrected, tracks, library);
   diagnosis.odometry_is_sound = is_sound(diagnosis.odometry);
   if (!diagnosis.odometry_is_sound) return;
   diagnosis.delay = estimate_scan_delay(marks, diagnosis.odometry.turns);
+  if (diagnosis.delay && diagnosis.delay->is_significant())
+    corrected = with_scan_delay(marks, diagnosis.delay->delay_s);
+  diagnosis.mount =
+      estimate_laser_mount(align_pairs(corrected, pairs, library), diagnosis.facts.robot_T_laser);
   diagnosis.jumps = confirm_jumps(marks, suspects, library);
   diagnosis.revisits = check_revisits(marks, revisits, library);
 }
@@ -47,12 +56,19 @@ std::vector<std::string> quick_check(const std::vector<Frame>& log, std::size_t 
   if (scans.empty()) return {};
   LogDiagnosis diagnosis;
   diagnosis.options = options;
-  diagnosis.options.odometry_scale.reset();  // the frames have the corrected odometry
   diagnosis.facts = collector.facts();
+  diagnosis.facts.contents.several_lasers = std::any_of(
+      log.begin() + static_cast<std::ptrdiff_t>(begin), log.begin() + static_cast<std::ptrdiff_t>(end),
+      [](const Frame& frame) { return frame.scan.laser != 0 || !frame.companions.empty(); });
   diagnosis.marks = collector.marks();
   if (diagnosis.facts.scans_without_odometry == 0) compare_odometry_with(scans, diagnosis);
-  if (options.calibrate && !options.scan_delay_s) diagnosis.delay.reset();  // log.calibrate has named it
-  if (diagnosis.delay) diagnosis.delay->delay_s += options.scan_delay_s.value_or(0);
+  const std::vector<StatedDelay> delays = stated_delays(options);
+  const bool is_of_one_laser = !delays.empty() && !delays.front().name.empty();
+  // log.calibrate has told about scale and delay; a frame does not tell the name of its laser.
+  if (options.calibrate && !options.odometry_scale) diagnosis.mount.reset();
+  if (diagnosis.mount) diagnosis.mount->odometry_scale /= options.odometry_scale.value_or(1);
+  if ((options.calibrate && delays.empty()) || is_of_one_laser) diagnosis.delay.reset();
+  if (diagnosis.delay) diagnosis.delay->delay_s += delay_of_laser(delays, {});
   std::vector<std::string> faults;
   for (Finding& finding : judge(diagnosis)) {
     const bool is_minor = finding.code == "max_range" || finding.code == "empty_scans";

@@ -217,12 +217,14 @@ void ScanLibrary::want(const std::vector<FramePair>& pairs) {
   }
 }
 
-void ScanLibrary::fetch(const std::filesystem::path& path, const LogOptions& options) {
+void ScanLibrary::fetch(const std::filesystem::path& path, const LogOptions& options,
+                        const ShareObserver& progress) {
   const auto log = open_log(path, options);
   auto wanted = scans_.begin();
   while (wanted != scans_.end()) {
     auto frame = log->next();
     if (!frame) return;
+    if (progress) progress(log->progress());
     if (frame->index != wanted->first) continue;
     wanted->second = std::move(frame->scan);
     ++wanted;

@@ -3,16 +3,22 @@
 // over the log reads the selected scans.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <map>
 #include <vector>
 
+#include "base/share_observer.h"
 #include "doctor/log_facts.h"
 #include "psi_slam/frame.h"
 #include "psi_slam/log_options.h"
 
 namespace psi_slam {
+
+/// Motion between two scans that are compared with odometry: the scans still overlap well.
+inline constexpr double kComparedMotion_m = 0.25;
+inline constexpr double kComparedTurn_rad = 12 * M_PI / 180;
 
 /// Two frames by their indices, the earlier first.
 struct FramePair {
@@ -62,7 +68,8 @@ class ScanLibrary {
   void want(const std::vector<FramePair>& pairs);
 
   /// Reads the log once and keeps the wanted scans.
-  void fetch(const std::filesystem::path& path, const LogOptions& options);
+  void fetch(const std::filesystem::path& path, const LogOptions& options,
+             const ShareObserver& progress = {});
 
   /// Keeps the wanted ones of all scans of a log.
   void take(const std::vector<const LaserScan*>& scans);

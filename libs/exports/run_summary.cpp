@@ -212,6 +212,7 @@ Json calibration_json(const std::vector<CalibratedOption>& estimates) {
                     {"value", number(estimate.value, 5)},
                     {"standard_deviation", number(estimate.deviation, 5)},
                     {"used", estimate.is_used}});
+    if (!estimate.laser.empty()) json.back()["laser"] = estimate.laser;
   }
   return json;
 }

@@ -22,6 +22,7 @@ namespace psi_slam {
 /// Value of an option that log.calibrate has estimated from a log.
 struct CalibratedOption {
   std::string log;     ///< name of the log
+  std::string laser;   ///< name of the laser that the estimate is for; empty: all lasers
   std::string option;  ///< name of the option, which states the unit: "log.scan_delay_s"
   double value = 0;
   double deviation = 0;  ///< standard deviation

@@ -7,21 +7,32 @@
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
+namespace {
+
+constexpr TimeUs kMostDelay_us = 1'000'000;  // see LogOptions::scan_delay_s
+
+}  // namespace
 
 CorrectedOdometrySource::CorrectedOdometrySource(std::unique_ptr<FrameSource> source, double scale,
-                                                 double delay_s)
-    : source_(std::move(source)), scale_(scale), delay_us_(std::llround(1e6 * delay_s)) {}
+                                                 DelayOfLaser delay_s)
+    : source_(std::move(source)), scale_(scale), delay_s_(std::move(delay_s)) {}
+
+void CorrectedOdometrySource::find_delay(std::size_t laser) {
+  if (delays_us_.count(laser) > 0) return;
+  const TimeUs delay_us = std::llround(1e6 * delay_s_(laser));
+  delays_us_[laser] = delay_us;
+}
 
 void CorrectedOdometrySource::correct(Frame& frame) const {
   if (!frame.has_odometry) return;
-  if (delay_us_ != 0) frame.odom_T_robot = track_.at(frame.time_us - delay_us_);
+  if (delay_us(frame) != 0) frame.odom_T_robot = track_.at(frame.time_us - delay_us(frame));
   frame.odom_T_robot.x *= scale_;
   frame.odom_T_robot.y *= scale_;
 }
 
 bool CorrectedOdometrySource::must_wait(const Frame& frame) const {
-  return frame.has_odometry && delay_us_ != 0 && !ended_ && waiting_.size() <= kMaxWaiting &&
-         track_.end_us() < frame.time_us - delay_us_ + OdometryTrack::kMostOvertaking_us;
+  return frame.has_odometry && delay_us(frame) != 0 && !ended_ && waiting_.size() <= kMaxWaiting &&
+         track_.end_us() < frame.time_us - delay_us(frame) + OdometryTrack::kMostOvertaking_us;
 }
 
 void CorrectedOdometrySource::read_ahead() {
@@ -36,6 +47,7 @@ void CorrectedOdometrySource::read_ahead() {
     return;
   }
   if (frame->has_odometry) {
+    find_delay(frame->scan.laser);
     if (track_.ends_before(frame->time_us)) {
       for (; corrected_ < waiting_.size(); ++corrected_) correct(waiting_[corrected_]);
       track_ = OdometryTrack();
@@ -58,7 +70,9 @@ std::optional<Frame> CorrectedOdometrySource::next() {
     return frame;
   }
   correct(frame);
-  if (frame.has_odometry) track_.forget_before(frame.time_us - delay_us_ - OdometryTrack::kMostOvertaking_us);
+  // A later frame of another laser may be up to kMostOvertaking_us earlier.
+  if (frame.has_odometry)
+    track_.forget_before(frame.time_us - kMostDelay_us - OdometryTrack::kMostOvertaking_us);
   return frame;
 }
 

@@ -29,10 +29,23 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
   }
 }
 
-/// Parses NAME X Y YAW [mirrored]. The name may contain spaces.
-std::optional<StatedMount> mount_from(const std::string& text) {
+std::vector<std::string> words_of(const std::string& text) {
   std::vector<std::string> words = split(text, " \t");
   words.erase(std::remove(words.begin(), words.end(), ""), words.end());
+  return words;
+}
+
+/// Joins the words of a name, which may contain spaces.
+std::string joined(std::vector<std::string>::const_iterator begin,
+                   std::vector<std::string>::const_iterator end) {
+  std::string name;
+  for (auto word = begin; word != end; ++word) name += (name.empty() ? "" : " ") + *word;
+  return name;
+}
+
+/// Parses NAME X Y YAW [mirrored].
+std::optional<StatedMount> mount_from(const std::string& text) {
+  std::vector<std::string> words = words_of(text);
   StatedMount mount;
   if (!words.empty() && words.back() == kMirrored) {
     mount.mirrored = true;
@@ -47,9 +60,16 @@ std::optional<StatedMount> mount_from(const std::string& text) {
   mount.robot_T_laser = {*x_m, *y_m, mrpt::DEG2RAD(*yaw_deg)};
   if (!is_possible_mount(mount.robot_T_laser)) return std::nullopt;
   mount.robot_T_laser.normalizePhi();
-  for (auto word = words.begin(); word != numbers; ++word)
-    mount.name += (mount.name.empty() ? "" : " ") + *word;
+  mount.name = joined(words.begin(), numbers);
   return mount;
+}
+
+/// Parses SECONDS or NAME SECONDS.
+std::optional<StatedDelay> delay_from(const std::string& text) {
+  const std::vector<std::string> words = words_of(text);
+  const auto delay_s = words.empty() ? std::nullopt : parse_number(words.back());
+  if (!delay_s || !(std::abs(*delay_s) <= 1)) return std::nullopt;
+  return StatedDelay{joined(words.begin(), words.end() - 1), *delay_s};
 }
 
 template <class Value>
@@ -117,10 +137,9 @@ std::string choice_of_lasers(const std::vector<std::string>& combined,
   if (combined.size() > 1)
     text = "the scans of " + name_list(combined) + " are combined, because their mounts are stated";
   if (!left_out.empty())
-    text += (text.empty() ? "" : ", and ") + ("the scans of " + name_list(left_out)) +
-            " are not used, because no fixed and level mount of their own is stated by which to combine them "
-            "with " +
-            combined.front() + ". State mounts with log.laser_mounts";
+    text += (text.empty() ? "" : ". ") + ("the scans of " + name_list(left_out)) +
+            " are not used, because no fixed and level mount of their own is stated. State mounts with "
+            "log.laser_mounts";
   return text.empty() ? text : text + ". Select lasers with log.laser";
 }
 
@@ -139,8 +158,51 @@ std::vector<StatedMount> stated_mounts(const LogOptions& options) {
   return mounts;
 }
 
+std::vector<StatedDelay> stated_delays(const LogOptions& options) {
+  const std::string_view value = trimmed(options.scan_delay_s);
+  std::vector<StatedDelay> delays;
+  if (value.empty() || value == "auto") return delays;
+  const std::vector<std::string> texts = split(value, ",");
+  for (const std::string& text : texts) {
+    auto delay = delay_from(text);
+    const bool is_known = delay && std::any_of(delays.begin(), delays.end(), [&](const StatedDelay& other) {
+                            return other.name == delay->name;
+                          });
+    if (!delay || is_known || (delay->name.empty() && texts.size() > 1))
+      throw UserError("log.scan_delay_s is \"" + options.scan_delay_s +
+                      "\", expected auto, -1 to 1 seconds, or a laser's name and its seconds such as "
+                      "\"RLASER 0.1\". Separate several lasers by commas, and name each one once");
+    delays.push_back(*std::move(delay));
+  }
+  return delays;
+}
+
+double delay_of_laser(const std::vector<StatedDelay>& delays, const std::vector<std::string>& names) {
+  for (const StatedDelay& delay : delays)
+    if (delay.name.empty() || contains(names, delay.name)) return delay.delay_s;
+  return 0;
+}
+
+std::string scan_delay_text(const std::vector<StatedDelay>& delays) {
+  if (delays.empty()) return "auto";
+  std::vector<std::string> texts;
+  for (const StatedDelay& delay : delays)
+    texts.push_back((delay.name.empty() ? "" : delay.name + " ") + exact_text(delay.delay_s));
+  return name_list(texts);
+}
+
+std::vector<std::pair<const char*, std::string>> lasers_with_stated_values(const LogOptions& options) {
+  std::vector<std::pair<const char*, std::string>> lasers;
+  for (const StatedMount& mount : stated_mounts(options)) lasers.emplace_back("log.laser_mounts", mount.name);
+  for (const StatedDelay& delay : stated_delays(options))
+    if (!delay.name.empty()) lasers.emplace_back("log.scan_delay_s", delay.name);
+  return lasers;
+}
+
 LogOptions options_of_laser(const LogOptions& options, const std::vector<std::string>& names) {
   LogOptions own = options;
+  if (const auto delays = stated_delays(options); !delays.empty())
+    own.scan_delay_s = scan_delay_text({{"", delay_of_laser(delays, names)}});
   for (const StatedMount& mount : stated_mounts(options)) {
     if (!contains(names, mount.name)) continue;
     if (!own.robot_T_laser) own.robot_T_laser = mount.robot_T_laser;
@@ -176,9 +238,8 @@ void check_log_options(const LogOptions& options) {
          "finite numbers and at most 100 m");
   if (options.odometry_scale && !(*options.odometry_scale >= 0.01 && *options.odometry_scale <= 100))
     fail("log.odometry_scale", *options.odometry_scale, "0.01 to 100");
-  if (options.scan_delay_s && !(std::abs(*options.scan_delay_s) <= 1))
-    fail("log.scan_delay_s", *options.scan_delay_s, "-1 to 1 seconds");
   stated_mounts(options);
+  stated_delays(options);
   laser_choice("log.laser", options.laser);
   laser_choice("log.scan_topic", options.scan_topic);
   height_slice(options);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "frames/log_format.h"
@@ -67,8 +68,26 @@ struct StatedMount {
 /// Parses `LogOptions::laser_mounts`. Throws UserError that says what was expected.
 std::vector<StatedMount> stated_mounts(const LogOptions& options);
 
-/// Returns the options of a laser that any of these names denotes, including its stated mount if there is
-/// one.
+/// Delay of the scans of one laser as the user states it.
+struct StatedDelay {
+  std::string name;  ///< empty: the delay of all lasers
+  double delay_s = 0;
+};
+
+/// Parses `LogOptions::scan_delay_s`. Empty for "auto". Throws UserError that says what was expected.
+std::vector<StatedDelay> stated_delays(const LogOptions& options);
+
+/// Returns the delay of a laser that any of these names denotes; 0 if none is stated.
+double delay_of_laser(const std::vector<StatedDelay>& delays, const std::vector<std::string>& names);
+
+/// Text of `LogOptions::scan_delay_s` that stated_delays() reads as exactly these delays.
+std::string scan_delay_text(const std::vector<StatedDelay>& delays);
+
+/// Lasers that the user names to state a mount or a delay: the option, and the name of the laser.
+std::vector<std::pair<const char*, std::string>> lasers_with_stated_values(const LogOptions& options);
+
+/// Returns the options of a laser that any of these names denotes, including its stated mount and delay if
+/// there are any.
 LogOptions options_of_laser(const LogOptions& options, const std::vector<std::string>& names);
 
 bool contains(const std::vector<std::string>& names, const std::string& name);

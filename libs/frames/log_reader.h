@@ -31,7 +31,9 @@ struct LogContents {
   std::string laser;
   bool states_beam_angles = true;
   bool several_lasers = false;  ///< whether frames may be scans of several lasers
-  std::string first_laser;      ///< name of the first of several lasers; may be empty before its first scan
+  /// Names of each laser that is read, by its number (LaserScan::laser); the first name is that of `laser`. A
+  /// laser may have no names before its first scan.
+  std::vector<std::vector<std::string>> laser_names;
   SkippedLines skipped;
   std::vector<std::string> assumptions;             ///< see FrameSource::assumptions()
   std::map<std::string, std::size_t> messages;      ///< CARMEN: lines of each kind, ignored ones included

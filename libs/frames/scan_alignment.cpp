@@ -25,7 +25,6 @@ constexpr double kLeastNoise_m = 0.01;  // least noise of ranges: a perfect fit 
 constexpr double kDamping_m = 1e-4;  // damping per matched point; holds the guess in directions without walls
 constexpr std::size_t kFewestMatches = 20;
 constexpr std::ptrdiff_t kNeighbours = 2;  // points on either side that define the normal of a point's wall
-constexpr double kLargestBlindSector_rad = 5 * M_PI / 180;  // behind a laser whose scans are full circles
 
 /// Returns whether two neighbouring beams hit one surface. The limit of the distance between their points is
 /// the distance on a surface whose normal is 75 degrees from the beams, plus 5 cm.
@@ -71,7 +70,7 @@ const Point* nearest_wall(const AlignableScan& reference, const Eigen::Vector2d&
   const std::vector<Point>& walls = reference.points();
   const auto size = static_cast<std::ptrdiff_t>(walls.size());
   const double range = p.norm();
-  const double bearing = std::atan2(p.y(), p.x());
+  const double bearing = reference.bearing_rad(p);
   const auto reach = [&](double distance_m) {
     return distance_m < range ? std::asin(distance_m / range) : M_PI;
   };
@@ -115,7 +114,7 @@ Matching match_points(const AlignableScan& reference, const AlignableScan& scan,
   for (const Point& point : scan.points()) {
     const Eigen::Vector2d p{reference_T_scan.x + c * point.position_m.x() - s * point.position_m.y(),
                             reference_T_scan.y + s * point.position_m.x() + c * point.position_m.y()};
-    const double bearing = std::atan2(p.y(), p.x());
+    const double bearing = reference.bearing_rad(p);
     const bool is_visible = reference.is_full_circle() ||
                             (bearing >= walls.front().bearing_rad && bearing <= walls.back().bearing_rad);
     if (!is_visible) continue;
@@ -168,23 +167,33 @@ void rate(const Matching& matching, double radius_m, const mrpt::math::TPose2D& 
 AlignableScan::AlignableScan(const LaserScan& scan, double max_range_m, std::size_t max_points)
     : robot_T_laser_(scan.robot_T_laser) {
   const std::size_t beams = scan.ranges_m.size();
+  if (beams == 0) return;
   const std::size_t step = std::max<std::size_t>(1, (beams + max_points - 1) / max_points);
   points_.reserve(beams / step + 1);
-  double least_rad = 0;
-  double most_rad = 0;
+  const std::vector<float>& bearings_rad = *scan.bearings_rad;
+  const auto [least, most] = std::minmax_element(bearings_rad.begin(), bearings_rad.end());
+  middle_bearing_rad_ = (static_cast<double>(*least) + static_cast<double>(*most)) / 2;
   for (std::size_t i = 0; i < beams; i += step) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    const double bearing = mrpt::math::wrapToPi(static_cast<double>((*scan.bearings_rad)[i]));
-    least_rad = std::min(least_rad, bearing);
-    most_rad = std::max(most_rad, bearing);
+    const double bearing = near_middle(static_cast<double>(bearings_rad[i]));
     if (!(range <= max_range_m)) continue;  // also skips beams without return
     points_.push_back(
         {range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)), Eigen::Vector2d::Zero(), bearing});
   }
   std::sort(points_.begin(), points_.end(),
             [](const Point& a, const Point& b) { return a.bearing_rad < b.bearing_rad; });
-  is_full_circle_ = least_rad + 2 * M_PI - most_rad <= kLargestBlindSector_rad;
+  is_full_circle_ = psi_slam::is_full_circle(bearings_rad);
   for (std::size_t i = 0; i < points_.size(); ++i) points_[i].normal = normal_at(points_, i, is_full_circle_);
+}
+
+double AlignableScan::near_middle(double bearing_rad) const {
+  while (bearing_rad > middle_bearing_rad_ + M_PI) bearing_rad -= 2 * M_PI;
+  while (bearing_rad < middle_bearing_rad_ - M_PI) bearing_rad += 2 * M_PI;
+  return bearing_rad;
+}
+
+double AlignableScan::bearing_rad(const Eigen::Vector2d& position_m) const {
+  return near_middle(std::atan2(position_m.y(), position_m.x()));
 }
 
 double ScanAlignment::deviation_along_m(double heading_rad) const {

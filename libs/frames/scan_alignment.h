@@ -22,7 +22,7 @@ class AlignableScan {
   struct Point {
     Eigen::Vector2d position_m;
     Eigen::Vector2d normal;  ///< unit normal of the wall in the laser's frame; zero if unknown
-    double bearing_rad;
+    double bearing_rad;      ///< as in the scan, or a full circle away
   };
 
   /// Uses returns up to `max_range_m`, from at most `max_points` evenly selected beams.
@@ -30,12 +30,17 @@ class AlignableScan {
 
   const std::vector<Point>& points() const { return points_; }
   const mrpt::math::TPose2D& robot_T_laser() const { return robot_T_laser_; }
-  /// Returns whether beams point in all directions. The first point and the last are then neighbours.
+  /// Returns whether the first and the last beam are neighbours; see psi_slam::is_full_circle().
   bool is_full_circle() const { return is_full_circle_; }
+  /// Bearing of a point in the laser's frame, within half a circle of the middle beam.
+  double bearing_rad(const Eigen::Vector2d& position_m) const;
 
  private:
+  double near_middle(double bearing_rad) const;
+
   std::vector<Point> points_;
   bool is_full_circle_ = false;
+  double middle_bearing_rad_ = 0;  // of all beams
   mrpt::math::TPose2D robot_T_laser_;
 };
 

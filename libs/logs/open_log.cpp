@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/open_log.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -100,9 +102,14 @@ std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const L
   const bool several_lasers = combines_lasers(contents, options, format);
   std::unique_ptr<FrameSource> source = std::move(reader);
   const double odometry_scale = options.odometry_scale.value_or(1);
-  const double scan_delay_s = options.scan_delay_s.value_or(0);
-  if (odometry_scale != 1 || scan_delay_s != 0)
-    source = std::make_unique<CorrectedOdometrySource>(std::move(source), odometry_scale, scan_delay_s);
+  const std::vector<StatedDelay> delays = stated_delays(options);
+  const bool is_late =
+      std::any_of(delays.begin(), delays.end(), [](const StatedDelay& delay) { return delay.delay_s != 0; });
+  if (odometry_scale != 1 || is_late)
+    source = std::make_unique<CorrectedOdometrySource>(
+        std::move(source), odometry_scale, [&contents, delays](std::size_t laser) {
+          return delay_of_laser(delays, contents.laser_names.at(laser));
+        });
   // Only bags may state a sweep time.
   const bool may_be_bent = is_bag(format) || options.sweep_time_s.value_or(0) > 0;
   SweepTiming timing;

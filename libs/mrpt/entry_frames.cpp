@@ -13,7 +13,7 @@ EntryFrames::EntryFrames(const LogOptions& options, std::string speaker)
       scans_(options),
       several_lasers_(reads_several_lasers(options, LogFormat::kMrptRawlog)) {
   check_log_options(options);
-  if (options.calibrate || options.odometry_scale || options.scan_delay_s)
+  if (options.calibrate || options.odometry_scale || !stated_delays(options).empty())
     throw UserError(speaker_ +
                     ": log.calibrate, log.odometry_scale and log.scan_delay_s do not apply to the entries of "
                     "a rawlog. Leave them out, or map the log with psi-slam");

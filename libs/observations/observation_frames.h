@@ -55,6 +55,9 @@ class RawlogLasers {
   std::optional<LaserScan> scan(const mrpt::obs::CObservation2DRangeScan& observation,
                                 const std::string& place);
 
+  /// Labels of the lasers by their numbers: those that the user lists, otherwise those that have appeared.
+  std::vector<std::string> labels() const { return chosen_.names(); }
+
  private:
   struct Laser {
     std::string label;
@@ -97,6 +100,9 @@ class ObservationFrames {
   /// Returns the next complete frame, with the scan of one laser, or nothing if there is none yet. Its index
   /// is the number of the scan among the scans taken, counted from 0.
   std::optional<Frame> next();
+
+  /// See RawlogLasers::labels().
+  std::vector<std::string> labels() const { return lasers_.labels(); }
 
   /// Number of scans taken. Scans of lasers that are not read do not count.
   std::size_t scans() const { return scans_; }

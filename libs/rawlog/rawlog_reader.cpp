@@ -94,7 +94,7 @@ class UsualLasers {
   }
 
  private:
-  static constexpr std::size_t kEnoughScans = 20;
+  static constexpr std::size_t kEnoughScans = 200;
 
   struct Seen {
     std::string label;
@@ -137,7 +137,7 @@ std::vector<std::pair<std::string, std::string>> named_labels(const LogOptions& 
   std::vector<std::pair<std::string, std::string>> named;
   for (const std::string& label : laser_choice("log.laser", options.laser).names)
     named.emplace_back(label, "log.laser");
-  for (const StatedMount& mount : stated_mounts(options)) named.emplace_back(mount.name, "log.laser_mounts");
+  for (const auto& [option, label] : lasers_with_stated_values(options)) named.emplace_back(label, option);
   return named;
 }
 
@@ -224,7 +224,7 @@ class RawlogReader : public LogReader {
         frames_(found_.options, found_.odometry, found_.gyroscope.name) {
     contents_.laser = name_list(found_.lasers);
     contents_.several_lasers = found_.lasers.size() > 1;
-    if (contents_.several_lasers) contents_.first_laser = found_.lasers.front();
+    name_lasers(found_.lasers);
     if (!found_.assumption.empty()) contents_.assumptions.push_back(found_.assumption);
     if (!found_.gyroscope.assumption.empty()) contents_.assumptions.push_back(found_.gyroscope.assumption);
   }
@@ -257,8 +257,15 @@ class RawlogReader : public LogReader {
       frames_.take(observation, archive_.place());
       const bool is_scan = dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;
       if (is_scan && frames_.scans() == scans) ++contents_.other_lasers[observation.sensorLabel];
+      if (const auto labels = frames_.labels(); labels.size() > contents_.laser_names.size())
+        name_lasers(labels);
     });
     contents_.skipped = frames_.skipped();
+  }
+
+  void name_lasers(const std::vector<std::string>& labels) {
+    contents_.laser_names.clear();
+    for (const std::string& label : labels) contents_.laser_names.push_back({label});
   }
 
   RawlogArchive archive_;

@@ -103,8 +103,8 @@ class Planner {
       plan_.scan_topics = all;
       chooses_lasers_ = all.size() > 1;
     }
-    for (const StatedMount& mount : stated_mounts(options_))
-      choose("log.laser_mounts", mount.name, nameable, type);
+    for (const auto& [option_of_laser, name] : lasers_with_stated_values(options_))
+      choose(option_of_laser, name, nameable, type);
   }
 
   /// Throws UserError for a bag without scans, or without point clouds if the user asks for them.
@@ -456,10 +456,13 @@ bool is_transforms(const BagTopic& topic) {
          topic.encoding != BagEncoding::kOther;
 }
 
+std::vector<std::string> names_of_topic(const std::string& topic) {
+  if (topic.front() == '/') return {topic, topic.substr(1)};  // users may omit the slash
+  return {topic};
+}
+
 LogOptions options_of_topic(const LogOptions& options, const std::string& topic) {
-  std::vector<std::string> names{topic};
-  if (topic.front() == '/') names.push_back(topic.substr(1));  // users may omit the slash
-  return options_of_laser(options, names);
+  return options_of_laser(options, names_of_topic(topic));
 }
 
 BagPlan plan_bag(const std::filesystem::path& path, const LogOptions& options) {

@@ -33,6 +33,9 @@ std::string invalid_pose_text(const std::string& topic);
 /// Returns whether the messages of the topic are transforms.
 bool is_transforms(const BagTopic& topic);
 
+/// Names by which users may state options of the laser of a topic.
+std::vector<std::string> names_of_topic(const std::string& topic);
+
 /// Returns the options for the laser of a topic, with its stated mount.
 LogOptions options_of_topic(const LogOptions& options, const std::string& topic);
 

@@ -120,6 +120,7 @@ class RosbagReader : public LogReader {
     contents_.several_lasers = plan_.scan_topics.size() > 1;
     contents_.assumptions = plan_.assumptions;
     for (const std::string& topic : plan_.scan_topics) {
+      contents_.laser_names.push_back(names_of_topic(topic));
       sensor_options_.push_back(options_of_topic(options, topic));
       lasers_.emplace_back(sensor_options_.back());
     }

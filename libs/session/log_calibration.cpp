@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "base/number_text.h"
 #include "doctor/odometry_calibration.h"
+#include "frames/laser_choice.h"
 
 namespace psi_slam {
 namespace {
@@ -28,21 +30,27 @@ constexpr double kSignificant = 4;  // in standard deviations
 constexpr double kUsualError_m = 0.03;
 const double kUsualError_rad = DEG2RAD(0.8);
 
+const char* const kScale = "log.odometry_scale";
+const char* const kDelay = "log.scan_delay_s";
+const char* const kLaserX = "log.laser_x_m";
+const char* const kLaserY = "log.laser_y_m";
+const char* const kLaserYaw = "log.laser_yaw_deg";
+
 const char* const kUndetermined = "not used, because the log does not determine it well enough";
 
 class Calibrator {
  public:
-  Calibrator(const OdometryCalibration& found, const LogOptions& options) : found_(found) {
-    made_.options = options;
-  }
+  Calibrator(const OdometryCalibration& found, const LogOptions& options)
+      : found_(found), options_(options) {}
 
   LogCalibration made() {
     if (!found_.obstacle.empty()) {
       say("estimates nothing, because " + found_.obstacle);
     } else {
-      if (!made_.options.odometry_scale) use_scale();
-      if (!made_.options.scan_delay_s) use_delay();
-      if (!made_.options.robot_T_laser && made_.options.laser_mounts.empty()) use_mount();
+      if (!options_.odometry_scale) use_scale();
+      if (stated_delays(options_).empty())
+        for (const LaserDelay& delay : found_.delays) use_delay(delay);
+      if (!options_.robot_T_laser && options_.laser_mounts.empty()) use_mount();
     }
     return std::move(made_);
   }
@@ -50,8 +58,8 @@ class Calibrator {
  private:
   void say(const std::string& words) { made_.sentences.push_back("log.calibrate " + words); }
 
-  void add(const char* option, double value, double deviation, bool is_used) {
-    made_.estimates.push_back({"", option, value, deviation, is_used});
+  void add(const char* option, double value, double deviation, bool is_used, const std::string& laser = "") {
+    made_.estimates.push_back({"", laser, option, value, deviation, is_used});
   }
 
   void use_scale() {
@@ -60,8 +68,7 @@ class Calibrator {
     const double deviation = scale * scale * found_.mount->scale_deviation;
     const bool is_determined = deviation <= kScaleDeviation;
     const bool is_used = is_determined && std::abs(std::log(scale)) < kMostLogScale;
-    if (is_used) made_.options.odometry_scale = scale;
-    add("log.odometry_scale", scale, deviation, is_used);
+    add(kScale, scale, deviation, is_used);
     say("estimates the scale of odometry: " + fixed_text(scale, 4) + " (standard deviation " +
         fixed_text(deviation, 4) + "), " +
         (is_used         ? "used"
@@ -69,16 +76,16 @@ class Calibrator {
                          : kUndetermined));
   }
 
-  void use_delay() {
-    if (!found_.delay) return say("finds no turns that show a delay of scans below 1 s");
-    const ScanDelay& delay = *found_.delay;
+  void use_delay(const LaserDelay& found) {
+    const std::string scans = found.laser.empty() ? "scans" : "scans of " + found.laser;
+    if (!found.delay) return say("finds no turns that show a delay of " + scans + " below 1 s");
+    const ScanDelay& delay = *found.delay;
     const bool is_determined =
-        delay.deviation_s <= std::max(kDelayDeviationPerPeriod * found_.median_period_s,
+        delay.deviation_s <= std::max(kDelayDeviationPerPeriod * found.median_period_s,
                                       kDelayDeviationPerDelay * std::abs(delay.delay_s));
     const bool is_used = is_determined && delay.is_significant();
-    if (is_used) made_.options.scan_delay_s = delay.delay_s;
-    add("log.scan_delay_s", delay.delay_s, delay.deviation_s, is_used);
-    say("estimates the delay of scans: " + fixed_text(delay.delay_s, 3) + " s (standard deviation " +
+    add(kDelay, delay.delay_s, delay.deviation_s, is_used, found.laser);
+    say("estimates the delay of " + scans + ": " + fixed_text(delay.delay_s, 3) + " s (standard deviation " +
         fixed_text(delay.deviation_s, 3) + " s), " +
         (is_used         ? "used"
          : is_determined ? "not used, because it hardly differs from 0"
@@ -96,10 +103,9 @@ class Calibrator {
     const bool differs = off.norm() > std::max(kUsualError_m, kSignificant * mount.deviation_m) ||
                          std::abs(off.phi) > std::max(kUsualError_rad, kSignificant * mount.deviation_rad);
     const bool is_used = is_determined && differs;
-    if (is_used) made_.options.robot_T_laser = pose;
-    add("log.laser_x_m", pose.x, mount.deviation_m, is_used);
-    add("log.laser_y_m", pose.y, mount.deviation_m, is_used);
-    add("log.laser_yaw_deg", RAD2DEG(pose.phi), RAD2DEG(mount.deviation_rad), is_used);
+    add(kLaserX, pose.x, mount.deviation_m, is_used);
+    add(kLaserY, pose.y, mount.deviation_m, is_used);
+    add(kLaserYaw, RAD2DEG(pose.phi), RAD2DEG(mount.deviation_rad), is_used);
     say("estimates the pose of the laser: x " + fixed_text(pose.x, 3) + " m, y " + fixed_text(pose.y, 3) +
         " m, yaw " + fixed_text(RAD2DEG(pose.phi), 2) + " degrees (standard deviations " +
         fixed_text(mount.deviation_m, 3) + " m and " + fixed_text(RAD2DEG(mount.deviation_rad), 2) +
@@ -110,6 +116,7 @@ class Calibrator {
   }
 
   const OdometryCalibration& found_;
+  const LogOptions& options_;
   LogCalibration made_;
 };
 
@@ -119,11 +126,25 @@ LogCalibration use_calibration(const OdometryCalibration& calibration, const Log
   return Calibrator(calibration, options).made();
 }
 
-LogCalibration calibrate_log(const std::filesystem::path& log, const LogOptions& options) {
-  if (!options.calibrate) return {options, {}, {}};
-  LogCalibration calibration = use_calibration(calibrate_odometry(log, options), options);
-  for (CalibratedOption& estimate : calibration.estimates) estimate.log = log.filename().string();
-  return calibration;
+LogCalibration calibrate_log(const std::filesystem::path& log, const LogOptions& options,
+                             const ShareObserver& progress) {
+  return use_calibration(calibrate_odometry(log, options, progress), options);
+}
+
+LogOptions calibrated_options(LogOptions options, const LogCalibration& calibration) {
+  if (!options.calibrate) return options;
+  std::map<std::string, double> used;
+  std::vector<StatedDelay> delays;
+  for (const CalibratedOption& estimate : calibration.estimates) {
+    if (!estimate.is_used) continue;
+    if (estimate.option == kDelay) delays.push_back({estimate.laser, estimate.value});
+    used[estimate.option] = estimate.value;
+  }
+  if (const auto scale = used.find(kScale); scale != used.end()) options.odometry_scale = scale->second;
+  if (!delays.empty()) options.scan_delay_s = scan_delay_text(delays);
+  if (used.count(kLaserX) > 0)
+    options.robot_T_laser = TPose2D{used[kLaserX], used[kLaserY], DEG2RAD(used[kLaserYaw])};
+  return options;
 }
 
 }  // namespace psi_slam

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/share_observer.h"
 #include "exports/run_summary.h"
 #include "psi_slam/log_options.h"
 
@@ -13,22 +14,25 @@ namespace psi_slam {
 
 struct OdometryCalibration;
 
-/// Estimates of a log, and the options that read it with those estimates that the log determines well.
+/// Estimates of a log.
 struct LogCalibration {
-  LogOptions options;
   std::vector<CalibratedOption> estimates;
   std::vector<std::string> sentences;  ///< one for each estimate or obstacle, without full stop
 };
 
-/// Uses the estimates of options that `options` leave open: the scale if its standard deviation is at most
-/// 0.5 % and it is between 0.5 and 2; the mount of a single laser if those of its position and heading are at
-/// most 2 cm and 0.5 degrees; the delay if its own is at most a fifth of the time between scans or a tenth of
-/// the delay. Mount and delay must differ from what
-/// the log states by four standard deviations, and the mount by 3 cm or 0.8 degrees.
+/// Decides on the estimates of options that `options` leave open: the scale if its standard deviation is at
+/// most 0.5 % and it is between 0.5 and 2; the mount of a single laser if those of its position and heading
+/// are at most 2 cm and 0.5 degrees; the delay if its own is at most a fifth of the time between scans or a
+/// tenth of the delay. Mount and delay must differ from what the log states by four standard deviations, and
+/// the mount by 3 cm or 0.8 degrees.
 LogCalibration use_calibration(const OdometryCalibration& calibration, const LogOptions& options);
 
-/// Calibrates the log if options.calibrate is true, otherwise returns `options`. Throws UserError if the log
-/// is unreadable.
-LogCalibration calibrate_log(const std::filesystem::path& log, const LogOptions& options);
+/// Calibrates the log as `options` read it. The estimates do not name the log. Throws UserError if the log is
+/// unreadable.
+LogCalibration calibrate_log(const std::filesystem::path& log, const LogOptions& options,
+                             const ShareObserver& progress = {});
+
+/// Returns the options with those estimates that are used, unless options.calibrate is false.
+LogOptions calibrated_options(LogOptions options, const LogCalibration& calibration);
 
 }  // namespace psi_slam

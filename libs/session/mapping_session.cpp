@@ -91,10 +91,7 @@ bool MappingSession::step() {
 
 void MappingSession::Members::read_from(OpenedInput opened) {
   source = std::move(opened.frames);
-  estimates.insert(estimates.end(), opened.calibration.estimates.begin(), opened.calibration.estimates.end());
-  const std::string of_log = logs.size() > 1 ? logs.back().name + ": " : "";
-  for (const std::string& sentence : opened.calibration.sentences)
-    calibration_sentences.push_back(of_log + sentence);
+  logs.back().calibration = std::move(opened.calibration);
 }
 
 std::optional<Frame> MappingSession::Members::read() {

@@ -64,8 +64,6 @@ struct MappingSession::Members {
   std::size_t most_bent = 1000;    ///< number of entries of `bent` at which discarded frames are looked for
   std::unique_ptr<Mapper> mapper;  ///< null after finish() without stay_open()
   Mapper::AfterFinish after_finish = Mapper::AfterFinish::kNothing;
-  std::vector<CalibratedOption> estimates;         ///< of all logs
-  std::vector<std::string> calibration_sentences;  ///< about all logs
   EditJournal edits;
   std::vector<std::string> edit_complaints;
   Observer observer;

@@ -50,7 +50,11 @@ std::vector<std::string> MappingSession::unmet_edits() const {
 
 std::vector<std::string> MappingSession::assumptions() const {
   std::vector<std::string> assumptions = m_->source->assumptions();
-  assumptions.insert(assumptions.end(), m_->calibration_sentences.begin(), m_->calibration_sentences.end());
+  for (const RecordedLog& log : m_->logs) {
+    const std::string of_log = m_->logs.size() > 1 ? log.name + ": " : "";
+    if (!log.calibration) continue;
+    for (const std::string& sentence : log.calibration->sentences) assumptions.push_back(of_log + sentence);
+  }
   const std::vector<Frame>& log = m_->mapped_log();
   const auto without = static_cast<std::size_t>(
       std::count_if(log.begin(), log.end(), [](const Frame& frame) { return !frame.has_odometry; }));
@@ -90,7 +94,11 @@ RunInfo MappingSession::run_info() const {
   for (const OptionSection& section : bound.table.sections())
     for (const Option& option : section.options) info.settings[option.name()] = option.text();
   info.warnings = warnings();
-  info.calibration = m_->estimates;
+  for (const RecordedLog& log : m_->logs) {
+    if (!log.calibration) continue;
+    const std::vector<CalibratedOption>& estimates = log.calibration->estimates;
+    info.calibration.insert(info.calibration.end(), estimates.begin(), estimates.end());
+  }
   return info;
 }
 

@@ -204,9 +204,32 @@ TPose2D pose_of(const Json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
+Json json_of(const LogCalibration& calibration) {
+  Json estimates = Json::array();
+  for (const CalibratedOption& estimate : calibration.estimates)
+    estimates.push_back({{"log", estimate.log},
+                         {"laser", estimate.laser},
+                         {"option", estimate.option},
+                         {"value", estimate.value},
+                         {"deviation", estimate.deviation},
+                         {"is_used", estimate.is_used}});
+  return {{"estimates", estimates}, {"sentences", calibration.sentences}};
+}
+
+LogCalibration calibration_of(const Json& json) {
+  LogCalibration calibration;
+  for (const Json& estimate : json.at("estimates"))
+    calibration.estimates.push_back(
+        {estimate.at("log").get<std::string>(), estimate.at("laser").get<std::string>(),
+         estimate.at("option").get<std::string>(), estimate.at("value").get<double>(),
+         estimate.at("deviation").get<double>(), estimate.at("is_used").get<bool>()});
+  calibration.sentences = json.at("sentences").get<std::vector<std::string>>();
+  return calibration;
+}
+
 Json json_of(const SessionFacts& facts) {
   Json logs = Json::array();
-  for (const RecordedLog& log : facts.logs)
+  for (const RecordedLog& log : facts.logs) {
     logs.push_back({{"name", log.name},
                     {"sha256", log.sha256},
                     {"scans", log.scans},
@@ -216,6 +239,8 @@ Json json_of(const SessionFacts& facts) {
                       {"spare_scans", log.skipped.spare_scans}}},
                     {"broken_off", log.broken_off.value_or("")},
                     {"scans_left", log.scans_left}});
+    if (log.calibration) logs.back()["calibration"] = json_of(*log.calibration);
+  }
   Json runs = Json::array();
   for (const RecordedRun& run : facts.runs) {
     runs.push_back({{"scan", run.scan},
@@ -247,6 +272,7 @@ SessionFacts facts_of(const Json& json, std::uint32_t version, const fs::path& p
     facts.logs.push_back({log.at("name").get<std::string>(), log.at("sha256").get<std::string>(),
                           log.at("scans").get<std::size_t>()});
     if (version >= kFactsOfEachLog) read_faults(log, version, facts.logs.back());
+    if (log.contains("calibration")) facts.logs.back().calibration = calibration_of(log.at("calibration"));
   }
   // Older versions have these facts only for the last log.
   if (version < kFactsOfEachLog && !facts.logs.empty()) read_faults(json, version, facts.logs.back());

@@ -20,6 +20,15 @@ std::string name_of(const std::filesystem::path& log) {
   return (log.has_filename() ? log : log.parent_path()).filename().string();
 }
 
+/// Returns the calibration of a log that continues `last`: the robot and its lasers stay the same.
+std::optional<LogCalibration> continued(const RecordedLog& last, const std::string& name) {
+  if (!last.calibration || last.calibration->estimates.empty()) return std::nullopt;
+  LogCalibration calibration = *last.calibration;
+  for (CalibratedOption& estimate : calibration.estimates) estimate.log = name;
+  calibration.sentences = {"log.calibrate keeps the estimates of " + last.name};
+  return calibration;
+}
+
 /// Recorded frames, followed by the frames of a log. skipped_lines() covers only the last log, because the
 /// recording states the skipped lines of the earlier logs.
 class RecordedSource : public FrameSource {
@@ -114,14 +123,19 @@ SessionInput::SessionInput(std::shared_ptr<const SessionRecording> recording, st
   const std::string sha256 = sha256_of_log(log_);
   same_log_ = logs_.back().sha256 == sha256;
   if (same_log_) {  // the log is read from its beginning, which finds its skipped lines and damage again
-    logs_.back() = {logs_.back().name, sha256, logs_.back().scans};
+    RecordedLog& last = logs_.back();
+    last.skipped = SkippedLines();
+    last.broken_off.reset();
+    last.scans_left = false;
     return;
   }
   if (std::any_of(logs_.begin(), logs_.end(),
                   [&](const RecordedLog& known) { return known.sha256 == sha256; }))
     throw UserError(log_.string() + " is already in the session, before " + logs_.back().name +
                     ". Resume with " + logs_.back().name + " or with a log that follows it");
-  logs_.push_back({name_of(log_), sha256, 0});
+  RecordedLog next{name_of(log_), sha256, 0};
+  next.calibration = continued(logs_.back(), next.name);
+  logs_.push_back(std::move(next));
 }
 
 SessionInput SessionInput::of_file(const std::filesystem::path& path) {
@@ -134,6 +148,14 @@ SessionInput SessionInput::with_edits(EditJournal edits) const {
   input.edits_ = std::move(edits);
   input.edits_.rewind();
   return input;
+}
+
+void SessionInput::calibrate(const LogOptions& options, const ShareObserver& progress) {
+  RecordedLog& last = logs_.back();
+  if (!options.calibrate || log_.empty() || last.calibration) return;
+  LogCalibration calibration = calibrate_log(log_, options, progress);
+  for (CalibratedOption& estimate : calibration.estimates) estimate.log = last.name;
+  last.calibration = std::move(calibration);
 }
 
 std::unique_ptr<FrameSource> SessionInput::open(const LogOptions& options) const {
@@ -150,9 +172,11 @@ void check(const Settings& settings) {
 OpenedInput open_input(const SessionInput& input, const Settings& settings) {
   check(settings);
   OpenedInput opened;
-  opened.calibration.options = log_options(settings);
-  if (!input.log().empty()) opened.calibration = calibrate_log(input.log(), opened.calibration.options);
-  opened.frames = input.open(opened.calibration.options);
+  SessionInput calibrated = input;
+  calibrated.calibrate(log_options(settings));
+  opened.calibration = calibrated.logs().back().calibration;
+  opened.frames =
+      input.open(calibrated_options(log_options(settings), opened.calibration.value_or(LogCalibration())));
   if (worker_threads(settings.run) > 1) opened.frames = std::make_unique<ReadAhead>(std::move(opened.frames));
   return opened;
 }

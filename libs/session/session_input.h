@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,11 @@ class SessionInput {
   /// Returns this input with `edits` instead of its own edits.
   SessionInput with_edits(EditJournal edits) const;
 
+  /// Estimates the options that log.calibrate leaves open, unless that was done or the recording has the
+  /// estimates. open_input() does this too, but each time and without progress. Throws UserError if the log
+  /// is unreadable.
+  void calibrate(const LogOptions& options, const ShareObserver& progress = {});
+
   /// Returns a source of all frames, recorded frames first, numbered from 0. Throws UserError if the log is
   /// unreadable, or if it continues the recording but begins before the recording's end.
   std::unique_ptr<FrameSource> open(const LogOptions& options) const;
@@ -57,7 +63,7 @@ class SessionInput {
 /// An input that is open for a run.
 struct OpenedInput {
   std::unique_ptr<FrameSource> frames;
-  LogCalibration calibration;  ///< of the log; without estimates if log.calibrate is off or there is no log
+  std::optional<LogCalibration> calibration;  ///< of the last log; see RecordedLog::calibration
 };
 
 /// Opens the input for a run, after log.calibrate. If run.threads allows several threads, an extra thread

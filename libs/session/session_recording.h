@@ -12,6 +12,7 @@
 #include "psi_slam/frame_source.h"
 #include "psi_slam/mapper.h"
 #include "session/edit_journal.h"
+#include "session/log_calibration.h"
 
 namespace psi_slam {
 
@@ -21,8 +22,9 @@ struct RecordedLog {
   std::string sha256;     ///< see sha256_of_log(); empty if the log was unreadable when the session was saved
   std::size_t scans = 0;  ///< number of scans taken, from the log's beginning
   SkippedLines skipped{};
-  std::optional<std::string> broken_off{};  ///< damage after the last frame, as a sentence
-  bool scans_left = false;                  ///< whether the log is known to have more scans
+  std::optional<std::string> broken_off{};      ///< damage after the last frame, as a sentence
+  bool scans_left = false;                      ///< whether the log is known to have more scans
+  std::optional<LogCalibration> calibration{};  ///< by which the log was read; empty without log.calibrate
 };
 
 /// A merged run other than the first one; see RunStart.

@@ -75,9 +75,9 @@ void describe_log(OptionTable& table, Settings& settings) {
       .optional_number("odometry_scale", log.odometry_scale, between(0.01, 100), "",
                        "True distance divided by the distance that odometry measures. auto: 1, or the "
                        "estimate of calibrate.")
-      .optional_number("scan_delay_s", log.scan_delay_s, between(-1, 1), "s",
-                       "Time by which scans are stamped later than odometry. auto: 0, or the estimate of "
-                       "calibrate.")
+      .text("scan_delay_s", log.scan_delay_s,
+            "Time by which scans are stamped later than odometry, in s: one for all lasers, or NAME SECONDS "
+            "for each laser, separated by commas. auto: 0, or the estimates of calibrate.")
       .flag("calibrate", log.calibrate,
             "Estimates the scale of odometry, the delay of scans and the pose of the laser from the scans "
             "before mapping, and uses what the log determines well.")

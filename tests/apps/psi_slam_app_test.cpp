@@ -210,6 +210,33 @@ TEST_F(PsiSlamApp, an_interrupt_ends_the_mapping_with_a_map) {
   EXPECT_EQ(read_trajectory(output("out") / "trajectory.tum").size(), scans);
 }
 
+TEST_F(PsiSlamApp, an_interrupt_ends_the_calibration_without_a_map) {
+  const std::string log = room_log(3000);
+  const AppProcess process({log, "-o", output("out").string(), "--verbose", "--set", "log.calibrate=true"},
+                           folder_.path());
+  const auto began = std::chrono::steady_clock::now();
+  while (bytes_of(folder_.path() / "stderr").empty() &&
+         std::chrono::steady_clock::now() - began < std::chrono::seconds(60))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the program has told its settings
+  process.send(SIGINT);
+  const AppRun run = process.finish();
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.err, HasSubstr("psi-slam: interrupted before " + fs::path(log).filename().string() +
+                                 " was calibrated. Nothing was written\n"));
+  EXPECT_FALSE(fs::exists(output("out")));
+}
+
+TEST_F(PsiSlamApp, shows_the_progress_of_a_calibration) {
+  const std::string log = room_log(100);
+  const auto err = [&](bool is_terminal) {
+    return run_app({log, "-o", output("out").string(), "--force", "--set", "log.calibrate=true"}, is_terminal)
+        .err;
+  };
+  EXPECT_THAT(err(true), HasSubstr("calibrating " + fs::path(log).filename().string() + "   "));
+  EXPECT_EQ(err(false).find("calibrating"), std::string::npos);
+}
+
 TEST_F(PsiSlamApp, applies_a_file_of_edits) {
   const std::string log = room_log(150);
   ASSERT_EQ(map(log, "as_it_is").code, 0);

@@ -98,7 +98,7 @@ TEST_F(CarmenReaderTest, combines_lasers_whose_mounts_are_stated) {
   EXPECT_EQ(frames[1].scan.laser, 0U) << "the front laser opens frames";
   EXPECT_EQ(frames[1].scan.robot_T_laser.x, 0.2);
   EXPECT_TRUE(contents_.several_lasers);
-  EXPECT_EQ(contents_.first_laser, "FLASER");
+  EXPECT_EQ(contents_.laser_names.front().front(), "FLASER");
   EXPECT_FALSE(contents_.states_beam_angles);
   EXPECT_THAT(contents_.assumptions,
               testing::ElementsAre("the scans of FLASER, RLASER are combined, because their mounts are "
@@ -125,7 +125,8 @@ TEST_F(CarmenReaderTest, reads_one_laser_where_a_mount_is_unknown) {
     EXPECT_EQ(read(log).size(), 1U);
     EXPECT_FALSE(contents_.several_lasers);
     ASSERT_EQ(contents_.assumptions.size(), 1U);
-    EXPECT_THAT(contents_.assumptions[0], testing::HasSubstr("are not used, because no fixed and level"));
+    EXPECT_THAT(contents_.assumptions[0],
+                testing::HasSubstr("are not used, because no fixed and level mount of their own is stated."));
   }
 }
 

@@ -224,7 +224,7 @@ TEST_F(InputDoctorTest, measures_the_delay_of_scans) {
       << finding.remedy;
   EXPECT_NEAR(delay_s, 0.25, 0.03);
   LogOptions stated;
-  stated.scan_delay_s = 0.25;
+  stated.scan_delay_s = "0.25";
   EXPECT_TRUE(finding_of(diagnose_run(run, stated), "scan_delay").sentence.empty());
 }
 

@@ -58,6 +58,24 @@ TEST(QuickCheck, finds_wrong_units_of_odometry) {
               ElementsAre(HasSubstr("millimetres")));
 }
 
+TEST(QuickCheck, finds_odometry_that_measures_wrong_distances) {
+  const auto faults_at = [](double scale, const LogOptions& options = {}) {
+    std::vector<Frame> frames = frames_of(round_trips(2));
+    for (Frame& frame : frames) {
+      frame.odom_T_robot.x *= scale;
+      frame.odom_T_robot.y *= scale;
+    }
+    return quick_check(frames, 0, frames.size(), options);
+  };
+  EXPECT_THAT(faults_at(1.08), ElementsAre(HasSubstr("odometry overstates distances by ")));
+  EXPECT_THAT(faults_at(0.92), ElementsAre(HasSubstr("odometry understates distances by ")));
+  EXPECT_THAT(faults_at(1.03), IsEmpty()) << "usual for wheels";
+  LogOptions stated;  // the frames of a mapped log are corrected already
+  stated.odometry_scale = 0.8;
+  EXPECT_THAT(faults_at(1, stated), IsEmpty());
+  EXPECT_THAT(faults_at(0.9, stated), ElementsAre(HasSubstr("log.odometry_scale = 0.8")));
+}
+
 TEST(QuickCheck, finds_a_laser_that_looks_backwards) {
   EXPECT_THAT(faults_after([](Frame& frame) { frame.scan.robot_T_laser.phi = M_PI; }),
               ElementsAre(HasSubstr("log.laser_yaw_deg = ")));
@@ -70,7 +88,7 @@ TEST(QuickCheck, finds_late_scans) {
   EXPECT_THAT(faults[0], HasSubstr("turns show that the scans are stamped 0."));
   EXPECT_THAT(faults[0], HasSubstr("s later than odometry"));
   LogOptions corrected;  // the frames of a mapped log are corrected already
-  corrected.scan_delay_s = 0.3;
+  corrected.scan_delay_s = "0.3";
   const std::vector<Frame> sound = frames_of(round_trips(2));
   EXPECT_THAT(quick_check(sound, 0, sound.size(), corrected), IsEmpty());
 }

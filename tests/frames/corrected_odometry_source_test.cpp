@@ -31,7 +31,8 @@ std::vector<Frame> numbered(std::vector<Frame> frames) {
 }
 
 std::vector<Frame> corrected(const std::vector<Frame>& frames, double scale, double delay_s) {
-  CorrectedOdometrySource source(std::make_unique<FramesInMemory>(frames), scale, delay_s);
+  CorrectedOdometrySource source(std::make_unique<FramesInMemory>(frames), scale,
+                                 [&](std::size_t) { return delay_s; });
   std::vector<Frame> all;
   while (auto frame = source.next()) all.push_back(*std::move(frame));
   return all;
@@ -92,6 +93,23 @@ TEST(CorrectedOdometrySource, gives_each_scan_the_odometry_of_its_measurement) {
       EXPECT_NEAR(mrpt::math::wrapToPi(result[i].odom_T_robot.phi - expected.phi), 0, 1e-9);
     }
   }
+}
+
+TEST(CorrectedOdometrySource, gives_each_laser_its_own_delay) {
+  const std::vector<Frame> frames = random_run(3);
+  const auto delay_s = [](std::size_t laser) { return laser == 0 ? 0.4 : -0.15; };
+  CorrectedOdometrySource source(std::make_unique<FramesInMemory>(frames), 1, delay_s);
+  for (const Frame& frame : frames) {
+    const auto given = source.next();
+    ASSERT_TRUE(given);
+    EXPECT_EQ(given->time_us, frame.time_us);
+    const TPose2D expected =
+        interpolated(frames, frame.time_us - std::llround(1e6 * delay_s(frame.scan.laser)));
+    EXPECT_NEAR(given->odom_T_robot.x, expected.x, 1e-9) << frame.index;
+    EXPECT_NEAR(given->odom_T_robot.y, expected.y, 1e-9) << frame.index;
+    EXPECT_NEAR(mrpt::math::wrapToPi(given->odom_T_robot.phi - expected.phi), 0, 1e-9) << frame.index;
+  }
+  EXPECT_FALSE(source.next());
 }
 
 TEST(CorrectedOdometrySource, scales_distances_and_keeps_turns) {
@@ -158,7 +176,7 @@ class DamagedLog : public FramesInMemory {
 
 TEST(CorrectedOdometrySource, throws_an_error_after_the_frames_before_it) {
   const std::vector<Frame> frames = random_run(6);
-  CorrectedOdometrySource source(std::make_unique<DamagedLog>(frames), 1, -0.5);
+  CorrectedOdometrySource source(std::make_unique<DamagedLog>(frames), 1, [](std::size_t) { return -0.5; });
   for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(source.next()->index, i);
   EXPECT_THROW(source.next(), UserError);
 }

@@ -43,8 +43,13 @@ TEST(LogOptions, invalid_values_are_reported_by_name_and_value) {
   options.odometry_scale = 0;
   EXPECT_EQ(sentence_about(options), "log.odometry_scale is 0, expected 0.01 to 100");
   options = {};
-  options.scan_delay_s = -1.5;
-  EXPECT_EQ(sentence_about(options), "log.scan_delay_s is -1.5, expected -1 to 1 seconds");
+  for (const char* wrong : {"-1.5", "late", "0.1, 0.2", "A 0.1, A 0.2", "A 0.1, 0.2", "A 0.1,", "A"}) {
+    options.scan_delay_s = wrong;
+    EXPECT_EQ(sentence_about(options),
+              std::string("log.scan_delay_s is \"") + wrong +
+                  "\", expected auto, -1 to 1 seconds, or a laser's name and its seconds such as \"RLASER "
+                  "0.1\". Separate several lasers by commas, and name each one once");
+  }
 
   options = {};
   options.robot_T_laser = mrpt::math::TPose2D{0, std::numeric_limits<double>::infinity(), 0};

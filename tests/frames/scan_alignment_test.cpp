@@ -134,6 +134,21 @@ TEST(ScanAlignment, sees_walls_across_the_ends_of_a_full_circle) {
   EXPECT_FALSE(AlignableScan(run.scan(0)).is_full_circle());
 }
 
+TEST(ScanAlignment, knows_the_blind_sector_of_a_laser_that_sees_straight_backwards) {
+  SimulatedRun run;
+  run.truth = {{6, 2, 0.3}, {6, 2, 0.3 + DEG2RAD(60.0)}};
+  run.bearings_rad.clear();
+  for (int i = 0; i <= 270; ++i)  // blind from -90 to 0 degrees
+    run.bearings_rad.push_back(static_cast<float>(DEG2RAD(static_cast<double>(i))));
+  const AlignableScan reference(run.scan(0));
+  EXPECT_FALSE(reference.is_full_circle());
+  EXPECT_NEAR(reference.bearing_rad({-1, -0.1}), M_PI + std::atan(0.1), 1e-9);
+  const ScanAlignment alignment =
+      align_scans(reference, AlignableScan(run.scan(1)), TPose2D{0, 0, DEG2RAD(58.0)});
+  EXPECT_NEAR(alignment.reference_T_scan.phi, DEG2RAD(60.0), DEG2RAD(0.2));
+  EXPECT_GT(alignment.matched_share, 0.95) << "points in the blind sector of the reference do not count";
+}
+
 TEST(ScanAlignment, of_full_circles_matches_points_across_their_ends) {
   SimulatedRun run;
   run.bearings_rad = make_bearings_rad(BeamAngles::kLeftOpen, 360, 2 * M_PI);

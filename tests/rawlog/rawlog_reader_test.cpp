@@ -119,7 +119,7 @@ TEST_F(RawlogReaderTest, combines_lasers_at_different_poses) {
   read({movement({1, 0, 0}), sensory_frame({scan_at("FRONT", 0.2), scan_at("REAR", -0.2)})});
   EXPECT_EQ(contents_.laser, "FRONT, REAR");
   EXPECT_TRUE(contents_.several_lasers);
-  EXPECT_EQ(contents_.first_laser, "FRONT");
+  EXPECT_EQ(contents_.laser_names.front().front(), "FRONT");
   EXPECT_THAT(contents_.assumptions, testing::ElementsAre(testing::HasSubstr("FRONT, REAR are combined")));
 
   read({movement({1, 0, 0}), sensory_frame({scan_at("A", 0.2), scan_at("TILTED", 0.1, 1.0)})});
@@ -132,6 +132,12 @@ TEST_F(RawlogReaderTest, combines_lasers_at_different_poses) {
   read({movement({1, 0, 0}), sensory_frame({scan_at("A", 0.2), scan_at("B,C", -0.2), scan_at("D", 0.3)})});
   EXPECT_EQ(contents_.laser, "A, D");
   EXPECT_EQ(contents_.other_lasers.at("B,C"), 1U) << "log.laser cannot name it";
+
+  RawlogObjects slow{movement({1, 0, 0})};
+  for (int i = 0; i < 150; ++i) slow.push_back(sensory_frame({scan_at("FAST", 0.2)}));
+  slow.push_back(sensory_frame({scan_at("SLOW", -0.2)}));
+  read(slow);
+  EXPECT_EQ(contents_.laser, "FAST, SLOW");
 
   LogOptions options;
   options.robot_T_laser = TPose2D{0.1, 0, 0};

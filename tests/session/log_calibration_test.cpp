@@ -5,11 +5,14 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "doctor/odometry_calibration.h"
+#include "frames/laser_choice.h"
 #include "psi_slam/mapping_session.h"
+#include "psi_slam/open_log.h"
 #include "session/settings.h"
 #include "simulated_run.h"
 #include "temporary_folder.h"
@@ -25,8 +28,7 @@ using testing::IsEmpty;
 
 OdometryCalibration well_determined() {
   OdometryCalibration calibration;
-  calibration.median_period_s = 0.1;
-  calibration.delay = ScanDelay{100, 0.25, 0.005};
+  calibration.delays = {{"", 0.1, ScanDelay{100, 0.25, 0.005}}};
   LaserMountEstimate mount;
   mount.robot_T_laser = {0.2, 0.01, mrpt::DEG2RAD(1.5)};
   mount.deviation_m = 0.004;
@@ -37,11 +39,19 @@ OdometryCalibration well_determined() {
   return calibration;
 }
 
+/// Returns the options that log.calibrate leaves after these estimates.
+LogOptions options_after(const LogCalibration& calibration, LogOptions options = {}) {
+  options.calibrate = true;
+  return calibrated_options(options, calibration);
+}
+
 TEST(LogCalibration, uses_what_the_log_determines) {
   const LogCalibration made = use_calibration(well_determined(), {});
-  EXPECT_EQ(made.options.odometry_scale, 1.25);
-  EXPECT_EQ(made.options.scan_delay_s, 0.25);
-  EXPECT_EQ(made.options.robot_T_laser, TPose2D(0.2, 0.01, mrpt::DEG2RAD(1.5)));
+  const LogOptions options = options_after(made);
+  EXPECT_EQ(options.odometry_scale, 1.25);
+  EXPECT_EQ(options.scan_delay_s, "0.25");
+  EXPECT_EQ(options.robot_T_laser, TPose2D(0.2, 0.01, mrpt::DEG2RAD(1.5)));
+  EXPECT_FALSE(calibrated_options({}, made).odometry_scale) << "without log.calibrate";
   EXPECT_EQ(made.estimates.size(), 5U);
   EXPECT_THAT(
       made.sentences,
@@ -53,13 +63,13 @@ TEST(LogCalibration, uses_what_the_log_determines) {
 
 TEST(LogCalibration, uses_nothing_that_the_log_does_not_determine) {
   OdometryCalibration calibration = well_determined();
-  calibration.delay->deviation_s = 0.03;
+  calibration.delays.front().delay->deviation_s = 0.03;
   calibration.mount->deviation_rad = 0.02;
   calibration.mount->scale_deviation = 0.01;
   const LogCalibration made = use_calibration(calibration, {});
-  EXPECT_FALSE(made.options.odometry_scale);
-  EXPECT_FALSE(made.options.scan_delay_s);
-  EXPECT_FALSE(made.options.robot_T_laser);
+  EXPECT_FALSE(options_after(made).odometry_scale);
+  EXPECT_EQ(options_after(made).scan_delay_s, "auto");
+  EXPECT_FALSE(options_after(made).robot_T_laser);
   ASSERT_EQ(made.estimates.size(), 5U);
   for (const CalibratedOption& estimate : made.estimates) EXPECT_FALSE(estimate.is_used);
   for (const std::string& sentence : made.sentences)
@@ -68,9 +78,9 @@ TEST(LogCalibration, uses_nothing_that_the_log_does_not_determine) {
 
 TEST(LogCalibration, uses_no_delay_that_may_be_zero) {
   OdometryCalibration calibration = well_determined();
-  calibration.delay->delay_s = 0.01;
+  calibration.delays.front().delay->delay_s = 0.01;
   const LogCalibration made = use_calibration(calibration, {});
-  EXPECT_FALSE(made.options.scan_delay_s);
+  EXPECT_EQ(options_after(made).scan_delay_s, "auto");
   EXPECT_THAT(made.sentences[1], HasSubstr("not used, because it hardly differs from 0"));
 }
 
@@ -78,19 +88,19 @@ TEST(LogCalibration, keeps_a_stated_mount_that_may_be_right) {
   OdometryCalibration calibration = well_determined();
   calibration.stated_mount = {0.21, 0.005, mrpt::DEG2RAD(1.3)};
   const LogCalibration made = use_calibration(calibration, {});
-  EXPECT_FALSE(made.options.robot_T_laser);
+  EXPECT_FALSE(options_after(made).robot_T_laser);
   EXPECT_THAT(made.sentences[2], HasSubstr("not used, because it hardly differs from the stated pose"));
 }
 
 TEST(LogCalibration, options_of_the_user_take_precedence) {
   LogOptions options;
   options.odometry_scale = 1.1;
-  options.scan_delay_s = 0;
+  options.scan_delay_s = "0";
   options.laser_mounts = "FLASER 0.3 0 0";
   const LogCalibration made = use_calibration(well_determined(), options);
-  EXPECT_EQ(made.options.odometry_scale, 1.1);
-  EXPECT_EQ(made.options.scan_delay_s, 0);
-  EXPECT_FALSE(made.options.robot_T_laser);
+  EXPECT_EQ(options_after(made, options).odometry_scale, 1.1);
+  EXPECT_EQ(options_after(made, options).scan_delay_s, "0");
+  EXPECT_FALSE(options_after(made, options).robot_T_laser);
   EXPECT_THAT(made.estimates, IsEmpty());
   EXPECT_THAT(made.sentences, IsEmpty());
 }
@@ -99,12 +109,84 @@ TEST(LogCalibration, leaves_several_lasers_and_says_what_prevents_it) {
   OdometryCalibration calibration = well_determined();
   calibration.several_lasers = true;
   const LogCalibration made = use_calibration(calibration, {});
-  EXPECT_EQ(made.options.odometry_scale, 1.25);
-  EXPECT_FALSE(made.options.robot_T_laser);
+  EXPECT_EQ(options_after(made).odometry_scale, 1.25);
+  EXPECT_FALSE(options_after(made).robot_T_laser);
   EXPECT_EQ(made.sentences[2], "log.calibrate leaves the poses of several lasers unchanged");
   calibration.obstacle = "the log has no odometry";
   EXPECT_THAT(use_calibration(calibration, {}).sentences,
               ElementsAre("log.calibrate estimates nothing, because the log has no odometry"));
+}
+
+TEST(LogCalibration, uses_a_delay_for_each_laser) {
+  OdometryCalibration calibration = well_determined();
+  calibration.several_lasers = true;
+  calibration.delays = {{"/front", 0.1, ScanDelay{100, 0.25, 0.005}},
+                        {"/rear", 0.1, ScanDelay{100, 0.001, 0.005}},
+                        {"/left", 0.1, ScanDelay{100, -0.0625, 0.005}},
+                        {"/right", 0.1, std::nullopt}};
+  const LogCalibration made = use_calibration(calibration, {});
+  EXPECT_EQ(options_after(made).scan_delay_s, "/front 0.25, /left -0.0625");
+  EXPECT_EQ(
+      made.sentences[2],
+      "log.calibrate estimates the delay of scans of /rear: 0.001 s (standard deviation 0.005 s), not used, "
+      "because it hardly differs from 0");
+  EXPECT_EQ(made.sentences[4], "log.calibrate finds no turns that show a delay of scans of /right below 1 s");
+}
+
+/// Log of a front and a rear laser whose scans are stamped late by different times.
+std::string log_of_two_lasers(double front_delay_s, double rear_delay_s) {
+  SimulatedRun front = with_late_stamps(round_trips(1), front_delay_s);
+  SimulatedRun rear = with_late_stamps(round_trips(1), rear_delay_s);
+  front.robot_T_laser = {0.2, 0, 0};
+  rear.robot_T_laser = {-0.2, 0, M_PI};
+  std::string log = "PARAM robot_frontlaser_offset 0.2 host 1\nPARAM robot_rearlaser_offset -0.2 host 1\n";
+  std::istringstream fronts(carmen_log(front));
+  std::istringstream rears(carmen_log(rear));
+  std::string front_line;
+  std::string rear_line;
+  while (std::getline(fronts, front_line) && std::getline(rears, rear_line)) {
+    if (front_line.front() == '#') continue;
+    rear_line.front() = 'R';
+    log += front_line + '\n' + rear_line + '\n';
+  }
+  return log;
+}
+
+TEST(LogCalibration, estimates_the_delay_of_each_laser) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "two.log";
+  write_file(path, log_of_two_lasers(0.3, 0.1));
+  LogOptions options;
+  options.calibrate = true;
+  double last = 0;
+  const LogCalibration made = calibrate_log(path, options, [&](double share) {
+    EXPECT_GE(share, last);
+    last = share;
+  });
+  EXPECT_NEAR(last, 1, 1e-9);
+  const LogOptions calibrated = calibrated_options(options, made);
+  const std::vector<StatedDelay> delays = stated_delays(calibrated);
+  ASSERT_EQ(delays.size(), 2U) << calibrated.scan_delay_s;
+  EXPECT_NEAR(delay_of_laser(delays, {"FLASER", "front"}), 0.3, 0.03);
+  EXPECT_NEAR(delay_of_laser(delays, {"RLASER", "rear"}), 0.1, 0.03);
+  EXPECT_EQ(made.estimates[1].laser, "FLASER");
+  EXPECT_THAT(made.sentences, testing::Contains(HasSubstr("the delay of scans of RLASER: 0.")));
+
+  // Scans that were measured at different times of one stamp show so in the odometry between them.
+  const auto farthest_m = [&](const LogOptions& by) {
+    double farthest = 0;
+    const auto log = open_log(path, by);
+    while (const auto frame = log->next())
+      for (const CompanionScan& companion : frame->companions)
+        farthest = std::max(farthest, companion.frame_T_robot.norm());
+    return farthest;
+  };
+  EXPECT_LT(farthest_m({}), 1e-9);
+  EXPECT_NEAR(farthest_m(calibrated), 0.08, 0.02) << "in 0.2 s at 0.4 m/s";
+  LogOptions wrong;
+  wrong.scan_delay_s = "LEFT 0.1";
+  EXPECT_THAT(sentence_of([&] { open_log(path, wrong); }),
+              HasSubstr("log.scan_delay_s is \"LEFT\", expected"));
 }
 
 /// Two rooms at the ends of a corridor of 50 m whose walls show no motion along it.

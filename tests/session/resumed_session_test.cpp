@@ -2,8 +2,12 @@
 // Tests that a run that is interrupted, saved and resumed gives the same results as one without interruption.
 #include <gmock/gmock.h>
 
+#include <sstream>
+
+#include "exports/run_summary.h"
 #include "frames/discarded_ranges.h"
 #include "psi_slam/mapping_session.h"
+#include "psi_slam/user_error.h"
 #include "report/output_folder.h"
 #include "room_log.h"
 #include "same_results.h"
@@ -11,6 +15,7 @@
 #include "session/session_file.h"
 #include "session/session_input.h"
 #include "session/settings.h"
+#include "simulated_run.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {
@@ -252,6 +257,82 @@ TEST_F(ContinuedWithAnotherLog, warns_of_a_damaged_log) {
 TEST_F(ContinuedWithAnotherLog, warns_of_an_interrupted_log) {
   saved_after(40, log("first.log", lines_of_first()));
   expect_told_again_and_again("only the first 40 scans of first.log are mapped", true);
+}
+
+/// A log with odometry that measures 10 % too much.
+class CalibratedSession : public ResumedSession {
+ protected:
+  CalibratedSession() {
+    settings_.log.calibrate = true;
+    SimulatedRun run = round_trips(1);
+    for (mrpt::math::TPose2D& pose : run.odometry) {
+      pose.x *= 1.1;
+      pose.y *= 1.1;
+    }
+    std::istringstream text(carmen_log(run));
+    for (std::string line; std::getline(text, line);) lines_.push_back(line);
+  }
+
+  /// Returns how often the observer of the calibration was called.
+  int steps_of_calibration(SessionInput& input) const {
+    int steps = 0;
+    input.calibrate(log_options(settings_), [&](double) { ++steps; });
+    return steps;
+  }
+
+  static double scale_of(const RunInfo& info) {
+    for (const CalibratedOption& estimate : info.calibration)
+      if (estimate.option == "log.odometry_scale" && estimate.is_used) return estimate.value;
+    return 0;
+  }
+
+  std::vector<std::string> lines_;
+};
+
+TEST_F(CalibratedSession, is_resumed_without_another_calibration_and_gives_the_same_bytes) {
+  const auto path = log("room.log", lines_);
+  SessionInput input(path);
+  EXPECT_GT(steps_of_calibration(input), 100);
+  EXPECT_EQ(steps_of_calibration(input), 0) << "of a calibrated input";
+  MappingSession plain(input, settings_);
+  plain.run(go_on_);
+  const fs::path whole = export_of(plain, "uninterrupted");
+  EXPECT_NEAR(scale_of(plain.run_info()), 1 / 1.1, 0.01);
+  saved_after(60, path);
+  SessionInput rest = resumed(path);
+  EXPECT_EQ(steps_of_calibration(rest), 0);
+  MappingSession session(rest, settings_);
+  session.run(go_on_);
+  EXPECT_EQ(session.result().frames.size(), lines_.size() - 1);
+  expect_same_results(whole, export_of(session, "resumed"));
+  EXPECT_EQ(session.run_info().warnings, plain.run_info().warnings);
+  EXPECT_EQ(scale_of(session.run_info()), scale_of(plain.run_info()));
+}
+
+TEST_F(CalibratedSession, keeps_its_estimates_for_a_log_that_continues_it) {
+  const auto half = lines_.begin() + 200;
+  saved_after(200, log("first.log", {lines_.begin(), half}));
+  const double scale = read_session_file(saved_).facts.logs.back().calibration->estimates.front().value;
+  SessionInput input = resumed(log("second.log", {half, lines_.end()}));
+  EXPECT_EQ(steps_of_calibration(input), 0);
+  EXPECT_EQ(input.logs().back().calibration->estimates.front().value, scale);
+  EXPECT_EQ(input.logs().back().calibration->estimates.front().log, "second.log");
+  EXPECT_THAT(input.logs().back().calibration->sentences,
+              ElementsAre("log.calibrate keeps the estimates of first.log"));
+}
+
+TEST_F(CalibratedSession, can_be_interrupted_while_it_calibrates) {
+  SessionInput input(log("room.log", lines_));
+  double last = 0;
+  EXPECT_THROW(input.calibrate(log_options(settings_),
+                               [&](double share) {
+                                 EXPECT_GE(share, last);
+                                 last = share;
+                                 if (share > 0.4) throw SystemFailure("interrupted");
+                               }),
+               SystemFailure);
+  EXPECT_LT(last, 0.5);
+  EXPECT_FALSE(input.logs().back().calibration);
 }
 
 TEST_F(ResumedSession, rejects_a_log_that_does_not_continue_it) {

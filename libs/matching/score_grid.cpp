@@ -12,24 +12,33 @@ int ceil_divide(int a, int b) {
   return (a + b - 1) / b;
 }
 
+// Writes the maxima of pairs of cells. The result must not overlap the cells, so that the compiler vectorises
+// the loop.
+void halve(const std::uint8_t* cells, std::size_t pairs, std::uint8_t* __restrict maxima) {
+  for (std::size_t i = 0; i < pairs; ++i) maxima[i] = std::max(cells[2 * i], cells[2 * i + 1]);
+}
+
 // Returns a pyramid level: maxima over aligned stride x stride blocks of `fine`, then over 2 x 2 neighbouring
-// blocks.
+// blocks. The stride is a power of two.
 ScoreLevel pool(const ScoreLevel& fine, int stride) {
   const int blocks_x = ceil_divide(fine.width(), stride);
   const int blocks_y = ceil_divide(fine.height(), stride);
   ScoreLevel blocks(blocks_x, blocks_y, stride);
-  std::vector<std::uint8_t> highest(static_cast<std::size_t>(fine.width()));  // cells of a row of blocks
+  const auto padded = static_cast<std::size_t>(blocks_x) * static_cast<std::size_t>(stride);
+  std::vector<std::uint8_t> highest(padded);  // cells of a row of blocks, then maxima over 2, 4, ... of them
+  std::vector<std::uint8_t> halves(padded);
   for (int row = 0; row < blocks_y; ++row) {
     std::fill(highest.begin(), highest.end(), std::uint8_t{0});
     for (int y = row * stride; y < std::min((row + 1) * stride, fine.height()); ++y)
-      std::transform(highest.begin(), highest.end(), fine.cell(0, y), highest.begin(),
+      std::transform(fine.cell(0, y), fine.cell(0, y) + fine.width(), highest.begin(), highest.begin(),
                      [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
-    std::uint8_t* block = blocks.cell(0, row);
-    for (auto first = highest.cbegin(); first != highest.cend(); ++block) {
-      const auto last = first + std::min<std::ptrdiff_t>(stride, highest.cend() - first);
-      *block = *std::max_element(first, last);
-      first = last;
+    std::size_t cells = padded;
+    for (int width = 1; width < stride; width *= 2) {
+      cells /= 2;
+      halve(highest.data(), cells, halves.data());
+      highest.swap(halves);
     }
+    std::copy_n(highest.begin(), cells, blocks.cell(0, row));
   }
   // Cells with x or y = -1 lie in the margin. They cover points just left of or below the grid, so they
   // include the first blocks.

@@ -71,7 +71,10 @@ TPose2D motion_of_first_scan(const Frame& frame, const TPose2D& motion, double d
 }  // namespace
 
 FrontEnd::FrontEnd(const FrontEndOptions& options)
-    : options_(options), matcher_(matcher_options(options)), constant_velocity_(options.constant_velocity) {}
+    : options_(options),
+      matcher_(matcher_options(options)),
+      constant_velocity_(options.constant_velocity),
+      doubtful_corrections_(options.doubtful_corrections) {}
 
 FrontEndStep FrontEnd::add(const Frame& frame, bool may_be_lost) {
   if (auto standing = step_of_standing_robot(frame)) return *std::move(standing);
@@ -80,7 +83,7 @@ FrontEndStep FrontEnd::add(const Frame& frame, bool may_be_lost) {
   step.points = std::make_shared<const ScanPoints>(
       matching_points(step.straightened ? *step.straightened : frame, options_.scan));
   const Motion motion = motion_to(frame);
-  doubtful_correction_m_ *= std::exp(-motion.length_m / options_.doubtful_correction_travel_m);
+  doubtful_corrections_.moved(motion.length_m, motion.correction_sigma_m);
   step.local_T_robot = last_local_T_robot_ + motion.predicted;
   step.window = search_extent(motion);
   // Without a point farther than one cell from the robot, make_search_window() may throw.
@@ -106,6 +109,7 @@ FrontEndStep FrontEnd::add(const Frame& frame, bool may_be_lost) {
   constant_velocity_.moved(frame.time_us, local_T_middle, step.matched, frame.imu_heading_rad, in_mid_sweep);
   last_local_T_middle_ = local_T_middle;
   last_motion_ = step.local_T_robot - last_local_T_robot_;
+  last_predicted_motion_ = motion.predicted;
   last_local_T_robot_ = step.local_T_robot;
   misses_ = step.matched ? 0 : misses_ + 1;
   standstill_.add(frame, step.local_T_robot, step.matched);
@@ -197,6 +201,11 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
       weight * std::hypot(motion.predicted.x - last_motion_.x, motion.predicted.y - last_motion_.y);
   motion.disagreement_rad = weight * std::abs(mrpt::math::wrapToPi(motion.predicted.phi - last_motion_.phi));
   motion.wide_disagreement_rad = motion.disagreement_rad;
+  // Compared with odometry only: a wrong match must not make the next wrong correction plausible.
+  const double uneven_m = std::hypot(motion.predicted.x - last_predicted_motion_.x,
+                                     motion.predicted.y - last_predicted_motion_.y);
+  motion.correction_sigma_m =
+      std::hypot(motion.sigma_m, options_.prior_per_surprise * std::min(uneven_m, motion.disagreement_m));
   motion.after_gap = constant_velocity_.is_gap(frame.time_us);
   return motion;
 }
@@ -212,6 +221,7 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(const Frame& frame) const {
   motion.disagreement_rad = predicted.sigma_since_match_rad;
   motion.wide_disagreement_rad = predicted.sigma_without_gyroscope_rad;
   motion.sigma_m = predicted.sigma_m;
+  motion.correction_sigma_m = predicted.sigma_m;
   motion.sigma_rad = predicted.sigma_rad;
   motion.after_gap = constant_velocity_.is_gap(frame.time_us);
   return motion;
@@ -277,7 +287,7 @@ std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Mot
   const double needed = std::max(
       options_.wide_response_gain * std::max(poor_response, options_.min_response_share * expected_response_),
       motion.after_gap ? kSureShare * expected_response_ : 0.0);
-  const ScoreGrid& grid = older.map->scores_with_pyramid();
+  const ScoreGrid& grid = older.map->scores();
   MatchResult match = search(step, coarse_scan(*step.points), grid, unknown, wide, needed);
   if (!match.found) return {};
   const RefinedPose refined = refine(grid, *step.points, match.map_T_robot, options_.refinement, unknown);
@@ -354,12 +364,17 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   if (!best.found) return;
 
   RefinedPose chosen = {best.map_T_robot, best.refined_response, best.information, 0};
-  if (!wide) {
+  if (wide) {
+    doubtful_corrections_.add_unjudged();
+  } else {
     const RefinedPose predicted =
         refine(grid, *step.points, best_prior.map_T_robot, options_.refinement, best_prior);
     if (predicted.mean_score >= options_.prediction_share * best.refined_response) chosen = predicted;
-    if (motion.length_m > 0)  // zero motion may mean a stalled encoder
+    if (motion.length_m > 0) {
       if (const auto held = held_to_odometry(grid, *step.points, chosen, best_prior)) chosen = *held;
+    } else {
+      doubtful_corrections_.add_unjudged();  // perhaps a stalled encoder
+    }
   }
   step.matched = true;
   step.response = best.response;
@@ -373,7 +388,10 @@ std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, con
   constexpr double kHeldSigma_m = 5e-3;
   const TPose2D& pose = matched.map_T_robot;
   const Eigen::Vector2d correction(pose.x - prior.map_T_robot.x, pose.y - prior.map_T_robot.y);
-  if (correction.norm() < kSmallestCorrection_m) return {};
+  if (correction.norm() < kSmallestCorrection_m) {
+    doubtful_corrections_.add_supported(correction.norm());
+    return {};
+  }
   const Eigen::Vector2d along = correction.normalized();
   PosePrior tight = prior;
   tight.information.topLeftCorner<2, 2>() += along * along.transpose() / (kHeldSigma_m * kHeldSigma_m);
@@ -381,15 +399,13 @@ std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, con
                             options_.refinement, tight);
   if (held.mean_score < options_.held_share * matched.mean_score) {
     const CorrectionScores rest = scores_without_best_spot(grid, scan, pose, held.map_T_robot);
-    if (rest.held < options_.held_share * rest.matched)
-      return {};  // enough of the scan supports the correction
+    if (rest.held < options_.held_share * rest.matched) {
+      doubtful_corrections_.add_supported(correction.norm());
+      return {};
+    }
   }
-  const Eigen::Vector2d sum_m =
-      doubtful_correction_m_ + Eigen::Rotation2Dd(-pose.phi).toRotationMatrix() * correction;
-  if (sum_m.norm() <= std::max(options_.max_doubtful_correction_m, doubtful_correction_m_.norm())) {
-    doubtful_correction_m_ = sum_m;
+  if (doubtful_corrections_.add_doubtful(Eigen::Rotation2Dd(-pose.phi).toRotationMatrix() * correction))
     return {};
-  }
   Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
   across.topLeftCorner<2, 2>() -= along * along.transpose();
   held.information = Eigen::Matrix3d(across * held.information * across);

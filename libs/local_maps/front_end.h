@@ -18,6 +18,7 @@
 
 #include "base/degrees.h"
 #include "local_maps/constant_velocity_model.h"
+#include "local_maps/doubtful_corrections.h"
 #include "local_maps/local_map.h"
 #include "local_maps/scan_filter.h"
 #include "local_maps/standstill.h"
@@ -74,13 +75,11 @@ struct FrontEndOptions {
   // Only a small part of the scan supports a doubtful correction of the odometry. A person who walks ahead of
   // the robot along a bare corridor causes such corrections: the mapped path becomes too short. A correction
   // is doubtful if the pose held to odometry scores at least `held_share` of the matched pose's score. It is
-  // also doubtful if this holds without the person-sized spot of the scan that supports the match most. The
-  // sum of doubtful corrections falls to 1/e over `doubtful_correction_travel_m` of travel. A correction that
-  // would raise the sum above `max_doubtful_correction_m` is not applied. So doubtful corrections can correct
-  // a scale error of odometry of at most max_doubtful_correction_m / doubtful_correction_travel_m.
+  // also doubtful if this holds without the person-sized spot of the scan that supports the match most.
+  // DoubtfulCorrections decides which of them are applied. The sum of those that are applied can correct a
+  // scale error of odometry of at most max_sum_m / travel_m.
   double held_share = 0.9;
-  double max_doubtful_correction_m = 0.2;
-  double doubtful_correction_travel_m = 4.5;
+  DoubtfulCorrectionOptions doubtful_corrections;
 
   // Standard deviations of odometry, for the covariance of the poses where scans do not determine the pose.
   // The variance grows with time, path and turns, and does not depend on the rate of scans.
@@ -175,6 +174,9 @@ class FrontEnd {
     double sigma_m = 0;  ///< standard deviations of the motion, for the covariance of the poses
     double sigma_rad = 0;
     bool after_gap = false;  ///< scans are missing before this scan
+    /// Standard deviation of the motion for DoubtfulCorrections. Includes the change of odometry's speed
+    /// since the last step, because odometry that is read late or in bursts moves unevenly.
+    double correction_sigma_m = 0;
     /// Odometry began again at zero or jumped farther than a robot drives, so the motion is not measured.
     bool was_restarted = false;
   };
@@ -205,10 +207,9 @@ class FrontEnd {
   MatchResult search(FrontEndStep& step, const ScanPoints& scan, const ScoreGrid& grid,
                      const PosePrior& prior, const SearchExtent& window, double min_response) const;
   std::optional<MatchResult> search_widely(FrontEndStep& step, const Motion& motion, double poor_response);
-  /// Decides whether to apply the correction of odometry by a match, and updates the sum of doubtful
-  /// corrections. Returns nothing if the correction is applied. If the sum would become too large (see
-  /// FrontEndOptions), returns the pose held to the prediction in the direction of the correction. The
-  /// information of this pose is zero in that direction.
+  /// Decides whether to apply the correction of odometry by a match. Returns nothing if it is applied.
+  /// Otherwise returns the pose held to the prediction in the direction of the correction. The information of
+  /// this pose is zero in that direction.
   std::optional<RefinedPose> held_to_odometry(const ScoreGrid& grid, const ScanPoints& scan,
                                               const RefinedPose& matched, const PosePrior& prior);
   void propagate_covariances(const FrontEndStep& step, const Motion& motion);
@@ -228,10 +229,11 @@ class FrontEnd {
   mrpt::math::TPose2D last_local_T_robot_;
   mrpt::math::TPose2D last_local_T_middle_;  ///< pose in the middle of the last sweep
   mrpt::math::TPose2D last_motion_;
-  Eigen::Vector2d doubtful_correction_m_ = Eigen::Vector2d::Zero();  ///< decaying sum, along the robot's axes
-  double expected_response_ = 0.5;                                   ///< decaying mean of the responses
-  int misses_ = 0;                 ///< number of successive scans without a match
-  double unmatched_travel_m_ = 0;  ///< path since the last match, or since all local maps ended
+  mrpt::math::TPose2D last_predicted_motion_;
+  DoubtfulCorrections doubtful_corrections_;
+  double expected_response_ = 0.5;  ///< decaying mean of the responses
+  int misses_ = 0;                  ///< number of successive scans without a match
+  double unmatched_travel_m_ = 0;   ///< path since the last match, or since all local maps ended
   mrpt::math::TPose2D last_node_local_T_robot_;
 };
 

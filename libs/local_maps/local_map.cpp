@@ -161,14 +161,7 @@ const ScoreGrid& LocalMap::scores() {
                   std::min(width, dirty_.x_end + reach), std::min(height, dirty_.y_end + reach),
                   scores_.finest());
     dirty_ = {};
-    scores_.drop_pyramid();
   }
-  return scores_;
-}
-
-const ScoreGrid& LocalMap::scores_with_pyramid() {
-  scores();
-  if (!scores_.has_pyramid()) scores_.build_pyramid();
   return scores_;
 }
 

@@ -60,11 +60,8 @@ class LocalMap {
   /// Occupancy grid of all inserted scans; empty for a finished map.
   const std::optional<mrpt::maps::COccupancyGridMap2D>& occupancy() const { return grid_; }
 
-  /// Returns the score grid, updated with all inserted scans. It may lack its pyramid until the map is
-  /// finished.
+  /// Returns the score grid, updated with all inserted scans. It lacks its pyramid until the map is finished.
   const ScoreGrid& scores();
-  /// Returns the updated score grid with its pyramid, for a search in a wide window.
-  const ScoreGrid& scores_with_pyramid();
   const ScoreGrid& scores() const { return scores_; }  ///< score grid without update, for a finished map
 
   /// Ends the insertion of scans: builds the pyramid and frees the occupancy grid.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace psi_slam {
 namespace {
@@ -12,6 +13,17 @@ using Grid = mrpt::maps::COccupancyGridMap2D;
 // Occupancy probability that counts as full evidence. A single hit reaches it, so logs with few scans can be
 // matched.
 constexpr double kCertain = 0.65;
+
+// Number of cells that none_occupied() reads.
+constexpr int kBlock = 8;
+
+// Returns whether none of kBlock cells is occupied. MRPT: negative log-odds are occupied.
+bool none_occupied(const Grid::cellType* cells) {
+  static_assert(sizeof(Grid::cellType) == 1);
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, cells, kBlock);
+  return (bits & 0x8080808080808080U) == 0;
+}
 
 }  // namespace
 
@@ -46,7 +58,9 @@ void ScorePainter::paint(const Grid& grid, int x, int y, int x_end, int y_end, S
   for (int cy = from_y; cy < to_y; ++cy) {
     const Grid::cellType* cells = grid.getRow(cy);
     for (int cx = from_x; cx < to_x; ++cx) {
-      if (cells[cx] >= 0) continue;  // MRPT: negative log-odds are occupied
+      while (cx + kBlock <= to_x && none_occupied(cells + cx)) cx += kBlock;
+      if (cx == to_x) break;
+      if (cells[cx] >= 0) continue;  // not occupied
       const std::uint16_t evidence = evidence_[static_cast<std::uint8_t>(cells[cx])];
       std::uint16_t* target =
           sums_.data() + static_cast<std::ptrdiff_t>(cy - y + reach_) * row + (cx - x + reach_);

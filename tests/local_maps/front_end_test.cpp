@@ -320,10 +320,11 @@ TEST(FrontEnd, a_person_who_walks_ahead_along_a_bare_corridor_does_not_hold_the_
     const SimulatedDrive drive = behind_a_person(ahead_m);
     FrontEndOptions options;
     options.scan.max_range_m = 8;  // leaves out far beams at grazing angles
-    const double let_pass_m = 25 * options.max_doubtful_correction_m / options.doubtful_correction_travel_m;
+    const double let_pass_m =
+        25 * options.doubtful_corrections.max_sum_m / options.doubtful_corrections.travel_m;
     EXPECT_LT(errors_of(follow(drive, options), drive).largest_m, let_pass_m) << "error over a path of 25 m";
     options.held_share = 1;
-    options.max_doubtful_correction_m = 100;
+    options.doubtful_corrections = {1000, 100, 1};
     EXPECT_GT(errors_of(follow(drive, options), drive).largest_m, 4)
         << "without the limit, the mapped path is too short";
   }

@@ -119,18 +119,6 @@ TEST(LocalMap, the_surface_between_joined_ends_is_occupied) {
     EXPECT_GT(score_at(of_full_circle.scores(), middle(100, y)), 0) << "the first end is joined to the last";
 }
 
-TEST(LocalMap, the_pyramid_of_an_active_map_follows_what_is_drawn) {
-  LocalMap map(without_smoothing());
-  map.insert(beam(middle(0, 0), middle(40, 0)));
-  EXPECT_TRUE(map.scores_with_pyramid().has_pyramid());
-  map.insert(beam(middle(0, 0), middle(0, 40)));
-  EXPECT_FALSE(map.scores().has_pyramid()) << "an old pyramid would be out of date";
-  const ScoreGrid& scores = map.scores_with_pyramid();
-  const int x = static_cast<int>(std::floor((middle(0, 40).x - scores.origin_x_m()) / scores.resolution_m()));
-  const int y = static_cast<int>(std::floor((middle(0, 40).y - scores.origin_y_m()) / scores.resolution_m()));
-  EXPECT_GT(scores.pyramid(0).at(x / 2, y / 2), 0);
-}
-
 TEST(LocalMap, every_beam_is_a_line_without_holes_to_beside_its_end) {
   std::mt19937_64 random(2);
   std::uniform_int_distribution<int> cell(-60, 60);

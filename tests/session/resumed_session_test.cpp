@@ -374,7 +374,7 @@ TEST_F(ResumedSession, ignores_obsolete_options_with_a_warning) {
   EXPECT_EQ(bound.settings.mapper.front_end.window_m, 0.2);
   facts.settings = "[front_end]\nmax_strain_m = 0.3\n[last_pass]\npasses = 1\n";
   EXPECT_THAT(load_recorded(bound, facts, "old.session"), IsEmpty());
-  EXPECT_EQ(bound.settings.mapper.front_end.max_doubtful_correction_m, 0.3);
+  EXPECT_EQ(bound.settings.mapper.front_end.doubtful_corrections.max_sum_m, 0.3);
   EXPECT_EQ(bound.settings.mapper.back_end.final_search.passes, 1);
   facts.settings = "[front_end]\nwindow_m = -1\n";
   EXPECT_THAT(sentence_of([&] { load_recorded(bound, facts, "old.session"); }),

@@ -139,8 +139,8 @@ TEST_F(SettingsTest, old_option_names_are_accepted_with_a_warning) {
   apply_override("front_end.strain_travel_m=4", table_);
   apply_override("consensus.max_rival_share=0.4", table_);
   EXPECT_EQ(settings_.mapper.back_end.final_search.passes, 1);
-  EXPECT_EQ(settings_.mapper.front_end.max_doubtful_correction_m, 0.3);
-  EXPECT_EQ(settings_.mapper.front_end.doubtful_correction_travel_m, 4);
+  EXPECT_EQ(settings_.mapper.front_end.doubtful_corrections.max_sum_m, 0.3);
+  EXPECT_EQ(settings_.mapper.front_end.doubtful_corrections.travel_m, 4);
   EXPECT_THAT(dump(table_), HasSubstr("\nmax_other_place_share = 0.4\n"));
   EXPECT_THAT(
       table_.take_warnings(),

@@ -30,7 +30,11 @@ class MatcherPolicy {
 
   MatcherKind kind(double psi) const { return matcher_kind(choice_, psi_, psi); }
 
-  /// Returns the matcher of a kind. Throws std::invalid_argument if kind() never returns `kind`.
+  /// Matcher for a node whose place is unknown. Psi says nothing about windows of whole local maps.
+  MatcherKind kind_anywhere() const { return choice_.value_or(kWholeMapMatcher); }
+
+  /// Returns the matcher of a kind. Throws std::invalid_argument if neither kind() nor kind_anywhere() ever
+  /// returns `kind`.
   ChosenMatcher matcher(MatcherKind kind) const;
 
  private:

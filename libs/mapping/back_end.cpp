@@ -24,7 +24,8 @@ NodeLoops BackEnd::close(std::size_t node, const KeyframeStore& keyframes, PoseG
 }
 
 NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph) {
-  matcher_of_node_.push_back(policy_.kind(factor_.value().psi));
+  matcher_of_node_.push_back(is_unplaced(node, keyframes) ? policy_.kind_anywhere()
+                                                          : policy_.kind(factor_.value().psi));
   const ChosenMatcher matcher = policy_.matcher(matcher_of_node_.back());
   LoopCloser::Outcome outcome = closer_.close(node, keyframes, graph, matcher, pool_);
   NodeLoops loops;

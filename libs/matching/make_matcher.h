@@ -21,6 +21,11 @@ class CorrelativeMatcher : public WindowMatcher {
   FoundPeaks find_peaks(const SearchLattice& lattice, const PeakRequest& request) const override;
 };
 
+/// Matcher for windows in which the robot may be anywhere, at any heading: whole maps and whole local maps.
+/// An exact search is slow where nothing fits, and there most of these searches fail. See
+/// share/doc/matchers.md, "How the cost grows".
+inline constexpr MatcherKind kWholeMapMatcher = MatcherKind::kGa;
+
 /// Creates a matcher. `genetic` has no effect on kCsm.
 std::unique_ptr<Matcher> make_matcher(MatcherKind kind, const MatcherOptions& options,
                                       const GeneticOptions& genetic);

@@ -41,6 +41,13 @@ TEST(MatcherPolicy, a_fixed_choice_does_not_depend_on_psi) {
     for (const MatcherKind kind : kMatcherKinds) EXPECT_EQ(matcher_kind(kind, {}, psi), kind);
 }
 
+TEST(MatcherPolicy, searches_genetically_where_the_place_is_unknown) {
+  const MatcherPolicy adaptive(std::nullopt, thresholds(1, 4), {}, {});
+  EXPECT_EQ(adaptive.matcher(adaptive.kind_anywhere()).kind, MatcherKind::kGa);
+  for (const MatcherKind kind : kMatcherKinds)
+    EXPECT_EQ(MatcherPolicy(kind, {}, {}, {}).kind_anywhere(), kind);
+}
+
 TEST(MatcherPolicy, owns_the_matchers_it_may_choose) {
   const MatcherPolicy adaptive(std::nullopt, thresholds(1, 4), {}, {});
   for (const MatcherKind kind : kMatcherKinds) EXPECT_EQ(adaptive.matcher(kind).matcher.name(), name(kind));

@@ -62,8 +62,15 @@ void add_match_command(CLI::App& app, const Streams& streams) {
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   add_seed_option(match, options.seed, "Seed of the cases and of the random matchers");
-  match.add_flag("--windows", options.windows,
-                 "Also compare the matchers over window sizes and over sizes of local maps");
+  match
+      .add_option(
+          "--parts", options.parts,
+          "Parts to run, of scans, contexts, windows and local-maps, separated by commas. The last two "
+          "compare over sizes of the window and of local maps, with a fifth of the cases")
+      ->delimiter(',')
+      ->check(CLI::IsMember({kScansPart, kContextsPart, kWindowsPart, kLocalMapsPart}))
+      ->capture_default_str()
+      ->type_name("NAMES");
   run_on_logs(
       match, arguments, streams, [](const BenchArguments& given) { return logs_of(given); },
       [](const auto& logs, const auto& how, const ProgressObserver& progress) {

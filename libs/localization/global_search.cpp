@@ -15,6 +15,8 @@ using mrpt::math::TPose2D;
 // Share of min_response that the coarse search needs. It is below 1, because large cells score less, and
 // because rejected places are reported too.
 constexpr double kSearchedShare = 0.9;
+// The exact search that checks a place starts at this share of its response, which allows for rounding.
+constexpr double kCheckedShare = 0.999;
 constexpr double kFineCells = 1.5;  // half-width of the window in the fine grid, in coarse cells
 constexpr double kFineWindow_rad = radians_from_degrees(2.0L);
 
@@ -28,6 +30,12 @@ MatcherOptions with_quick_ambiguity(MatcherOptions options) {
 
 constexpr int kWallScore = 160;      // of 255; reached inside a wall, but not beside it
 constexpr double kSurface_m = 0.25;  // a wall this close in front of the hit surface counts as that surface
+// A wall blocks a beam only if it continues this far to both sides of the beam, in metres and in cells.
+// Specks do not block beams, and neither do the thick ends of walls that a beam passes.
+constexpr double kBeside_m = 0.1;
+constexpr double kBesideCells = 2;
+constexpr double kAlongBeside =
+    2;  // searched along the beam, as a multiple: walls that a beam crosses at 27 degrees
 constexpr double kLeastIncidence = 0.05;  // lower bound of the sine of the angle between beam and wall
 constexpr double kNoSurface = 0.5;        // sine of the angle between beam and wall without a surface normal
 
@@ -50,6 +58,7 @@ std::string two_decimals(double value) {
 ClearBeams clear_beams(const ScoreGrid& map, const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot) {
   ClearBeams result;
   const double cells_per_m = 1 / map.resolution_m();
+  const double beside = std::max(kBeside_m * cells_per_m, kBesideCells);
   const double c = std::cos(map_T_robot.phi);
   const double s = std::sin(map_T_robot.phi);
   for_each_laser(scan, [&](const mrpt::math::TPoint2Df& origin, std::size_t first, std::size_t last) {
@@ -67,9 +76,19 @@ ClearBeams clear_beams(const ScoreGrid& map, const ScanPoints& scan, const mrpt:
       const double step_x = c * dx - s * dy;
       const double step_y = s * dx + c * dy;
       const double end = (range_m - tolerance_m(scan, i, dx, dy)) * cells_per_m;
+      const auto is_wall = [&](double t, double left) {
+        return map.finest().at(floor_to_int(x0 + t * step_x - left * step_y),
+                               floor_to_int(y0 + t * step_y + left * step_x)) >= kWallScore;
+      };
+      const auto is_wall_beside = [&](double t, double left) {
+        bool found = false;
+        for (double along = -kAlongBeside * beside; along <= kAlongBeside * beside && !found; along += 1)
+          found = is_wall(t + along, left);
+        return found;
+      };
       bool clear = true;
       for (double t = 0; t < end && clear; t += 1)
-        clear = map.finest().at(floor_to_int(x0 + t * step_x), floor_to_int(y0 + t * step_y)) < kWallScore;
+        clear = !is_wall(t, 0) || !is_wall_beside(t, beside) || !is_wall_beside(t, -beside);
       ++result.beams;
       if (clear) ++result.clear;
     }
@@ -81,17 +100,33 @@ GlobalSearch::GlobalSearch(ReferenceMap map, const GlobalSearchOptions& options)
     : map_(std::move(map)),
       options_(options),
       matcher_(make_matcher(options.matcher, with_quick_ambiguity(options.match), options.genetic)),
+      exact_matcher_(with_quick_ambiguity(options.match)),
       fine_matcher_(options.match) {}
 
 FoundPlace GlobalSearch::find(std::size_t node, const KeyframeStore& memory, const MatchSeed& seed) const {
-  FoundPlace place;
   const ScanPoints context = scan_context(node, memory, options_.context);
-  const ScoreGrid& coarse = map_.coarse->scores();
-  if (context.points.empty() || context.farthest_m <= coarse.resolution_m()) {
+  if (context.points.empty() || context.farthest_m <= map_.coarse->scores().resolution_m()) {
+    FoundPlace place;
     place.objection = "the scan has no points";
     return place;
   }
-  const MatchResult somewhere = match_anywhere(context, seed);
+  const MatchResult somewhere =
+      match_anywhere(*matcher_, kSearchedShare * options_.min_response, context, seed);
+  FoundPlace place = judge(somewhere, context, node, memory);
+  if (!place.believed() || options_.matcher == MatcherKind::kCsm) return place;
+
+  // A genetic search may have missed a place that fits as well or better. The exact search finds it, and it
+  // is fast, because it need not consider places with lower responses.
+  const std::int64_t evaluations = place.evaluations;
+  place = judge(match_anywhere(exact_matcher_, kCheckedShare * somewhere.response, context, seed), context,
+                node, memory);
+  place.evaluations += evaluations;
+  return place;
+}
+
+FoundPlace GlobalSearch::judge(const MatchResult& somewhere, const ScanPoints& context, std::size_t node,
+                               const KeyframeStore& memory) const {
+  FoundPlace place;
   place.evaluations = somewhere.evaluations;
   if (!somewhere.found) {
     place.objection = "no place of the map fits";
@@ -101,7 +136,7 @@ FoundPlace GlobalSearch::find(std::size_t node, const KeyframeStore& memory, con
   place.map_T_robot = somewhere.map_T_robot;
   place.response = somewhere.response;
   place.ambiguity = somewhere.ambiguity.value_or(0);
-  const double window_m = kFineCells * coarse.resolution_m();
+  const double window_m = kFineCells * map_.coarse->scores().resolution_m();
   const MatchResult exactly = fine_matcher_.match(
       {map_.fine->scores(), context, somewhere.map_T_robot, {window_m, window_m, kFineWindow_rad}});
   place.evaluations += exactly.evaluations;
@@ -116,22 +151,31 @@ FoundPlace GlobalSearch::find(std::size_t node, const KeyframeStore& memory, con
 // Matches the context in the whole map at all headings. If the best heading is near +-180 degrees, both ends
 // of the window contain it, and the match seems ambiguous. The search is then repeated with a window centred
 // on 180 degrees.
-MatchResult GlobalSearch::match_anywhere(const ScanPoints& context, const MatchSeed& seed) const {
+MatchResult GlobalSearch::match_anywhere(const Matcher& matcher, double min_response,
+                                         const ScanPoints& context, const MatchSeed& seed) const {
   const ScoreGrid& grid = map_.coarse->scores();
   const double half_x_m = 0.5 * grid.finest().width() * grid.resolution_m();
   const double half_y_m = 0.5 * grid.finest().height() * grid.resolution_m();
   const TPose2D middle(grid.origin_x_m() + half_x_m, grid.origin_y_m() + half_y_m, 0);
   MatchProblem problem{grid, context, middle, {half_x_m, half_y_m, M_PI}};
-  problem.min_response = kSearchedShare * options_.min_response;
+  problem.min_response = min_response;
   problem.measure_ambiguity = true;
   problem.seed = seed;
-  MatchResult match = matcher_->match(problem);
+  MatchResult match = matcher.match(problem);
   if (!match.found || std::abs(match.lattice_pose.phi) < M_PI - options_.match.distinct_rad) return match;
   const std::int64_t evaluations = match.evaluations;
   problem.map_T_robot.phi = M_PI;
-  match = matcher_->match(problem);
+  match = matcher.match(problem);
   match.evaluations += evaluations;
   return match;
+}
+
+// Returns the least share of clear beams of a place. Specks and moved furniture block many beams at the true
+// place, but there no other place comes near. Where one does, the beams must decide between them.
+double GlobalSearch::least_clear_share(double ambiguity) const {
+  const double rivalry = std::clamp(
+      (ambiguity - kLeastAmbiguity) / std::max(options_.max_ambiguity - kLeastAmbiguity, 1e-3), 0.0, 1.0);
+  return (1 - rivalry) * options_.min_clear_share_alone + rivalry * options_.min_clear_share;
 }
 
 std::string GlobalSearch::objection(FoundPlace& place, const ScanPoints& context, std::size_t node,
@@ -164,7 +208,7 @@ std::string GlobalSearch::objection(FoundPlace& place, const ScanPoints& context
   if (place.agree < options_.min_agree)
     return "no place of the map fits: at the best place, only " + two_decimals(place.agree) +
            " of the scans' points lie on walls";
-  if (place.clear_share < options_.min_clear_share)
+  if (place.clear_share < least_clear_share(place.ambiguity))
     return "no place of the map fits: at the best place, only " + two_decimals(place.clear_share) +
            " of the beams pass through no wall";
   place.ambiguous = place.ambiguity > options_.max_ambiguity;

@@ -2,7 +2,8 @@
 // Finds a robot in a map without a start pose. The last scans, placed by the robot's own motion, are matched
 // in a window that covers the whole map and all headings. A coarse grid is searched first, then the map's own
 // cells near the best place. The place is accepted if its response is high enough, no other place fits as
-// well, and the scans do not contradict the map.
+// well, and the scans do not contradict the map. An exact search checks each place that a genetic search
+// found and that would be accepted.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +20,9 @@
 
 namespace psi_slam {
 
-/// Number of beams of a scan, and of those that cross no wall of the map. At the true pose, no beam crosses a
-/// wall. The ends of the beams alone prove little, because in a large building most ends lie near some wall.
+/// Number of beams of a scan, and of those that cross no wall of the map. At the true pose, few beams cross a
+/// wall: only where the building has changed since it was mapped. The ends of the beams alone prove little,
+/// because in a large building most ends lie near some wall.
 struct ClearBeams {
   std::size_t beams = 0;  ///< number of all beams
   std::size_t clear = 0;  ///< number of beams that cross no wall before their end
@@ -28,7 +30,7 @@ struct ClearBeams {
 };
 
 /// Follows all beams of the scan through the map. A wall near the end of a beam counts as the surface that
-/// the beam hit.
+/// the beam hit. A wall that ends within 0.1 m and two cells of a beam does not block it.
 ClearBeams clear_beams(const ScoreGrid& map, const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot);
 
 class GlobalSearch {
@@ -42,13 +44,18 @@ class GlobalSearch {
   const ReferenceMap& map() const { return map_; }
 
  private:
-  MatchResult match_anywhere(const ScanPoints& context, const MatchSeed& seed) const;
+  MatchResult match_anywhere(const Matcher& matcher, double min_response, const ScanPoints& context,
+                             const MatchSeed& seed) const;
+  FoundPlace judge(const MatchResult& somewhere, const ScanPoints& context, std::size_t node,
+                   const KeyframeStore& memory) const;
+  double least_clear_share(double ambiguity) const;
   std::string objection(FoundPlace& place, const ScanPoints& context, std::size_t node,
                         const KeyframeStore& memory) const;
 
   ReferenceMap map_;
   GlobalSearchOptions options_;
   std::unique_ptr<Matcher> matcher_;
+  CorrelativeMatcher exact_matcher_;
   CorrelativeMatcher fine_matcher_;
 };
 

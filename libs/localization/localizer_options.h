@@ -14,7 +14,7 @@ namespace psi_slam {
 
 /// Options of a search of the whole map.
 struct GlobalSearchOptions {
-  MatcherKind matcher = MatcherKind::kCsm;
+  MatcherKind matcher = kLargeWindowMatcher;
   GeneticOptions genetic;  ///< options of csm_ga and ga
   MatcherOptions match;
   double resolution_m = 0.1;  ///< largest cell size of the coarse grid, which is searched first
@@ -25,7 +25,11 @@ struct GlobalSearchOptions {
   double max_ambiguity = 0.87;      ///< largest ratio of the next best place's response to the best response
   double min_observed_share = 0.5;  ///< smallest share of the scans' points in space that the map shows
   double min_agree = 0.75;          ///< smallest share of the points in mapped space that lie on walls
-  double min_clear_share = 0.9;     ///< smallest share of the scans' beams that cross no wall of the map
+  /// Smallest share of the scans' beams that cross no wall of the map, if another place fits nearly as well
+  /// (max_ambiguity).
+  double min_clear_share = 0.9;
+  /// The same share if the response of no other place reaches three quarters of the best response.
+  double min_clear_share_alone = 0.6;
 };
 
 struct LocalizerOptions {

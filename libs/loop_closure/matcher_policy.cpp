@@ -23,7 +23,7 @@ ChosenMatcher MatcherPolicy::matcher(MatcherKind kind) const {
 
 NodeMatchers MatcherPolicy::matchers(double psi) const {
   NodeMatchers matchers = {matcher(kind(psi))};
-  if (!choice_) matchers.of_large_windows.emplace(matcher(MatcherKind::kGa));
+  if (!choice_) matchers.of_large_windows.emplace(matcher(kLargeWindowMatcher));
   matchers.max_poses = psi_.max_poses;
   return matchers;
 }

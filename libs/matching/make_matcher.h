@@ -21,6 +21,11 @@ class CorrelativeMatcher : public WindowMatcher {
   FoundPeaks find_peaks(const SearchLattice& lattice, const PeakRequest& request) const override;
 };
 
+/// Matcher for large windows, such as whole maps and whole local maps at any heading. An exact search is slow
+/// where nothing fits, and most searches in such windows find nothing. See share/doc/matchers.md, "How the
+/// cost grows".
+inline constexpr MatcherKind kLargeWindowMatcher = MatcherKind::kGa;
+
 /// Creates a matcher. `genetic` has no effect on kCsm.
 std::unique_ptr<Matcher> make_matcher(MatcherKind kind, const MatcherOptions& options,
                                       const GeneticOptions& genetic);

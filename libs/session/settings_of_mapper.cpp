@@ -452,8 +452,10 @@ void describe_mapper(OptionTable& table, MapperOptions& mapper) {
 void describe_localization(OptionTable& table, LocalizerOptions& localization) {
   GlobalSearchOptions& search = localization.search;
   table.section("localization", "psi-slam localize: finding and tracking a robot in a finished map")
-      .choice("matcher", search.matcher, matcher_choices<MatcherKind>(),
-              "Matcher that searches the whole map while the robot is lost.")
+      .choice(
+          "matcher", search.matcher, matcher_choices<MatcherKind>(),
+          "Matcher that searches the whole map while the robot is lost. The exact search, csm, also checks "
+          "each place that csm_ga or ga finds and that would be accepted.")
       .number("search_resolution_m", search.resolution_m, between(0.005, 10), "m",
               "Cell size for searching the whole map. Larger cells of the map itself are kept.")
       .number("search_travel_m", localization.search_travel_m, above(0), "m",
@@ -473,8 +475,14 @@ void describe_localization(OptionTable& table, LocalizerOptions& localization) {
               "Search of the whole map: least share of the points that lie in observed space.")
       .number("min_search_agree", search.min_agree, between(0, 1), "",
               "Search of the whole map: least share of the points in observed space that lie on walls.")
-      .number("min_clear_share", search.min_clear_share, between(0, 1), "",
-              "Search of the whole map: least share of the beams that pass through no wall.")
+      .number(
+          "min_clear_share", search.min_clear_share, between(0, 1), "",
+          "Search of the whole map: least share of the beams that pass through no wall, where another place "
+          "fits nearly as well.")
+      .number(
+          "min_clear_share_alone", search.min_clear_share_alone, between(0, 1), "",
+          "Search of the whole map: least share of the beams that pass through no wall, where no other place "
+          "has three quarters of the response. Furniture and specks of the map block beams too.")
       .number("min_response", localization.min_response, between(0, 1), "",
               "Tracking: least response of a scan.")
       .number("min_agree", localization.min_agree, between(0, 1), "",

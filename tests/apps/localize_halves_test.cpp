@@ -8,8 +8,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <thread>
 
+#include "../localization/degraded_map.h"
 #include "localization/localization_report.h"
 #include "localization/reference_map.h"
 #include "psi_slam/mapping_session.h"
@@ -223,6 +225,108 @@ TEST(LocalizeHalves, tracks_a_robot_through_the_second_half) {
   std::thread told([&] { follow_second_half(halves, map, options, true); });
   follow_second_half(halves, map, options, false);
   told.join();
+}
+
+constexpr std::size_t kStretches = 10;  // of the second half of each log
+constexpr double kStretch_s = 40;
+constexpr double kFirstForeignShare = 0.05;  // of a log whose building the map does not show
+
+struct StretchCounts {
+  std::size_t found = 0;
+  std::size_t wrong = 0;
+  std::size_t possible = 0;  ///< stretches in which a search met the true place, believed or not
+  std::size_t searches = 0;
+};
+
+/// Sets a robot down at `first` and adds scans for kStretch_s, or until it is found. `map_T_robot` are the
+/// true poses; empty: the map shows another building, so every place is wrong.
+void localize_stretch(std::size_t first, const std::vector<Frame>& frames,
+                      const std::vector<TPose2D>& map_T_robot, Localizer& localizer, StretchCounts& counts) {
+  const auto is_right = [&](const TPose2D& place, std::size_t frame) {
+    return !map_T_robot.empty() && distance_m(place, map_T_robot[frame]) <= kFalse_m;
+  };
+  bool possible = false;
+  for (std::size_t i = first; i < frames.size(); ++i) {
+    if (static_cast<double>(frames[i].time_us - frames[first].time_us) > 1e6 * kStretch_s) break;
+    const LocalizationStep step = localizer.add(frames[i]);
+    if (step.search) ++counts.searches;
+    possible = possible || (step.search && step.search->found && is_right(step.search->map_T_robot, i));
+    if (step.state != LocalizationStep::State::kTracking) continue;
+    ++(is_right(step.map_T_robot, i) ? counts.found : counts.wrong);
+    break;
+  }
+  if (possible) ++counts.possible;
+}
+
+StretchCounts localize_stretches(const std::vector<Frame>& frames, const std::vector<TPose2D>& map_T_robot,
+                                 double from_share, const ReferenceMap& map,
+                                 const LocalizerOptions& options) {
+  StretchCounts counts;
+  for (std::size_t k = 0; k < kStretches; ++k) {
+    const double share = from_share + (1 - from_share) * static_cast<double>(k) / kStretches;
+    Localizer localizer(map, options);
+    localize_stretch(static_cast<std::size_t>(share * static_cast<double>(frames.size())), frames,
+                     map_T_robot, localizer, counts);
+  }
+  return counts;
+}
+
+struct NamedFaults {
+  const char* name;
+  MapFaults faults;
+};
+
+/// Faults: displaced_cells, thickened_cells, ragged_share, speck_share, furniture_per_m2, merged_cells.
+constexpr NamedFaults kFaults[] = {
+    {"as drawn", {}},
+    {"walls of 5 cells", {1, 2, 0, 0, 0, 1}},
+    {"ragged walls and specks", {1, 0, 0.3, 0.005, 0, 1}},
+    {"thick walls, specks, furniture", {1, 1, 0, 0.005, 1.0 / 12, 1}},
+    {"cells of 0.1 m, thick and ragged walls, furniture", {0, 1, 0.3, 0, 1.0 / 12, 2}}};
+
+TEST(LocalizeHalves, finds_robots_in_maps_like_those_of_other_programs) {
+  if (std::getenv("PSI_SLAM_LONG_TESTS") == nullptr) GTEST_SKIP() << "takes minutes: set PSI_SLAM_LONG_TESTS";
+  std::vector<std::string> names = {"mit-csail", "aces", "intel", "fr079"};
+  std::vector<Settings> settings;
+  std::vector<std::unique_ptr<Halves>> logs;
+  for (const std::string& name : names) {
+    const auto log = shared_file(name + ".clf.gz");
+    if (!log) GTEST_SKIP() << kNeedsData;
+    BoundSettings bound;
+    bound.load(std::string(PSI_SLAM_INI_FOLDER) + "/" + name + ".ini", {});
+    settings.push_back(bound.settings);
+    logs.push_back(std::make_unique<Halves>(*log, bound.settings));
+  }
+  for (const NamedFaults& kind : kFaults) {
+    std::size_t found = 0;
+    std::size_t possible = 0;
+    for (std::size_t m = 0; m < logs.size(); ++m) {
+      const auto drawn = draw_grid_map(logs[m]->first.log, mapped_poses(logs[m]->first), settings[m].map);
+      const LocalizerOptions options = localizer_options(settings[m]);
+      const ReferenceMap map = make_reference_map(degraded(*drawn, kind.faults), options.search.resolution_m,
+                                                  options.search.smoothing_sigma_m);
+      const StretchCounts own =
+          localize_stretches(logs[m]->whole.log, logs[m]->map_T_robot, 0.5, map, options);
+      StretchCounts foreign;
+      for (std::size_t other = 0; other < logs.size(); ++other) {
+        if (other == m) continue;
+        const StretchCounts some =
+            localize_stretches(logs[other]->whole.log, {}, kFirstForeignShare, map, options);
+        foreign.wrong += some.wrong;
+        foreign.searches += some.searches;
+      }
+      std::printf(
+          "%s, %s: %zu of %zu found (true place met in %zu), %zu wrong; other buildings: %zu of %zu "
+          "found, %zu searches\n",
+          names[m].c_str(), kind.name, own.found, kStretches, own.possible, own.wrong, foreign.wrong,
+          (logs.size() - 1) * kStretches, foreign.searches);
+      EXPECT_EQ(own.wrong, 0U) << names[m] << ", " << kind.name;
+      EXPECT_EQ(foreign.wrong, 0U) << names[m] << ", " << kind.name;
+      found += own.found;
+      possible += own.possible;
+    }
+    EXPECT_GE(static_cast<double>(found), 0.5 * static_cast<double>(possible)) << kind.name;
+  }
 }
 
 }  // namespace

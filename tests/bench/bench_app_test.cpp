@@ -5,10 +5,10 @@
 
 #include "command_fixture.h"
 #include "evaluation/relations_metric.h"
+#include "progress_line.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/time_stamp.h"
 #include "shared_logs.h"
-#include "progress_line.h"
 
 namespace psi_slam {
 namespace {
@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::MatchesRegex;
+using testing::Not;
 using Json = nlohmann::json;
 
 class BenchApp : public BenchCommand {
@@ -42,6 +43,17 @@ TEST_F(BenchApp, compares_the_matchers_on_a_log) {
   EXPECT_EQ(json["logs"][0]["positive"], 1);
 }
 
+TEST_F(BenchApp, runs_only_the_chosen_parts) {
+  write_room();
+  const fs::path json_file = folder_.path() / "match.json";
+  ASSERT_EQ(run({"--cases", "1", "--parts", "windows", "--json", json_file.string()}), 0) << err_.str();
+  EXPECT_THAT(out_.str(), AllOf(HasSubstr("| ±64 m, ±180° | ga | 1 |"), Not(HasSubstr("## Single scans"))));
+  const Json json = Json::parse(read_file(json_file));
+  EXPECT_TRUE(json["matchers"].empty());
+  EXPECT_EQ(json["windows"].size(), 24U);
+  EXPECT_FALSE(json.contains("local_maps"));
+}
+
 TEST_F(BenchApp, leaves_out_logs_without_a_trustworthy_truth) {
   write_room_benchmark(data_, ini_, 1.5);
   EXPECT_THAT(refusal({}),
@@ -58,7 +70,8 @@ TEST_F(BenchApp, repeats_all_figures_but_the_times) {
     ASSERT_EQ(run({"--cases", "3", "--seed", "5", "--json", file.string()}), 0) << err_.str();
     Json json = Json::parse(read_file(file));
     for (Json* rows : {&json["matchers"], &json["context"]["matchers"]})
-      for (Json& row : *rows) row.erase("time_ms");
+      for (Json& row : *rows)
+        for (const char* times : {"time_ms", "loop_time_ms", "no_loop_time_ms"}) row.erase(times);
     runs.push_back(std::move(json));
   }
   EXPECT_EQ(runs[0], runs[1]);

@@ -41,6 +41,22 @@ TEST(ClearBeams, a_grazed_wall_counts_as_the_end_of_the_beam) {
   EXPECT_EQ(clear_beams(wall_across(), scan, {1.95, 1, 0}).clear, 1U);
 }
 
+TEST(ClearBeams, specks_and_ends_of_walls_do_not_block_beams) {
+  ScoreGrid map(0, 0, 0.05, 80, 80);
+  *map.finest().cell(40, 40) = 255;
+  EXPECT_EQ(clear_beams(map, one_point(2.5F, 0), {1, 2.02, 0}).clear, 1U) << "a speck";
+  for (int y = 40; y < 80; ++y) *map.finest().cell(40, y) = 255;
+  EXPECT_EQ(clear_beams(map, one_point(2.5F, 0), {1, 2.02, 0}).clear, 1U) << "the end of a wall";
+  EXPECT_EQ(clear_beams(map, one_point(2.5F, 0), {1, 2.3, 0}).clear, 0U) << "the wall";
+}
+
+TEST(ClearBeams, a_slanted_wall_blocks_beams) {
+  ScoreGrid map(0, 0, 0.05, 80, 80);
+  for (int i = 0; i < 79; ++i) *map.finest().cell(i, i) = *map.finest().cell(i, i + 1) = 255;
+  for (const double heading_rad : {0.0, -0.3, -M_PI / 4, -1.2})
+    EXPECT_EQ(clear_beams(map, one_point(2.5F, 0), {1, 2, heading_rad}).clear, 0U) << heading_rad;
+}
+
 TEST(ClearBeams, without_beams_the_clear_share_is_zero) {
   EXPECT_EQ(clear_beams(wall_across(), {}, {1, 2, 0}).share(), 0);
 }

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "degraded_map.h"
 #include "localization/localization_report.h"
 #include "simulated_runs.h"
+#include "simulation/scan_simulator.h"
 
 namespace psi_slam {
 namespace {
@@ -93,6 +95,42 @@ TEST(Localizer, does_not_find_a_robot_in_the_map_of_another_building) {
   EXPECT_THAT(localization_text(summary), HasSubstr("Not found"));
 }
 
+/// The building kBuilding as another program may map it from another recording.
+mrpt::maps::COccupancyGridMap2D degraded_building() {
+  MapFaults faults;
+  faults.displaced_cells = 1;
+  faults.thickened_cells = 1;
+  faults.speck_share = 0.01;
+  faults.furniture_per_m2 = 1.0 / 5;
+  return degraded(building_map(), faults);
+}
+
+TEST(Localizer, finds_a_robot_in_a_map_with_thick_walls_specks_and_other_furniture) {
+  const auto map = degraded_building();
+  const TrueRun run = run_through(kBuilding, 101, 20);
+  Localizer localizer(reference_of(map), {});
+  const auto steps = localize(localizer, run.frames);
+  EXPECT_TRUE(summarize(steps).found()) << summarize(steps).why_not;
+  EXPECT_LT(worst_m(steps, run), kTracked_m);
+
+  LocalizerOptions strict;
+  strict.search.min_clear_share_alone = strict.search.min_clear_share;
+  Localizer strict_localizer(reference_of(map), strict);
+  const LocalizationSummary summary = summarize(localize(strict_localizer, run.frames));
+  EXPECT_FALSE(summary.found()) << "too few faults to test anything";
+  EXPECT_THAT(summary.why_not, HasSubstr("of the beams pass through no wall"));
+}
+
+TEST(Localizer, does_not_find_a_robot_in_a_bad_map_of_another_building) {
+  const auto map = degraded_building();
+  for (const std::uint64_t building : {51U, 52U}) {
+    Localizer localizer(reference_of(map), {});
+    const LocalizationSummary summary = summarize(localize(localizer, run_through(building, 101, 20).frames));
+    EXPECT_FALSE(summary.found());
+    EXPECT_GT(summary.searches, 10);
+  }
+}
+
 // The robot is moved by hand in the middle of the run. Odometry does not measure this move.
 TEST(Localizer, recovers_when_the_robot_is_moved_by_hand) {
   TrueRun run = run_through(kBuilding, 103, 90);
@@ -125,6 +163,23 @@ TEST(Localizer, recovers_when_the_robot_is_moved_by_hand) {
   EXPECT_LT(distance_m(steps.back().map_T_robot, run.world_T_robot.back()), kTracked_m);
 }
 
+/// Scans taken from each of the poses in turn, 0.2 s apart, with perfect odometry.
+TrueRun scanned_from(const std::vector<TPose2D>& poses, const FloorPlan& plan,
+                     const ScanSimulatorOptions& options) {
+  ScanSimulator scanner(plan, options);
+  TrueRun run;
+  for (const TPose2D& pose : poses) {
+    Frame frame;
+    frame.index = run.frames.size();
+    frame.time_us = 1'000'000'000 + static_cast<TimeUs>(frame.index) * 200'000;
+    frame.odom_T_robot = pose;
+    frame.scan = scanner.scan(pose, {}, frame.index);
+    run.frames.push_back(std::move(frame));
+    run.world_T_robot.push_back(pose);
+  }
+  return run;
+}
+
 /// A hall with rotational symmetry of 180 degrees, and a run around its centre.
 TrueRun round_a_symmetric_hall(std::uint64_t seed) {
   static const FloorPlan kHall = [] {
@@ -142,22 +197,14 @@ TrueRun round_a_symmetric_hall(std::uint64_t seed) {
   }();
   ScanSimulatorOptions options;
   options.seed = seed;
-  ScanSimulator scanner(kHall, options);
-  TrueRun run;
   constexpr std::size_t kScans = 120;
+  std::vector<TPose2D> poses;
   for (std::size_t i = 0; i < kScans; ++i) {
     const double turn = 2 * M_PI * static_cast<double>(i) / kScans;
-    const TPose2D pose(4 * std::cos(turn), 2.5 * std::sin(turn),
+    poses.emplace_back(4 * std::cos(turn), 2.5 * std::sin(turn),
                        std::atan2(2.5 * std::cos(turn), -4 * std::sin(turn)));
-    Frame frame;
-    frame.index = i;
-    frame.time_us = 1'000'000'000 + static_cast<TimeUs>(i) * 200'000;
-    frame.odom_T_robot = pose;
-    frame.scan = scanner.scan(pose, {}, i);
-    run.frames.push_back(std::move(frame));
-    run.world_T_robot.push_back(pose);
   }
-  return run;
+  return scanned_from(poses, kHall, options);
 }
 
 TEST(Localizer, reports_an_ambiguous_building_instead_of_guessing) {
@@ -166,6 +213,96 @@ TEST(Localizer, reports_an_ambiguous_building_instead_of_guessing) {
   EXPECT_FALSE(summary.found());
   EXPECT_TRUE(summary.ambiguous);
   EXPECT_THAT(localization_text(summary), HasSubstr("another place fits as well"));
+}
+
+constexpr double kTwin_m = 12;         // distance between the axes of the twin corridors
+constexpr double kCorridorEnd_m = 16;  // x of the corridors' east ends
+constexpr double kSight_m = 6;         // range of the laser in the twin corridors
+
+/// Two equal corridors along x, side by side. At their east ends lie rooms of different shapes.
+FloorPlan twin_corridors() {
+  FloorPlan plan;
+  const auto wall = [&](double x0, double y0, double x1, double y1) {
+    plan.segments.push_back({{x0, y0}, {x1, y1}, Material::kWall});
+  };
+  for (const double y : {0.0, kTwin_m}) {
+    wall(0, y - 1, 0, y + 1);
+    wall(0, y - 1, kCorridorEnd_m, y - 1);
+    wall(0, y + 1, 5, y + 1);
+    wall(5, y + 1, 5, y + 2);  // a niche
+    wall(5, y + 2, 7, y + 2);
+    wall(7, y + 2, 7, y + 1);
+    wall(7, y + 1, kCorridorEnd_m, y + 1);
+    wall(11, y - 1, 11, y - 0.6);  // a pillar
+    wall(11.5, y - 1, 11.5, y - 0.6);
+    wall(11, y - 0.6, 11.5, y - 0.6);
+    const bool first = y == 0;
+    const double south = y - (first ? 4 : 1.5);
+    const double north = y + (first ? 1.5 : 6);
+    const double east = kCorridorEnd_m + (first ? 9 : 11);
+    wall(kCorridorEnd_m, y - 1, kCorridorEnd_m, south);
+    wall(kCorridorEnd_m, y + 1, kCorridorEnd_m, north);
+    wall(kCorridorEnd_m, south, east, south);
+    wall(kCorridorEnd_m, north, east, north);
+    wall(east, south, east, north);
+  }
+  return plan;
+}
+
+/// A run along the corridor with the axis y, from its west end into the room at its east end, and back to the
+/// door.
+TrueRun along_corridor(double y, std::uint64_t seed) {
+  static const FloorPlan kPlan = twin_corridors();
+  ScanSimulatorOptions options;
+  options.seed = seed;
+  options.max_range_m = kSight_m;
+  std::vector<TPose2D> poses;
+  for (double x = 1; x < kCorridorEnd_m + 6; x += 0.1) poses.emplace_back(x, y, 0);
+  for (double turned_rad = 0; turned_rad < M_PI; turned_rad += 0.1)
+    poses.emplace_back(kCorridorEnd_m + 6, y, turned_rad);
+  for (double x = kCorridorEnd_m + 6; x > kCorridorEnd_m + 1; x -= 0.1) poses.emplace_back(x, y, M_PI);
+  return scanned_from(poses, kPlan, options);
+}
+
+TrueRun joined(TrueRun run, const TrueRun& more) {
+  run.frames.insert(run.frames.end(), more.frames.begin(), more.frames.end());
+  run.world_T_robot.insert(run.world_T_robot.end(), more.world_T_robot.begin(), more.world_T_robot.end());
+  return run;
+}
+
+/// Number of ambiguous searches before a scan shows the room at the end. Expects that the robot is not found
+/// by then.
+int ambiguous_searches_before_room(const std::vector<LocalizationStep>& steps, const TrueRun& run) {
+  int ambiguous = 0;
+  for (std::size_t i = 0; i < steps.size() && run.world_T_robot[i].x + kSight_m < kCorridorEnd_m; ++i) {
+    EXPECT_EQ(steps[i].state, State::kLost) << "both corridors fit at x = " << run.world_T_robot[i].x;
+    ambiguous += steps[i].search && steps[i].search->ambiguous ? 1 : 0;
+  }
+  return ambiguous;
+}
+
+TEST(Localizer, keeps_twin_corridors_apart_until_a_scan_decides) {
+  const auto map = map_of(joined(along_corridor(0, 1), along_corridor(kTwin_m, 2)));
+  for (const double y : {0.0, kTwin_m}) {
+    const TrueRun run = along_corridor(y, 3);
+    Localizer localizer(reference_of(map), {});
+    const auto steps = localize(localizer, run.frames);
+    EXPECT_GE(ambiguous_searches_before_room(steps, run), 5) << "the other corridor was not found";
+    EXPECT_EQ(steps.back().state, State::kTracking) << "corridor at y = " << y;
+    EXPECT_LT(worst_m(steps, run), kTracked_m) << "corridor at y = " << y;
+  }
+}
+
+TEST(Localizer, checks_what_a_genetic_search_found_by_an_exact_search) {
+  const TrueRun first = along_corridor(0, 1);
+  const TrueRun second = along_corridor(kTwin_m, 2);
+  LocalizerOptions weak;
+  weak.search.matcher = MatcherKind::kGa;
+  weak.search.genetic.memetic.seeds = 1;  // finds one of the corridors
+  weak.search.genetic.memetic.generations = 0;
+  Localizer localizer(reference_of(map_of(joined(first, second))), weak);
+  const TrueRun run = along_corridor(0, 3);
+  EXPECT_GE(ambiguous_searches_before_room(localize(localizer, run.frames), run), 3);
 }
 
 }  // namespace

@@ -70,7 +70,12 @@ TEST_F(InterruptedLog, finds_a_robot_again_that_was_carried_elsewhere) {
   for (std::size_t i = 0; i < frames_.size(); ++i) frames_[i].index = i;
   const MappingResult result = map_of(frames_);
   ASSERT_EQ(result.interruptions.size(), 1U);
-  EXPECT_TRUE(result.interruptions.front().found_frame);
+  const Interruption& interruption = result.interruptions.front();
+  ASSERT_TRUE(interruption.found_frame);
+  for (std::size_t i = interruption.frame; i < *interruption.found_frame; ++i) {
+    const std::optional<MatcherKind> matcher = result.frames[i].matcher;
+    EXPECT_EQ(matcher.value_or(MatcherKind::kGa), MatcherKind::kGa) << i;
+  }
   EXPECT_LE(error_m(result.frames), 0.03);
 }
 

@@ -4,8 +4,8 @@
 #include <mrpt/system/md5.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -61,24 +61,22 @@ MatchSeries make_series(std::string title, const MatchBenchmarkOptions& options,
   return series;
 }
 
+MatchBenchmarkOptions with_fewer_cases(MatchBenchmarkOptions options) {
+  options.cases = std::max<std::size_t>(1, options.cases / kFewerCases);
+  return options;
+}
+
 MatchBenchmark plan(const MatchBenchmarkOptions& options) {
   MatchBenchmark benchmark;
   benchmark.scans = make_series("Single scans", options);
   benchmark.contexts = make_series("Scans with their context", options);
   benchmark.contexts.cases.context = true;
-  if (!options.windows) return benchmark;
-  MatchBenchmarkOptions fewer = options;
-  fewer.cases = std::max<std::size_t>(1, options.cases / kFewerCases);
-  for (const double window_m : {2.0, 4.0, 8.0, 16.0}) {
-    MatchSeries series = make_series("±" + fixed_text(window_m, 0) + " m", fewer, CandidateSet::kMatchers);
-    // Keeps window_m + clear_m constant, so that windows of all sizes have the same negative pairs.
-    series.cases.clear_m += series.cases.window_m - window_m;
-    series.cases.window_m = window_m;
-    benchmark.windows.push_back(std::move(series));
-  }
+  if (options.has(kWindowsPart)) benchmark.windows = plan_windows(options);
+  if (!options.has(kLocalMapsPart)) return benchmark;
   for (const std::size_t nodes :
        {kUsualNodesPerLocalMap / 2, kUsualNodesPerLocalMap, 2 * kUsualNodesPerLocalMap}) {
-    MatchSeries series = make_series(std::to_string(nodes) + " nodes", fewer, CandidateSet::kMatchers);
+    MatchSeries series =
+        make_series(std::to_string(nodes) + " nodes", with_fewer_cases(options), CandidateSet::kMatchers);
     series.nodes_per_local_map = nodes;
     benchmark.local_maps.push_back(std::move(series));
   }
@@ -86,11 +84,12 @@ MatchBenchmark plan(const MatchBenchmarkOptions& options) {
 }
 
 /// All series by the number of nodes of their local maps. A log is mapped once for each number.
-std::map<std::size_t, std::vector<MatchSeries*>> series_by_nodes(MatchBenchmark& benchmark) {
+std::map<std::size_t, std::vector<MatchSeries*>> series_by_nodes(MatchBenchmark& benchmark,
+                                                                 const MatchBenchmarkOptions& options) {
   std::map<std::size_t, std::vector<MatchSeries*>> result;
   const auto add = [&result](MatchSeries& series) { result[series.nodes_per_local_map].push_back(&series); };
-  add(benchmark.scans);
-  add(benchmark.contexts);
+  if (options.has(kScansPart)) add(benchmark.scans);
+  if (options.has(kContextsPart)) add(benchmark.contexts);
   for (MatchSeries& series : benchmark.windows) add(series);
   for (MatchSeries& series : benchmark.local_maps) add(series);
   return result;
@@ -112,6 +111,15 @@ std::string missing_cases(std::size_t positive, std::size_t negative, const Matc
 
 void add_remark(LogNote& note, const std::string& remark) {
   note.remark += (note.remark.empty() ? "" : "; ") + remark;
+}
+
+TimeFigures time_figures(std::vector<double> times_ms) {
+  if (times_ms.empty()) return {};
+  std::sort(times_ms.begin(), times_ms.end());
+  const auto percentile = [&](std::size_t percent) { return times_ms[times_ms.size() * percent / 100]; };
+  const double sum = std::accumulate(times_ms.begin(), times_ms.end(), 0.0);
+  return {sum / static_cast<double>(times_ms.size()), percentile(50), percentile(95), percentile(99),
+          times_ms.back()};
 }
 
 /// Number of matches of all series on one log.
@@ -164,6 +172,30 @@ void run_log(const BenchmarkLog& log, std::size_t nodes, const std::vector<Match
 
 }  // namespace
 
+bool MatchBenchmarkOptions::has(const char* part) const {
+  return std::find(parts.begin(), parts.end(), part) != parts.end();
+}
+
+std::vector<MatchSeries> plan_windows(const MatchBenchmarkOptions& options) {
+  std::vector<MatchSeries> windows;
+  for (const bool context : {false, true}) {
+    for (const double window_deg : {30.0, 180.0}) {
+      for (const double window_m : {2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
+        MatchSeries series =
+            make_series("±" + fixed_text(window_m, 0) + " m, ±" + fixed_text(window_deg, 0) + "°",
+                        with_fewer_cases(options), CandidateSet::kMatchers);
+        series.cases.context = context;
+        // Keeps window_m + clear_m constant, so that windows of all sizes have the same negative pairs.
+        series.cases.clear_m += series.cases.window_m - window_m;
+        series.cases.window_m = window_m;
+        series.cases.window_rad = window_deg * M_PI / 180;
+        windows.push_back(std::move(series));
+      }
+    }
+  }
+  return windows;
+}
+
 Judgement judge(const LoopCase& loop_case, const MatchResult& match, const MatchResult& exact,
                 double accepted_response) {
   Judgement judgement;
@@ -180,7 +212,6 @@ Judgement judge(const LoopCase& loop_case, const MatchResult& match, const Match
 
 void MatchTally::add(const LoopCase& loop_case, const Judgement& judgement, const MatchResult& match,
                      double time_ms) {
-  ++(loop_case.positive ? positive_ : negative_);
   successes_ += judgement.success ? 1 : 0;
   same_optima_ += judgement.same_optimum ? 1 : 0;
   false_accepts_ += judgement.false_accept ? 1 : 0;
@@ -188,28 +219,27 @@ void MatchTally::add(const LoopCase& loop_case, const Judgement& judgement, cons
   evaluations_ += match.evaluations;
   genetic_.decoded += match.genetic.decoded;
   genetic_.repaired += match.genetic.repaired;
-  times_ms_.push_back(time_ms);
+  (loop_case.positive ? loop_times_ms_ : no_loop_times_ms_).push_back(time_ms);
 }
 
 MatchFigures MatchTally::figures() const {
   MatchFigures figures;
-  figures.cases = times_ms_.size();
-  figures.positive = positive_;
-  figures.negative = negative_;
+  figures.positive = loop_times_ms_.size();
+  figures.negative = no_loop_times_ms_.size();
+  figures.cases = figures.positive + figures.negative;
   figures.searches = searches_;
-  figures.success_rate = share(successes_, positive_);
-  figures.same_optimum_rate = share(same_optima_, positive_);
-  figures.false_accept_rate = share(false_accepts_, negative_);
+  figures.success_rate = share(successes_, figures.positive);
+  figures.same_optimum_rate = share(same_optima_, figures.positive);
+  figures.false_accept_rate = share(false_accepts_, figures.negative);
   if (genetic_.decoded > 0)
     figures.repaired_share = static_cast<double>(genetic_.repaired) / static_cast<double>(genetic_.decoded);
-  if (times_ms_.empty()) return figures;
-  const auto count = static_cast<double>(times_ms_.size());
-  figures.evaluations = static_cast<double>(evaluations_) / count;
-  std::vector<double> sorted = times_ms_;
-  std::sort(sorted.begin(), sorted.end());
-  const auto percentile = [&sorted](std::size_t percent) { return sorted[sorted.size() * percent / 100]; };
-  figures.time_ms = {std::accumulate(sorted.begin(), sorted.end(), 0.0) / count, percentile(50),
-                     percentile(95), percentile(99)};
+  if (figures.cases == 0) return figures;
+  figures.evaluations = static_cast<double>(evaluations_) / static_cast<double>(figures.cases);
+  std::vector<double> all = loop_times_ms_;
+  all.insert(all.end(), no_loop_times_ms_.begin(), no_loop_times_ms_.end());
+  figures.time_ms = time_figures(std::move(all));
+  figures.loop_time_ms = time_figures(loop_times_ms_);
+  figures.no_loop_time_ms = time_figures(no_loop_times_ms_);
   return figures;
 }
 
@@ -267,10 +297,9 @@ void run_cases(const std::vector<LoopCase>& cases, const std::vector<MatchCandid
       const Matcher& matcher = matchers.size() == 1
                                    ? *matchers[0]
                                    : *matchers[static_cast<std::size_t>(loop_case.adaptive_matcher)];
-      const auto start = std::chrono::steady_clock::now();
+      const std::clock_t start = std::clock();
       matches[at] = matcher.match(problem);
-      times_ms[at] =
-          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+      times_ms[at] = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     }
     for (std::size_t k = 0; k < candidates.size(); ++k)
       series.rows[k].tally.add(loop_case, judge(loop_case, matches[k], matches.front(), accepted_response),
@@ -282,7 +311,7 @@ void run_cases(const std::vector<LoopCase>& cases, const std::vector<MatchCandid
 MatchBenchmark run_match_benchmark(const std::vector<BenchmarkLog>& logs,
                                    const MatchBenchmarkOptions& options, const ProgressObserver& observer) {
   MatchBenchmark benchmark = plan(options);
-  const auto by_nodes = series_by_nodes(benchmark);
+  const auto by_nodes = series_by_nodes(benchmark, options);
   double all = 0;  // progress counts only matches, because mapping takes much less time
   for (const auto& [nodes, all_series] : by_nodes)
     all += static_cast<double>(logs.size()) * planned_matches(all_series);

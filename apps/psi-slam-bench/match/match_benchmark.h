@@ -40,6 +40,7 @@ struct TimeFigures {
   double p50 = 0;
   double p95 = 0;
   double p99 = 0;
+  double max = 0;
 };
 
 struct MatchFigures {
@@ -52,7 +53,10 @@ struct MatchFigures {
   /// Number of cases by the search that the matcher ran, in the order of kSearchKinds.
   std::array<std::size_t, kSearchKinds.size()> searches{};
   double evaluations = 0;  ///< mean number of scored poses
-  TimeFigures time_ms;
+  // Processor time of a match in milliseconds.
+  TimeFigures time_ms;          ///< over all cases
+  TimeFigures loop_time_ms;     ///< over the positive cases
+  TimeFigures no_loop_time_ms;  ///< over the negative cases
   /// Share of the decoded chromosomes that lay outside the window; empty for matchers without chromosomes.
   std::optional<double> repaired_share;
 };
@@ -66,15 +70,14 @@ class MatchTally {
   MatchFigures figures() const;
 
  private:
-  std::size_t positive_ = 0;
-  std::size_t negative_ = 0;
   std::size_t successes_ = 0;
   std::size_t same_optima_ = 0;
   std::size_t false_accepts_ = 0;
   std::array<std::size_t, kSearchKinds.size()> searches_{};
   std::int64_t evaluations_ = 0;
   GeneticEffort genetic_;
-  std::vector<double> times_ms_;
+  std::vector<double> loop_times_ms_;     // one for each positive case
+  std::vector<double> no_loop_times_ms_;  // one for each negative case
 };
 
 /// A matcher to compare: one row of a table.
@@ -107,10 +110,18 @@ struct MatchSeries {
   std::vector<Row> rows;  ///< one for each candidate, over the cases run so far; the first is exact CSM
 };
 
+/// Names of the parts of the benchmark, as the option --parts takes them.
+inline constexpr const char* kScansPart = "scans";
+inline constexpr const char* kContextsPart = "contexts";
+inline constexpr const char* kWindowsPart = "windows";  ///< scans and contexts over sizes of the window
+inline constexpr const char* kLocalMapsPart = "local-maps";
+
 struct MatchBenchmarkOptions {
   std::size_t cases = 250;  ///< number of positive cases from each log, and of negative cases
   std::uint64_t seed = 1;
-  bool windows = false;  ///< also compare over window sizes and sizes of local maps
+  std::vector<std::string> parts = {kScansPart, kContextsPart};
+
+  bool has(const char* part) const;
 };
 
 /// Use of a log in the benchmark.
@@ -126,11 +137,16 @@ struct LogNote {
 
 struct MatchBenchmark {
   std::vector<LogNote> logs;
-  MatchSeries scans;
-  MatchSeries contexts;
-  std::vector<MatchSeries> windows;     ///< one for each half-width of the window; may be empty
+  MatchSeries scans;                    ///< without rows if the part was not run
+  MatchSeries contexts;                 ///< without rows if the part was not run
+  std::vector<MatchSeries> windows;     ///< one for each size of the window, see plan_windows(); may be empty
   std::vector<MatchSeries> local_maps;  ///< one for each number of nodes of a local map; may be empty
 };
+
+/// The series over sizes of the window: single scans, then scans with their context; for each of them windows
+/// of ±30°, then of ±180°, in ascending order of their half-widths. All have the same pairs of scan and local
+/// map. They have a fifth of the cases of the other series.
+std::vector<MatchSeries> plan_windows(const MatchBenchmarkOptions& options);
 
 /// Largest mean error over the relations, in metres, of a map whose poses serve as truth.
 inline constexpr double kTrustedError_m = 0.2;

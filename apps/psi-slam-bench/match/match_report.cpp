@@ -37,13 +37,15 @@ struct CandidateRow {
   std::string series;
   std::string matcher;
   MatchFigures figures;
+  double csm_success_rate = 0;  ///< success rate of exact CSM in the series
 };
 
 std::vector<CandidateRow> rows_of(const std::vector<MatchSeries>& all_series) {
   std::vector<CandidateRow> rows;
   for (const MatchSeries& series : all_series)
     for (const MatchSeries::Row& row : series.rows)
-      rows.push_back({series.title, row.matcher, row.tally.figures()});
+      rows.push_back({series.title, row.matcher, row.tally.figures(),
+                      series.rows.front().tally.figures().success_rate.value_or(0)});
   return rows;
 }
 
@@ -54,9 +56,19 @@ ReportTable table_of_series(const std::vector<MatchSeries>& all_series, const st
                         std::optional<double> MatchFigures::*value) {
     return ColumnOf<Row>{{head, key}, [=](const Row& row) { return percent(row.figures.*value); }};
   };
-  const auto time = [](const std::string& head, const std::string& key, double TimeFigures::*value) {
+  const auto time_of = [](const std::string& head, const std::string& key, TimeFigures MatchFigures::*cases,
+                          double TimeFigures::*value) {
     return ColumnOf<Row>{{head, key},
-                         [=](const Row& row) { return milliseconds(row.figures.time_ms.*value); }};
+                         [=](const Row& row) { return milliseconds(row.figures.*cases.*value); }};
+  };
+  const auto time = [&](const std::string& head, const std::string& key, double TimeFigures::*value) {
+    return time_of(head, "time_ms." + key, &MatchFigures::time_ms, value);
+  };
+  const auto loop_time = [&](const std::string& key, double TimeFigures::*value) {
+    return time_of({}, "loop_time_ms." + key, &MatchFigures::loop_time_ms, value);
+  };
+  const auto no_loop_time = [&](const std::string& key, double TimeFigures::*value) {
+    return time_of({}, "no_loop_time_ms." + key, &MatchFigures::no_loop_time_ms, value);
   };
   return table_of<Row>(
       {column(series_head, "series", &Row::series),
@@ -69,10 +81,17 @@ ReportTable table_of_series(const std::vector<MatchSeries>& all_series, const st
         [](const Row& row) {
           return ReportCell{fixed_text(row.figures.evaluations, 0), rounded(row.figures.evaluations, 1)};
         }},
-       time("mean ms", "time_ms.mean", &TimeFigures::mean),
-       time("p50 ms", "time_ms.p50", &TimeFigures::p50),
-       time("p95 ms", "time_ms.p95", &TimeFigures::p95),
-       time("p99 ms", "time_ms.p99", &TimeFigures::p99),
+       time("mean ms", "mean", &TimeFigures::mean),
+       time("p50 ms", "p50", &TimeFigures::p50),
+       time("p95 ms", "p95", &TimeFigures::p95),
+       time("p99 ms", "p99", &TimeFigures::p99),
+       time("max ms", "max", &TimeFigures::max),
+       loop_time("mean", &TimeFigures::mean),
+       loop_time("p99", &TimeFigures::p99),
+       loop_time("max", &TimeFigures::max),
+       no_loop_time("mean", &TimeFigures::mean),
+       no_loop_time("p99", &TimeFigures::p99),
+       no_loop_time("max", &TimeFigures::max),
        share("repaired %", "repaired_share", &MatchFigures::repaired_share),
        {{"search that ran", "searches", true},
         [](const Row& row) { return searches_cell(row.figures.searches); }}},
@@ -98,9 +117,52 @@ ReportTable against_csm(const MatchSeries& series) {
 }
 
 std::string series_text(const MatchSeries& series) {
-  std::string text = "## " + series.title + "\n\n" + table_of_series({series}, {}).markdown() + '\n';
-  if (!series.rows.empty()) text += against_csm(series).markdown();
-  return text + '\n';
+  if (series.rows.empty()) return {};
+  return "## " + series.title + "\n\n" + table_of_series({series}, {}).markdown() + '\n' +
+         against_csm(series).markdown() + '\n';
+}
+
+/// The table of windows, which tells cases with a loop from cases without.
+ReportTable table_of_windows(const std::vector<MatchSeries>& windows) {
+  using Row = CandidateRow;
+  const auto times = [](const std::string& head, TimeFigures MatchFigures::*cases) {
+    return ColumnOf<Row>{{head}, [=](const Row& row) {
+                           const TimeFigures& time_ms = row.figures.*cases;
+                           return cell(fixed_text(time_ms.mean, 1) + " / " + fixed_text(time_ms.p99, 1) +
+                                       " / " + fixed_text(time_ms.max, 1));
+                         }};
+  };
+  return table_of<Row>(
+      {column("window", {}, &Row::series),
+       column("matcher", {}, &Row::matcher),
+       {{"loops"}, [](const Row& row) { return cell(row.figures.positive); }},
+       {{"success %"}, [](const Row& row) { return percent(row.figures.success_rate); }},
+       {{"of csm's"},
+        [](const Row& row) { return ratio(row.figures.success_rate.value_or(0), row.csm_success_rate, 3); }},
+       times("loop: mean / p99 / max ms", &MatchFigures::loop_time_ms),
+       {{"none"}, [](const Row& row) { return cell(row.figures.negative); }},
+       times("none: mean / p99 / max ms", &MatchFigures::no_loop_time_ms)},
+      rows_of(windows));
+}
+
+std::vector<MatchSeries> windows_of(const MatchBenchmark& benchmark, bool context) {
+  std::vector<MatchSeries> windows;
+  for (const MatchSeries& series : benchmark.windows)
+    if (series.cases.context == context) windows.push_back(series);
+  return windows;
+}
+
+std::string windows_text(const MatchBenchmark& benchmark) {
+  std::string text;
+  for (const bool context : {false, true}) {
+    const std::vector<MatchSeries> windows = windows_of(benchmark, context);
+    if (windows.empty()) continue;
+    text += std::string("## Window sizes, ") + (context ? "scans with their context" : "single scans") +
+            "\n\nEvery window has the same pairs of scan and local map. \"of csm's\" are the successes as a "
+            "share of those of exact search.\n\n" +
+            table_of_windows(windows).markdown() + '\n';
+  }
+  return text;
 }
 
 std::string sizes_text(const std::string& title, const std::string& series_head, const std::string& note,
@@ -142,14 +204,15 @@ Json sizes_json(const std::vector<MatchSeries>& sizes) {
   Json list = Json::array();
   for (const MatchSeries& series : sizes)
     list.push_back({{"window_m", series.cases.window_m},
+                    {"window_deg", rounded(series.cases.window_rad * 180 / M_PI, 6)},
+                    {"context", series.cases.context},
                     {"nodes_per_local_map", series.nodes_per_local_map},
                     {"matchers", table_of_series({series}, {}).json()}});
   return list;
 }
 
-std::string time_plot(const std::string& title, const std::vector<MatchSeries>& sizes) {
-  GrowthPlot plot;
-  plot.title = title;
+/// Adds a label for each of the series, and the mean times of each matcher at these labels as a line.
+void add_times(const std::vector<MatchSeries>& sizes, GrowthPlot& plot) {
   for (const MatchSeries& series : sizes) {
     plot.labels.push_back(series.title);
     for (std::size_t i = 0; i < series.rows.size(); ++i) {
@@ -157,19 +220,44 @@ std::string time_plot(const std::string& title, const std::vector<MatchSeries>& 
       plot.lines[i].values.push_back(spread_of({series.rows[i].tally.figures().time_ms.mean}));
     }
   }
+}
+
+std::string time_plot(const std::string& title, const std::vector<MatchSeries>& sizes) {
+  GrowthPlot plot;
+  plot.title = title;
+  add_times(sizes, plot);
+  return growth_svg(plot);
+}
+
+/// Plot of the windows of +-180 degrees, with those of +-30 degrees as faint lines.
+std::string windows_plot(const std::vector<MatchSeries>& windows, const std::string& title) {
+  const auto middle = windows.begin() + static_cast<std::ptrdiff_t>(windows.size() / 2);
+  GrowthPlot narrow;
+  add_times({windows.begin(), middle}, narrow);
+  GrowthPlot all;
+  add_times({middle, windows.end()}, all);
+  GrowthPlot plot;
+  plot.title = title;
+  plot.labels = all.labels;
+  for (std::size_t i = 0; i < all.lines.size(); ++i) {
+    plot.lines.push_back(all.lines[i]);
+    if (i >= narrow.lines.size()) continue;
+    plot.lines.push_back(narrow.lines[i]);
+    plot.lines.back().faint = true;
+  }
   return growth_svg(plot);
 }
 
 std::string markdown_of(const MatchBenchmark& benchmark, const MatchBenchmarkOptions& options,
                         const std::string& machine) {
   const CaseOptions& cases = benchmark.scans.cases;
-  std::string text = "# Matchers compared\n\n" + measured_by(machine) +
-                     ", one thread. Every matcher searched every case: ±" + fixed_text(cases.window_m, 0) +
-                     " m and ±" + fixed_text(cases.window_rad * 180 / M_PI, 0) +
-                     " degrees around a start pose that is up to " +
-                     fixed_text(cases.start_share * cases.window_m, 1) + " m and " +
-                     fixed_text(cases.turn_share * cases.window_rad * 180 / M_PI, 0) +
-                     " degrees off the truth; seed " + std::to_string(options.seed) + ".\n\n";
+  std::string text =
+      "# Matchers compared\n\n" + measured_by(machine) +
+      ", one thread. Every matcher searched every case, unless a table states another window: ±" +
+      fixed_text(cases.window_m, 0) + " m and ±" + fixed_text(cases.window_rad * 180 / M_PI, 0) +
+      " degrees around a start pose that is up to " + fixed_text(cases.start_share * cases.window_m, 1) +
+      " m and " + fixed_text(cases.turn_share * cases.window_rad * 180 / M_PI, 0) +
+      " degrees off the truth; seed " + std::to_string(options.seed) + ".\n\n";
   text +=
       "- success: share of the positive cases with a match within 0.3 m and 3.5 degrees of the truth\n"
       "- same optimum: share of the positive cases with a match at least as good as that of exact CSM, or "
@@ -177,18 +265,14 @@ std::string markdown_of(const MatchBenchmark& benchmark, const MatchBenchmarkOpt
       "- false accepts: share of the negative cases (the scan was taken elsewhere) with a response that loop "
       "closing would accept before it verifies the match\n"
       "- search that ran: matchers choose it by the size of the window; see matchers.md for the names\n"
-      "- evaluations: mean number of poses scored, on all levels of the score grid; times are over all "
-      "cases\n"
+      "- evaluations: mean number of poses scored, on all levels of the score grid; times are processor "
+      "times over all cases\n"
       "- repaired: share of the codes decoded to poses that lay outside the window\n"
       "- adaptive: the matcher that Ψ chose at the node of the scan when the log was mapped\n\n" +
       logs_table(benchmark.logs).markdown() + '\n';
   text += series_text(benchmark.scans) + series_text(benchmark.contexts);
-  text +=
-      sizes_text("Window sizes", "half-width",
-                 "Every window has the same pairs of scan and local map; there are fewer cases than above.",
-                 benchmark.windows);
-  text += sizes_text("Sizes of local maps", "local maps of",
-                     "Every log is mapped with each size; there are fewer cases than above.",
+  text += windows_text(benchmark);
+  text += sizes_text("Sizes of local maps", "local maps of", "Every log is mapped with each size.",
                      benchmark.local_maps);
   text.pop_back();
   return text;
@@ -205,10 +289,8 @@ Json json_of(const MatchBenchmark& benchmark, const MatchBenchmarkOptions& optio
                            {"logs", logs_table(benchmark.logs).json()},
                            {"repaired_share", repaired_json(benchmark.scans)},
                            {"context", {{"matchers", table_of_series({benchmark.contexts}, {}).json()}}}}));
-  if (!benchmark.windows.empty()) {
-    json["windows"] = sizes_json(benchmark.windows);
-    json["local_maps"] = sizes_json(benchmark.local_maps);
-  }
+  if (!benchmark.windows.empty()) json["windows"] = sizes_json(benchmark.windows);
+  if (!benchmark.local_maps.empty()) json["local_maps"] = sizes_json(benchmark.local_maps);
   return json;
 }
 
@@ -224,11 +306,16 @@ BenchReport match_report(const MatchBenchmark& benchmark, const MatchBenchmarkOp
                      json_file_text(json_of(benchmark, options, machine)),
                      table_of_series(all_series, {}).csv(),
                      {}};
-  if (!benchmark.windows.empty())
-    report.plots = {{"match-windows.svg",
-                     time_plot("Mean time of a match over the half-width of its window", benchmark.windows)},
-                    {"match-local-maps.svg",
-                     time_plot("Mean time of a match over the size of the local map", benchmark.local_maps)}};
+  for (const bool context : {false, true})
+    if (const auto windows = windows_of(benchmark, context); !windows.empty())
+      report.plots.push_back(
+          {context ? "match-windows-context.svg" : "match-windows.svg",
+           windows_plot(windows, std::string("Mean time of a match by its window (faint: ±30°), ") +
+                                     (context ? "scans with context" : "single scans"))});
+  if (!benchmark.local_maps.empty())
+    report.plots.push_back(
+        {"match-local-maps.svg",
+         time_plot("Mean time of a match over the size of the local map", benchmark.local_maps)});
   return report;
 }
 

@@ -19,7 +19,7 @@ struct GlobalSearchOptions {
   MatcherOptions match;
   double resolution_m = 0.1;  ///< largest cell size of the coarse grid, which is searched first
   double smoothing_sigma_m = 0.03;
-  ScanContextOptions context{15.0, 0.5, 0.2};
+  ScanContextOptions context{15.0, 0.5, 0.2, 1'000'000};
 
   double min_response = 0.5;        ///< smallest response at the place found
   double max_ambiguity = 0.87;      ///< largest ratio of the next best place's response to the best response

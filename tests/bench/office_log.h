@@ -33,7 +33,6 @@ inline MappedLog map_office() {
     }
     log.memory.nodes.push_back(std::move(node));
     log.map_T_node.push_back(drive.map_T_robot[frame.index]);
-    log.adaptive_matcher.push_back(MatcherKind::kCsm);
   }
   keep(front_end.finish());
   return log;

@@ -97,7 +97,6 @@ void draw(const MappedLog& log, const CaseOptions& options, bool positive, std::
                                      : log.memory.nodes[node].points;
     loop_case.anchor_T_node = log.map_T_node[node] - log.map_T_node[map.anchor];
     loop_case.seed = {options.seed, log.memory.nodes[node].frame, map.id};
-    loop_case.adaptive_matcher = log.adaptive_matcher[node];
     if (!can_be_searched(*loop_case.scan, *loop_case.map, options)) continue;
     if (positive && !shares_space(loop_case, options)) continue;
     loop_case.start = draw_start(log, loop_case, options, draws);
@@ -136,8 +135,6 @@ MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
   keep(places.finish());
   const MappingResult result = mapper.finish();
   mapped.map_T_node = result.graph.poses();
-  for (const std::size_t frame : result.node_frames)
-    mapped.adaptive_matcher.push_back(result.frames[frame].matcher.value());
   mapped.translation_error_m =
       error_of(result.frames, read_relations(log.relations.value())).translation_abs_m.mean;
   return mapped;

@@ -26,7 +26,6 @@ struct MappedLog {
   MapperOptions options;
   KeyframeStore memory;                         ///< all nodes and local maps of the log
   std::vector<mrpt::math::TPose2D> map_T_node;  ///< optimised poses of the nodes
-  std::vector<MatcherKind> adaptive_matcher;    ///< matcher that Ψ chose at each node
   double translation_error_m = 0;               ///< mean over the relations
 };
 
@@ -62,7 +61,6 @@ struct LoopCase {
   mrpt::math::TPose2D anchor_T_node;  ///< true pose of the node; outside the window in negative cases
   mrpt::math::TPose2D start;          ///< centre of the window, in the frame of the local map
   MatchSeed seed;
-  MatcherKind adaptive_matcher = MatcherKind::kCsm;  ///< matcher that the adaptive candidate uses
 };
 
 /// Draws `options.count` positive cases, then as many negative ones, or fewer if the log has no more. No pair

@@ -18,6 +18,9 @@
 namespace psi_slam {
 namespace {
 
+// Searches report matches down to this share of the accepted response.
+constexpr double kReportedShare = 0.8;
+
 std::optional<double> share(std::size_t part, std::size_t all) {
   if (all == 0) return std::nullopt;
   return static_cast<double>(part) / static_cast<double>(all);
@@ -251,27 +254,22 @@ std::vector<MatchCandidate> match_candidates(CandidateSet set, const MapperOptio
   };
   GeneticOptions paper = genetic;
   paper.variant = GeneticVariant::kPaper;
-  std::vector<std::shared_ptr<const Matcher>> choices;
   std::vector<MatchCandidate> all;
-  for (const MatcherKind kind : kMatcherKinds) {
-    choices.push_back(make(kind, genetic));
-    all.push_back({name(kind), {choices.back()}});
-  }
-  if (set == CandidateSet::kAll) all.push_back({"adaptive", choices});
-  all.push_back({"ga_paper", {make(MatcherKind::kGa, paper)}});
+  for (const MatcherKind kind : kMatcherKinds) all.push_back({name(kind), make(kind, genetic)});
+  all.push_back({"ga_paper", make(MatcherKind::kGa, paper)});
   if (set == CandidateSet::kMatchers) return all;
   for (const Ablation& ablation : kAblations) {
     GeneticOptions without = genetic;
     ablation.apply(without.memetic);
-    all.push_back({ablation.name, {make(MatcherKind::kGa, without)}});
+    all.push_back({ablation.name, make(MatcherKind::kGa, without)});
   }
-  all.push_back({"csm_ga_paper", {make(MatcherKind::kCsmGa, paper)}});
+  all.push_back({"csm_ga_paper", make(MatcherKind::kCsmGa, paper)});
   GeneticOptions few_cells = genetic;
   few_cells.coarse.cells = 256;
-  all.push_back({"csm_ga with 256 cells", {make(MatcherKind::kCsmGa, few_cells)}});
+  all.push_back({"csm_ga with 256 cells", make(MatcherKind::kCsmGa, few_cells)});
   GeneticOptions no_generations = genetic;
   no_generations.memetic.generations = 0;
-  all.push_back({"csm_ga without generations", {make(MatcherKind::kCsmGa, no_generations)}});
+  all.push_back({"csm_ga without generations", make(MatcherKind::kCsmGa, no_generations)});
   return all;
 }
 
@@ -293,10 +291,7 @@ void run_cases(const std::vector<LoopCase>& cases, const std::vector<MatchCandid
     // Each case starts with a different candidate, which spreads cache misses over all candidates.
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       const std::size_t at = (i + k) % candidates.size();
-      const auto& matchers = candidates[at].matchers;
-      const Matcher& matcher = matchers.size() == 1
-                                   ? *matchers[0]
-                                   : *matchers[static_cast<std::size_t>(loop_case.adaptive_matcher)];
+      const Matcher& matcher = *candidates[at].matcher;
       const std::clock_t start = std::clock();
       matches[at] = matcher.match(problem);
       times_ms[at] = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;

@@ -83,9 +83,7 @@ class MatchTally {
 /// A matcher to compare: one row of a table.
 struct MatchCandidate {
   std::string name;
-  /// A single matcher, or one of each MatcherKind in their order. In the latter case,
-  /// LoopCase::adaptive_matcher chooses.
-  std::vector<std::shared_ptr<const Matcher>> matchers;
+  std::shared_ptr<const Matcher> matcher;
 };
 
 enum class CandidateSet {

@@ -267,8 +267,7 @@ std::string markdown_of(const MatchBenchmark& benchmark, const MatchBenchmarkOpt
       "- search that ran: matchers choose it by the size of the window; see matchers.md for the names\n"
       "- evaluations: mean number of poses scored, on all levels of the score grid; times are processor "
       "times over all cases\n"
-      "- repaired: share of the codes decoded to poses that lay outside the window\n"
-      "- adaptive: the matcher that Ψ chose at the node of the scan when the log was mapped\n\n" +
+      "- repaired: share of the codes decoded to poses that lay outside the window\n\n" +
       logs_table(benchmark.logs).markdown() + '\n';
   text += series_text(benchmark.scans) + series_text(benchmark.contexts);
   text += windows_text(benchmark);

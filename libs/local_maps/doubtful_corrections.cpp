@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace psi_slam {
 namespace {
@@ -12,14 +13,14 @@ constexpr double kLargestSquare = 9;  // squared ratios count as at most this mu
 
 }  // namespace
 
-void DoubtfulCorrections::moved(double length_m, double sigma_m) {
+void DoubtfulCorrections::moved(double length_m, std::optional<double> sigma_m) {
   sum_m_ *= std::exp(-length_m / options_.travel_m);
-  step_sigma_m_ = sigma_m;
-  variance_m2_ += sigma_m * sigma_m;
+  step_sigma_m_ = sigma_m.value_or(0);
+  variance_m2_ += sigma_m ? *sigma_m * *sigma_m : std::numeric_limits<double>::infinity();
 }
 
 void DoubtfulCorrections::add_supported(double correction_m) {
-  if (variance_m2_ > 0) {
+  if (variance_m2_ > 0 && std::isfinite(variance_m2_)) {
     const double square = correction_m * correction_m / variance_m2_;
     mean_square_ += kWeight * (std::min(square, kLargestSquare * std::max(1.0, mean_square_)) - mean_square_);
   }

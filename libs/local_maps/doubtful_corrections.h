@@ -14,6 +14,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace psi_slam {
 
@@ -28,7 +29,8 @@ class DoubtfulCorrections {
   explicit DoubtfulCorrections(const DoubtfulCorrectionOptions& options) : options_(options) {}
 
   /// Begins a step: odometry measured a motion of length `length_m`, with the standard deviation `sigma_m`.
-  void moved(double length_m, double sigma_m);
+  /// An empty `sigma_m` means that there is no odometry. Then only the sum is limited, to `max_sum_m`.
+  void moved(double length_m, std::optional<double> sigma_m);
 
   /// Ends a step whose correction has the length `correction_m` and is supported by enough of the scan.
   void add_supported(double correction_m);

@@ -221,7 +221,6 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(const Frame& frame) const {
   motion.disagreement_rad = predicted.sigma_since_match_rad;
   motion.wide_disagreement_rad = predicted.sigma_without_gyroscope_rad;
   motion.sigma_m = predicted.sigma_m;
-  motion.correction_sigma_m = predicted.sigma_m;
   motion.sigma_rad = predicted.sigma_rad;
   motion.after_gap = constant_velocity_.is_gap(frame.time_us);
   return motion;

@@ -174,9 +174,10 @@ class FrontEnd {
     double sigma_m = 0;  ///< standard deviations of the motion, for the covariance of the poses
     double sigma_rad = 0;
     bool after_gap = false;  ///< scans are missing before this scan
-    /// Standard deviation of the motion for DoubtfulCorrections. Includes the change of odometry's speed
-    /// since the last step, because odometry that is read late or in bursts moves unevenly.
-    double correction_sigma_m = 0;
+    /// Standard deviation of the motion for DoubtfulCorrections; empty without odometry. Includes the change
+    /// of odometry's speed since the last step, because odometry that is read late or in bursts moves
+    /// unevenly.
+    std::optional<double> correction_sigma_m = {};
     /// Odometry began again at zero or jumped farther than a robot drives, so the motion is not measured.
     bool was_restarted = false;
   };

@@ -11,9 +11,9 @@
 namespace psi_slam {
 namespace {
 
-// At the beginning of a run whose place is unknown, every second search takes one of this many local maps
-// from before the interruption, because the robot is often still there. The other local maps take turns.
-constexpr std::ptrdiff_t kNewestMaps = 2;
+// At the beginning of a run whose place is unknown, every second node searches only this many local maps, the
+// newest before the interruption, because the robot is often still there. The other nodes search all.
+constexpr std::size_t kNewestMaps = 2;
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
@@ -39,6 +39,19 @@ PositionSigma sigma_of(const RelativeUncertainty& uncertainty, double distance_m
 }
 
 }  // namespace
+
+// Returns the local maps of which a node searches some, if its place is unknown.
+std::vector<LoopCandidate> LoopCloser::unplaced_candidates(std::size_t node, const KeyframeStore& keyframes,
+                                                           const PoseGraph& graph) {
+  std::vector<LoopCandidate> maps = whole_map_candidates(node, keyframes, graph, options_.candidates);
+  const std::size_t run = keyframes.unplaced.back().begin;
+  if (run != unplaced_run_) unplaced_searches_ = 0;
+  unplaced_run_ = run;
+  const double run_m = keyframes.nodes[node].travelled_m - keyframes.nodes[run].travelled_m;
+  if (run_m < options_.candidates.min_travel_m && maps.size() > kNewestMaps && unplaced_searches_++ % 2 == 0)
+    maps.erase(maps.begin(), maps.end() - static_cast<std::ptrdiff_t>(kNewestMaps));
+  return maps;
+}
 
 // Returns all candidates with narrow windows, and at most `wide_searches` candidates with wide windows. If no
 // candidate has a narrow window, the wide ones include those of far_candidates(). If the place of the node is
@@ -68,12 +81,7 @@ std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const Keyfra
   std::vector<LoopCandidate> wide(first_wide, chosen.end());
   chosen.erase(first_wide, chosen.end());
   if (is_unplaced(node, keyframes)) {
-    wide = whole_map_candidates(node, keyframes, graph, options_.candidates);
-    const double run_m =
-        keyframes.nodes[node].travelled_m - keyframes.nodes[keyframes.unplaced.back().begin].travelled_m;
-    if (run_m < options_.candidates.min_travel_m && wide.size() > std::size_t{kNewestMaps} &&
-        ++unplaced_searches_ % 2 != 0)
-      wide.erase(wide.begin(), wide.end() - kNewestMaps);
+    wide = unplaced_candidates(node, keyframes, graph);
   } else if (chosen.empty()) {
     const std::vector<LoopCandidate> far =
         far_candidates(node, keyframes, graph, options_.candidates, chains_to_anchors);

@@ -55,12 +55,15 @@ class LoopCloser {
  private:
   std::vector<LoopCandidate> candidates(std::size_t node, const KeyframeStore& keyframes,
                                         const PoseGraph& graph);
+  std::vector<LoopCandidate> unplaced_candidates(std::size_t node, const KeyframeStore& keyframes,
+                                                 const PoseGraph& graph);
 
   LoopClosureOptions options_;
   std::uint64_t run_seed_;
   PathCovarianceSearch search_;
   WideSearchSchedule schedule_;
-  std::size_t unplaced_searches_ = 0;  ///< searches at the beginnings of runs whose place is unknown
+  std::size_t unplaced_run_ = 0;       ///< first node of the last run whose place was unknown
+  std::size_t unplaced_searches_ = 0;  ///< number of searches at the beginning of that run
 };
 
 }  // namespace psi_slam

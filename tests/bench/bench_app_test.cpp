@@ -151,7 +151,7 @@ TEST_F(BenchApp, wrong_usage_and_input_give_one_sentence_and_exit_code_2) {
   EXPECT_EQ(run_program({"match"}), 2);
   EXPECT_EQ(run_program({"--help"}), 0);
   EXPECT_EQ(run_program({"match", "--help"}), 0);
-  EXPECT_THAT(out_.str(), HasSubstr("--windows"));
+  EXPECT_THAT(out_.str(), HasSubstr("--parts"));
 }
 
 TEST_F(BenchApp, simulates_a_run_and_writes_it_as_a_log_with_its_truth) {

@@ -88,5 +88,17 @@ TEST(DoubtfulCorrections, learn_nothing_from_a_motion_without_error) {
   EXPECT_FALSE(applies(corrections, 0.031));
 }
 
+TEST(DoubtfulCorrections, without_odometry_only_the_sum_is_limited) {
+  DoubtfulCorrections corrections({3, 0.2, 1000});
+  corrections.moved(0.1, {});
+  EXPECT_TRUE(corrections.add_doubtful(Vector2d(0.15, 0)));
+  corrections.moved(0.1, {});
+  EXPECT_FALSE(corrections.add_doubtful(Vector2d(0.15, 0)));
+  corrections.moved(0.1, {});
+  corrections.add_supported(1);
+  corrections.moved(0.1, 0.01);
+  EXPECT_NEAR(corrections.sigma_m(), 0.01, 1e-9) << "nothing is learned about odometry";
+}
+
 }  // namespace
 }  // namespace psi_slam

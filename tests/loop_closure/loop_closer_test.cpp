@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <mutex>
 #include <set>
 #include <vector>
@@ -170,6 +172,31 @@ TEST(LoopCloser, effort_is_divided_by_the_matchers_of_small_and_large_windows) {
   ASSERT_FALSE(large.questions().empty());
   EXPECT_EQ(wide.effort_of.at(MatcherKind::kGa).attempts, large.questions().size());
   for (const LoopRecord& loop : wide.loops) EXPECT_EQ(loop.matcher, MatcherKind::kGa);
+}
+
+// Both runs begin with a search of the newest local maps.
+TEST(LoopCloser, a_run_whose_place_is_unknown_searches_the_newest_local_maps_first) {
+  KeyframeStore keyframes = two_rounds().keyframes;
+  const std::size_t node = two_rounds().node;
+  const std::size_t count = whole_map_candidates(node, keyframes, two_rounds().graph(), {}).size();
+  ASSERT_GT(count, 3U);
+  LoopCloser closer(near_maps_too(), 5);
+  WorkerPool pool(1);
+  const AskedMatcher matcher;
+  for (const std::size_t begin : {node - 1, node}) {
+    keyframes.unplaced = {{begin, std::numeric_limits<std::size_t>::max(), 0}};
+    const std::size_t newest =
+        whole_map_candidates(node, keyframes, two_rounds().graph(), {}).back().local_map;
+    for (int attempt = 0; attempt < 3; ++attempt) {
+      const LoopCloser::Outcome outcome =
+          closer.close(node, keyframes, two_rounds().graph(), {{MatcherKind::kCsm, matcher}}, pool);
+      ASSERT_EQ(outcome.loops.size(), 1U) << "one whole local map";
+      EXPECT_EQ(outcome.loops.front().window.theta_rad, M_PI);
+      if (attempt % 2 == 0) {
+        EXPECT_GE(outcome.loops.front().local_map + 1, newest);
+      }
+    }
+  }
 }
 
 // Drift has moved the node in the graph farther from its true place than the largest window reaches.

@@ -44,6 +44,7 @@ int localize(const CommandLine& line, const Streams& streams) {
   load_settings(line, bound, streams);
   Localizer localizer(read_map_file(line.map), localizer_options(bound.settings));
   if (!line.start.empty()) localizer.start_at(parse_start(line.start));
+  if (!line.output.empty()) OutputFolder::check(line.output, line.force);
   const InterruptSignals signals;
   SessionInput input(line.log);
   calibrate(input, bound.settings, line, signals, streams);

@@ -150,13 +150,16 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
 int map_log(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
   SessionInput input = input_of(line, bound, streams);
-  if (line.verbose) streams.err << changed_settings(bound.table);
   const InterruptSignals signals;
+  if (line.verbose) streams.err << changed_settings(bound.table);
+  EditJournal edits;
+  if (!line.edits.empty()) edits = EditJournal::read(line.edits);
+  OutputFolder::check(line.output, line.force);
+  check_session_to_save(line);
   calibrate(input, bound.settings, line, signals, streams);
   MappingSession session(input, bound.settings);
-  if (!line.edits.empty()) session.add_edits(EditJournal::read(line.edits));
+  if (!line.edits.empty()) session.add_edits(edits);
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
-  check_session_to_save(line);
   std::optional<ProgressLine> progress_line;
   watch(session, signals, line, streams, progress_line);
   session.run(signals.came());

@@ -67,10 +67,11 @@ int merge_runs(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
   std::vector<SessionInput> inputs = open_inputs(line, bound, streams);
   if (!line.start.empty()) parse_start(line.start);
-  const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
+  OutputFolder::check(line.output, line.force);
   check_session_to_save(line);
   const InterruptSignals signals;
   for (SessionInput& input : inputs) calibrate(input, bound.settings, line, signals, streams);
+  const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
   std::optional<ProgressLine> progress_line;
   MappingSession session(inputs.front(), bound.settings);
   session.stay_open();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Reports how much of a long work is done.
 #pragma once
 
 #include <functional>

@@ -117,12 +117,12 @@ std::vector<SingleLaser> single_lasers(const std::filesystem::path& path, const 
     const auto names =
         contents.laser_names.empty() ? std::vector<std::string>() : contents.laser_names.front();
     SingleLaser only{"", options};
-    only.options.scan_delay_s = options_of_laser(options, names).scan_delay_s;
+    if (!names.empty()) only.options.scan_delay_s = options_of_laser(options, names).scan_delay_s;
     return {only};
   }
   std::vector<SingleLaser> lasers;
   for (const std::vector<std::string>& names : contents.laser_names) {
-    if (names.empty()) continue;  // its first scan is further down
+    if (names.empty() || !can_be_listed(names.front())) continue;  // or its scans have not appeared yet
     SingleLaser one{names.front(), options};
     (is_bag(format) ? one.options.scan_topic : one.options.laser) = names.front();
     one.options.scan_delay_s = options_of_laser(options, names).scan_delay_s;
@@ -144,7 +144,8 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
   diagnosis.options.sweep_time_s = 0;  // judge the log as recorded
   FirstPass pass = read_once(path, diagnosis.options);
   diagnosis.facts = pass.facts;
-  diagnosis.facts.contents.several_lasers = lasers.size() > 1;
+  diagnosis.facts.contents.several_lasers = combines_lasers(path, options);
+  diagnosis.laser = lasers.front().name;
   diagnosis.own_body = find_own_body(*open_log_reader(path, diagnosis.options)).sectors();
   if (!pass.facts.contents.states_beam_angles) {
     diagnosis.used_beam_angles =

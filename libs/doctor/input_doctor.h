@@ -39,6 +39,7 @@ struct LogDiagnosis {
   LogFacts facts;
   SweepDirectionStudy sweep_direction;              ///< without scans if no sweep time is stated
   LogOptions options;                               ///< options used to read the log
+  std::string laser;                                ///< laser that is judged; see SingleLaser::name
   BeamAngles used_beam_angles = BeamAngles::kAuto;  ///< kAuto if the log states its angles
   std::vector<BodySector> own_body;                 ///< beams that see the robot itself
   OdometryAgreement odometry;
@@ -60,12 +61,12 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
 
 /// A laser of a log.
 struct SingleLaser {
-  std::string name;    ///< name for options such as log.scan_delay_s; empty if the log has no other laser
+  std::string name;    ///< name for options such as log.scan_delay_s; empty if lasers are not combined
   LogOptions options;  ///< read this laser alone, with its stated delay
 };
 
 /// Returns the lasers that `options` select and that have appeared in the beginning of the log, at least one.
-/// Throws UserError if the log is unreadable.
+/// Leaves out lasers with names that no option can list. Throws UserError if the log is unreadable.
 std::vector<SingleLaser> single_lasers(const std::filesystem::path& path, const LogOptions& options);
 
 /// Derives findings from the measurements, warnings first. diagnose() calls this function.

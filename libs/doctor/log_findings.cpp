@@ -367,14 +367,24 @@ class Judge {
     constexpr double kLarge_s = 0.1;
     if (!diagnosis_.delay) return;
     const ScanDelay& delay = *diagnosis_.delay;
-    const double off_s = std::abs(delay.delay_s - delay_of_laser(stated_delays(diagnosis_.options), {}));
+    const std::vector<StatedDelay> stated = stated_delays(diagnosis_.options);
+    const auto& lasers = facts_.contents.laser_names;
+    const double stated_s =
+        delay_of_laser(stated, lasers.empty() ? std::vector<std::string>() : lasers.front());
+    const double off_s = std::abs(delay.delay_s - stated_s);
     if (off_s < std::max(kLeast_s, 4 * delay.deviation_s)) return;
     const std::string sentence = "turns show that the scans are stamped " +
                                  fixed(std::abs(delay.delay_s), 3) + " s " +
                                  (delay.delay_s > 0 ? "later" : "earlier") + " than odometry (accurate to " +
                                  fixed(delay.deviation_s, 3) + " s)";
-    std::string remedy = "log.calibrate = true";
-    if (!facts_.contents.several_lasers) remedy += ", or log.scan_delay_s = " + fixed(delay.delay_s, 3);
+    const std::string value =
+        (diagnosis_.laser.empty() ? "" : diagnosis_.laser + " ") + fixed(delay.delay_s, 3);
+    const bool has_no_name = facts_.contents.several_lasers && diagnosis_.laser.empty();
+    std::string remedy = stated.empty() ? "log.calibrate = true" : "";  // which estimates no stated option
+    if (!has_no_name)
+      remedy += (remedy.empty() ? "" : ", or ") + ("log.scan_delay_s = " + value);
+    else if (remedy.empty())
+      remedy = "state the delay of each laser with log.scan_delay_s";
     if (off_s > kLarge_s)
       warn("scan_delay", sentence, remedy);
     else
@@ -413,7 +423,8 @@ class Judge {
                                  " distances by " + fixed(100 * std::abs(mount.odometry_scale - 1), 1) +
                                  " % (accurate to " + fixed(100 * mount.scale_deviation, 1) + " %)";
     const std::string remedy =
-        "log.calibrate = true, or log.odometry_scale = " + fixed(1 / mount.odometry_scale, 4);
+        std::string(diagnosis_.options.odometry_scale ? "" : "log.calibrate = true, or ") +
+        "log.odometry_scale = " + fixed(1 / mount.odometry_scale, 4);
     const bool is_bent = diagnosis_.sweep_direction.stated_sweep_time_s != 0;  // which spoils the estimate
     if (off > kUsual + 4 * mount.scale_deviation && !is_bent)
       warn("odometry_scale", sentence, remedy);

@@ -8,6 +8,7 @@
 #include "doctor/input_doctor.h"
 #include "doctor/odometry_check.h"
 #include "frames/laser_choice.h"
+#include "frames/log_reader.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 
@@ -16,7 +17,6 @@ namespace {
 
 constexpr std::size_t kTracks = 30;
 constexpr std::size_t kMostPairs = 1500;
-constexpr double kMostDelay_s = 1.0;
 constexpr double kShareOfReading = 0.25;  // of the time of an estimate, for each reading of the log
 
 LogFactsCollector read_once(const std::filesystem::path& path, const LogOptions& options,
@@ -86,7 +86,7 @@ LaserEstimate estimate(const std::filesystem::path& path, LogOptions options, co
   options.scan_delay_s = scan_delay_text({{"", delay_s}});
   found = estimate_once(path, options, part_of(progress, 0.5, 1));
   if (found.delay) found.delay->delay_s += delay_s;
-  if (found.delay && std::abs(found.delay->delay_s) > kMostDelay_s) found.delay.reset();
+  if (found.delay && std::abs(found.delay->delay_s) > kMostScanDelay_s) found.delay.reset();
   return found;
 }
 
@@ -97,7 +97,7 @@ OdometryCalibration calibrate_odometry(const std::filesystem::path& path, const 
   const std::vector<SingleLaser> lasers = single_lasers(path, options);
   const std::size_t estimated = stated_delays(options).empty() ? lasers.size() : 1;
   OdometryCalibration calibration;
-  calibration.several_lasers = lasers.size() > 1;
+  calibration.several_lasers = combines_lasers(path, options);
   for (std::size_t i = 0; i < estimated; ++i) {
     LogOptions alone = lasers[i].options;
     alone.every_nth_scan = 1;
@@ -105,7 +105,7 @@ OdometryCalibration calibrate_odometry(const std::filesystem::path& path, const 
       return static_cast<double>(laser) / static_cast<double>(estimated);
     };
     const LaserEstimate found = estimate(path, alone, part_of(progress, share(i), share(i + 1)));
-    calibration.delays.push_back({lasers[i].name, found.median_period_s, found.delay});
+    calibration.delays.push_back({lasers[i].name, found.median_period_s, found.delay, found.obstacle});
     if (i > 0) continue;
     calibration.obstacle = found.obstacle;
     calibration.stated_mount = found.stated_mount;

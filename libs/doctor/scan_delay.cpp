@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "doctor/estimate_covariance.h"
+#include "frames/laser_choice.h"
 #include "frames/odometry_track.h"
 
 namespace psi_slam {
@@ -17,7 +18,6 @@ using mrpt::math::TPose2D;
 using mrpt::math::wrapToPi;
 
 constexpr std::size_t kFewestTurns = 40;
-constexpr double kLimit_s = 1.0;
 constexpr int kCandidates = 20;  // on each side of 0
 constexpr double kSlopeStep_s = 0.02;
 constexpr int kIterations = 20;
@@ -62,7 +62,7 @@ std::optional<double> best_candidate_s(const ShiftedOdometry& odometry, const st
     double cost = 0;
     for (const ScanTurn& turn : turns) {
       const double residual =
-          wrapToPi(turn.turn_rad - odometry.turn_rad(turn.frames, kLimit_s * k / kCandidates));
+          wrapToPi(turn.turn_rad - odometry.turn_rad(turn.frames, kMostScanDelay_s * k / kCandidates));
       cost += std::log1p(std::pow(residual / kNoise_rad, 2));
     }
     if (cost >= lowest) continue;
@@ -70,7 +70,7 @@ std::optional<double> best_candidate_s(const ShiftedOdometry& odometry, const st
     best = k;
   }
   if (std::abs(best) == kCandidates) return std::nullopt;
-  return kLimit_s * best / kCandidates;
+  return kMostScanDelay_s * best / kCandidates;
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks
   // Gauss-Newton steps for the delay and the ratio of turns, with a weak prior: without turns, both stay.
   const Eigen::Vector2d prior(*candidate_s, 1);
   const Eigen::Matrix2d prior_hessian =
-      Eigen::Vector2d(std::pow(kNoise_rad / kLimit_s, 2), std::pow(kNoise_rad / kGainDeviation, 2))
+      Eigen::Vector2d(std::pow(kNoise_rad / kMostScanDelay_s, 2), std::pow(kNoise_rad / kGainDeviation, 2))
           .asDiagonal();
   Eigen::Vector2d estimate = prior;
   Eigen::Matrix2d hessian;
@@ -107,7 +107,7 @@ std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks
     }
     if (i < kIterations) estimate += hessian.ldlt().solve(gradient);
   }
-  if (!(std::abs(estimate[0]) < kLimit_s)) return std::nullopt;
+  if (!(std::abs(estimate[0]) < kMostScanDelay_s)) return std::nullopt;
   const Eigen::Matrix2d covariance =
       estimate_covariance<2>(hessian, gradients, kNoise_rad * kNoise_rad * prior_hessian);
   return ScanDelay{turns.size(), estimate[0], std::sqrt(covariance(0, 0))};

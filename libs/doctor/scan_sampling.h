@@ -3,12 +3,12 @@
 // over the log reads the selected scans.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <map>
 #include <vector>
 
+#include "base/degrees.h"
 #include "base/share_observer.h"
 #include "doctor/log_facts.h"
 #include "psi_slam/frame.h"
@@ -18,7 +18,7 @@ namespace psi_slam {
 
 /// Motion between two scans that are compared with odometry: the scans still overlap well.
 inline constexpr double kComparedMotion_m = 0.25;
-inline constexpr double kComparedTurn_rad = 12 * M_PI / 180;
+inline constexpr double kComparedTurn_rad = radians_from_degrees(12.0L);
 
 /// Two frames by their indices, the earlier first.
 struct FramePair {

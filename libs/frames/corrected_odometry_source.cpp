@@ -4,12 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "frames/laser_choice.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr TimeUs kMostDelay_us = 1'000'000;  // see LogOptions::scan_delay_s
+constexpr auto kMostDelay_us = static_cast<TimeUs>(1e6 * kMostScanDelay_s);
 
 }  // namespace
 

@@ -17,10 +17,9 @@ namespace psi_slam {
 
 /// Corrects the odometry of another source whose frames hold one scan each. Multiplies distances by a scale.
 /// Gives each scan the odometry of the time at which it was measured: its time stamp minus the delay of its
-/// laser. That pose
-/// is interpolated between the scans of all lasers around this time. Scans that were measured before the
-/// first scan of the log keep its pose. Frames keep their order, number and time stamp, and the heading of a
-/// gyroscope. Frames without odometry stay unchanged.
+/// laser. That pose is interpolated between the scans of all lasers around this time. Scans that were
+/// measured before the first scan of the log keep its pose. Frames keep their order, number and time stamp,
+/// and the heading of a gyroscope. Frames without odometry stay unchanged.
 class CorrectedOdometrySource : public FrameSource {
  public:
   /// Largest number of frames that wait for later odometry.

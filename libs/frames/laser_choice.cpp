@@ -68,7 +68,7 @@ std::optional<StatedMount> mount_from(const std::string& text) {
 std::optional<StatedDelay> delay_from(const std::string& text) {
   const std::vector<std::string> words = words_of(text);
   const auto delay_s = words.empty() ? std::nullopt : parse_number(words.back());
-  if (!delay_s || !(std::abs(*delay_s) <= 1)) return std::nullopt;
+  if (!delay_s || !(std::abs(*delay_s) <= kMostScanDelay_s)) return std::nullopt;
   return StatedDelay{joined(words.begin(), words.end() - 1), *delay_s};
 }
 
@@ -137,7 +137,7 @@ std::string choice_of_lasers(const std::vector<std::string>& combined,
   if (combined.size() > 1)
     text = "the scans of " + name_list(combined) + " are combined, because their mounts are stated";
   if (!left_out.empty())
-    text += (text.empty() ? "" : ". ") + ("the scans of " + name_list(left_out)) +
+    text += (text.empty() ? "the scans of " : ". The scans of ") + name_list(left_out) +
             " are not used, because no fixed and level mount of their own is stated. State mounts with "
             "log.laser_mounts";
   return text.empty() ? text : text + ". Select lasers with log.laser";
@@ -209,6 +209,10 @@ LogOptions options_of_laser(const LogOptions& options, const std::vector<std::st
     own.mirrored = own.mirrored || mount.mirrored;
   }
   return own;
+}
+
+bool can_be_listed(const std::string& name) {
+  return !name.empty() && name != "all" && name.find(',') == std::string::npos && trimmed(name) == name;
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {

@@ -68,6 +68,9 @@ struct StatedMount {
 /// Parses `LogOptions::laser_mounts`. Throws UserError that says what was expected.
 std::vector<StatedMount> stated_mounts(const LogOptions& options);
 
+/// Largest delay of scans, and largest amount of a negative delay.
+inline constexpr double kMostScanDelay_s = 1;
+
 /// Delay of the scans of one laser as the user states it.
 struct StatedDelay {
   std::string name;  ///< empty: the delay of all lasers
@@ -89,6 +92,9 @@ std::vector<std::pair<const char*, std::string>> lasers_with_stated_values(const
 /// Returns the options of a laser that any of these names denotes, including its stated mount and delay if
 /// there are any.
 LogOptions options_of_laser(const LogOptions& options, const std::vector<std::string>& names);
+
+/// Returns whether an option such as log.laser can name the laser in a list.
+bool can_be_listed(const std::string& name);
 
 bool contains(const std::vector<std::string>& names, const std::string& name);
 

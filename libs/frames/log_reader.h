@@ -70,6 +70,10 @@ class LogReader : public FrameSource {
 /// UserError as reads_several_lasers() does.
 bool combines_lasers(const LogContents& contents, const LogOptions& options, LogFormat format);
 
+/// Returns whether open_log() combines the scans of several lasers of a log. Throws UserError if the log is
+/// unreadable.
+bool combines_lasers(const std::filesystem::path& path, const LogOptions& options);
+
 /// Opens a log of any format with the reader of its format. Each frame is a scan of one laser as recorded;
 /// `every_nth_scan`, `sweep_time_s` and `sweep_direction` do not apply. Throws UserError as open_log() does.
 std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, const LogOptions& options);

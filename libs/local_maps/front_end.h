@@ -76,8 +76,8 @@ struct FrontEndOptions {
   // the robot along a bare corridor causes such corrections: the mapped path becomes too short. A correction
   // is doubtful if the pose held to odometry scores at least `held_share` of the matched pose's score. It is
   // also doubtful if this holds without the person-sized spot of the scan that supports the match most.
-  // DoubtfulCorrections decides which of them are applied. The sum of those that are applied can correct a
-  // scale error of odometry of at most max_sum_m / travel_m.
+  // DoubtfulCorrections decides which of them are applied. With odometry as accurate as stated and scans
+  // close together, they can correct a scale error of at most max_sum_m / travel_m.
   double held_share = 0.9;
   DoubtfulCorrectionOptions doubtful_corrections;
 
@@ -230,7 +230,7 @@ class FrontEnd {
   mrpt::math::TPose2D last_local_T_robot_;
   mrpt::math::TPose2D last_local_T_middle_;  ///< pose in the middle of the last sweep
   mrpt::math::TPose2D last_motion_;
-  mrpt::math::TPose2D last_predicted_motion_;
+  mrpt::math::TPose2D last_predicted_motion_;  ///< motion of the last step as predicted, before the match
   DoubtfulCorrections doubtful_corrections_;
   double expected_response_ = 0.5;  ///< decaying mean of the responses
   int misses_ = 0;                  ///< number of successive scans without a match

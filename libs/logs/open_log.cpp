@@ -78,6 +78,10 @@ bool combines_lasers(const LogContents& contents, const LogOptions& options, Log
   return reads_several_lasers(options, format) || contents.several_lasers;
 }
 
+bool combines_lasers(const std::filesystem::path& path, const LogOptions& options) {
+  return combines_lasers(open_log_reader(path, options)->contents(), options, detect_log_format(path));
+}
+
 std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, const LogOptions& options) {
   const LogFormat format = detect_log_format(path);
   if (!is_bag(format) && !chooses_odometry(options) && !ignores_odometry(options))

@@ -113,11 +113,7 @@ class UsualLasers {
   }
 
   /// Returns whether log.laser can name the laser in a list, and the laser stays where it is mounted.
-  static bool can_be_combined(const Seen& laser) {
-    const bool has_name = !laser.label.empty() && laser.label.find(',') == std::string::npos &&
-                          trimmed(laser.label) == laser.label;
-    return has_name && laser.is_fixed;
-  }
+  static bool can_be_combined(const Seen& laser) { return can_be_listed(laser.label) && laser.is_fixed; }
 
   bool is_stated(const Seen& laser) const {
     return options_of_laser(options_, {laser.label}).robot_T_laser.has_value();
@@ -174,7 +170,7 @@ Sensors find_sensors(const std::filesystem::path& path, const LogOptions& option
     return odometry == Odometry::kUndecided || labels.empty() || needs_gyroscopes() ||
            std::any_of(named.begin(), named.end(), is_missing);
   };
-  while (lacks_sensors() || (!selects_lasers && !usual.is_settled())) {
+  while (lacks_sensors() || ((choice.all || !selects_lasers) && !usual.is_settled())) {
     mrpt::serialization::CSerializable::Ptr object;
     try {
       object = archive.next();

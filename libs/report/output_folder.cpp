@@ -59,14 +59,12 @@ void write_runs(const fs::path& folder, const MappingResult& result) {
 
 }  // namespace
 
-OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
+void OutputFolder::check(const fs::path& path, bool force) {
   if (path.empty())
     throw UserError("the name of the output folder is empty, expected a path. Name a folder for the results");
   check_no_file_in_the_way(path);
   std::error_code error;
-  fs::create_directories(path, error);
-  if (error && !fs::is_directory(path))
-    throw UserError("cannot create the output folder " + path.string() + ": " + error.message());
+  if (!fs::is_directory(path, error)) return;
   remove_leftovers(path);
   const bool empty = fs::is_empty(path, error);
   if (error) throw UserError("cannot read the output folder " + path.string() + ": " + error.message());
@@ -76,6 +74,15 @@ OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
   if (::access(path.c_str(), W_OK | X_OK) != 0)
     throw UserError("cannot write to the output folder " + path.string() +
                     ": no permission. Name another folder");
+}
+
+OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
+  check(path, force);
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error && !fs::is_directory(path))
+    throw UserError("cannot create the output folder " + path.string() + ": " + error.message());
+  check(path, force);
   return OutputFolder(path);
 }
 

@@ -31,6 +31,9 @@ class OutputFolder {
   /// once.
   static OutputFolder prepare(const std::filesystem::path& path, bool force);
 
+  /// Throws as prepare() does, but creates no folder. Call it before work that takes long.
+  static void check(const std::filesystem::path& path, bool force);
+
   const std::filesystem::path& path() const { return path_; }
 
  private:

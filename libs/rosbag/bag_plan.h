@@ -36,7 +36,7 @@ bool is_transforms(const BagTopic& topic);
 /// Names by which users may state options of the laser of a topic.
 std::vector<std::string> names_of_topic(const std::string& topic);
 
-/// Returns the options for the laser of a topic, with its stated mount.
+/// Returns the options for the laser of a topic, with its stated mount and delay.
 LogOptions options_of_topic(const LogOptions& options, const std::string& topic);
 
 /// Plans how to read a bag. Scans are laser scans, or point clouds if `options.slice_z_m` is set. Finds the

@@ -78,6 +78,7 @@ class Calibrator {
 
   void use_delay(const LaserDelay& found) {
     const std::string scans = found.laser.empty() ? "scans" : "scans of " + found.laser;
+    if (!found.obstacle.empty()) return say("estimates no delay of " + scans + ", because " + found.obstacle);
     if (!found.delay) return say("finds no turns that show a delay of " + scans + " below 1 s");
     const ScanDelay& delay = *found.delay;
     const bool is_determined =
@@ -145,6 +146,16 @@ LogOptions calibrated_options(LogOptions options, const LogCalibration& calibrat
   if (used.count(kLaserX) > 0)
     options.robot_T_laser = TPose2D{used[kLaserX], used[kLaserY], DEG2RAD(used[kLaserYaw])};
   return options;
+}
+
+bool unuse_mount(LogCalibration& calibration) {
+  bool was_used = false;
+  for (CalibratedOption& estimate : calibration.estimates) {
+    if (estimate.option != kLaserX && estimate.option != kLaserY && estimate.option != kLaserYaw) continue;
+    was_used = was_used || estimate.is_used;
+    estimate.is_used = false;
+  }
+  return was_used;
 }
 
 }  // namespace psi_slam

@@ -35,4 +35,7 @@ LogCalibration calibrate_log(const std::filesystem::path& log, const LogOptions&
 /// Returns the options with those estimates that are used, unless options.calibrate is false.
 LogOptions calibrated_options(LogOptions options, const LogCalibration& calibration);
 
+/// Marks the estimated mount as not used. Returns whether it was used.
+bool unuse_mount(LogCalibration& calibration);
+
 }  // namespace psi_slam

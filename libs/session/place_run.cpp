@@ -60,7 +60,7 @@ RunStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& see
 /// not found, and sets `why_not` to the reason why the last search was rejected.
 std::optional<Sighting> find(FrameSource& frames, std::size_t end, Localizer& localizer, FrontEnd& way,
                              bool start_is_known, const std::atomic<bool>& stop,
-                             const std::function<void(double share)>& progress, std::string& why_not) {
+                             const ShareObserver& progress, std::string& why_not) {
   std::optional<Sighting> seen;
   double followed_m = 0;
   for (std::size_t read = 0; read != end; ++read) {
@@ -95,7 +95,7 @@ std::optional<Sighting> find(FrameSource& frames, std::size_t end, Localizer& lo
 RunStart place_run(const MappingResult& mapped, const mrpt::maps::COccupancyGridMap2D& grid,
                    const SessionInput& run, const Settings& settings,
                    const std::optional<TPose2D>& map_T_start, const std::atomic<bool>& stop,
-                   const std::function<void(double share)>& progress) {
+                   const ShareObserver& progress) {
   Localizer localizer(grid, localizer_options(settings));
   if (map_T_start) localizer.start_at(*map_T_start);
   FrontEnd way(settings.mapper.front_end);

@@ -8,9 +8,9 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <atomic>
-#include <functional>
 #include <optional>
 
+#include "base/share_observer.h"
 #include "psi_slam/mapping_result.h"
 #include "session/session_input.h"
 #include "session/settings.h"
@@ -24,6 +24,6 @@ namespace psi_slam {
 RunStart place_run(const MappingResult& mapped, const mrpt::maps::COccupancyGridMap2D& grid,
                    const SessionInput& run, const Settings& settings,
                    const std::optional<mrpt::math::TPose2D>& map_T_start, const std::atomic<bool>& stop,
-                   const std::function<void(double share)>& progress = {});
+                   const ShareObserver& progress = {});
 
 }  // namespace psi_slam

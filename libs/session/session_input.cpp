@@ -6,6 +6,7 @@
 
 #include "base/file_checksum.h"
 #include "exports/map_files.h"
+#include "frames/log_reader.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 #include "session/read_ahead.h"
@@ -135,6 +136,7 @@ SessionInput::SessionInput(std::shared_ptr<const SessionRecording> recording, st
                     ". Resume with " + logs_.back().name + " or with a log that follows it");
   RecordedLog next{name_of(log_), sha256, 0};
   next.calibration = continued(logs_.back(), next.name);
+  keeps_calibration_ = next.calibration.has_value();
   logs_.push_back(std::move(next));
 }
 
@@ -152,10 +154,25 @@ SessionInput SessionInput::with_edits(EditJournal edits) const {
 
 void SessionInput::calibrate(const LogOptions& options, const ShareObserver& progress) {
   RecordedLog& last = logs_.back();
-  if (!options.calibrate || log_.empty() || last.calibration) return;
+  if (!options.calibrate || log_.empty()) return;
+  if (keeps_calibration_) check_kept_calibration(options);
+  if (last.calibration) return;
   LogCalibration calibration = calibrate_log(log_, options, progress);
   for (CalibratedOption& estimate : calibration.estimates) estimate.log = last.name;
   last.calibration = std::move(calibration);
+}
+
+void SessionInput::check_kept_calibration(const LogOptions& options) {
+  LogCalibration& calibration = *logs_.back().calibration;
+  if (combines_lasers(log_, options) && unuse_mount(calibration))
+    calibration.sentences.push_back("log.calibrate leaves the poses of several lasers unchanged");
+  try {
+    open_log_reader(log_, calibrated_options(options, calibration));
+  } catch (const UserError& error) {
+    const std::string& before = logs_.at(logs_.size() - 2).name;
+    throw UserError(log_.string() + " keeps the calibration of " + before + ", but has other lasers: " +
+                    error.what() + ". Map this log by itself, and combine both with psi-slam merge");
+  }
 }
 
 std::unique_ptr<FrameSource> SessionInput::open(const LogOptions& options) const {

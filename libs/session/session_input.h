@@ -35,8 +35,9 @@ class SessionInput {
   SessionInput with_edits(EditJournal edits) const;
 
   /// Estimates the options that log.calibrate leaves open, unless that was done or the recording has the
-  /// estimates. open_input() does this too, but each time and without progress. Throws UserError if the log
-  /// is unreadable.
+  /// estimates. open_input() does this too, but each time and without progress. A log that continues the
+  /// recording keeps the estimates of the log before it, but not its mount if it has several lasers. Throws
+  /// UserError if the log is unreadable, or if its lasers do not have the names of the estimates.
   void calibrate(const LogOptions& options, const ShareObserver& progress = {});
 
   /// Returns a source of all frames, recorded frames first, numbered from 0. Throws UserError if the log is
@@ -53,11 +54,14 @@ class SessionInput {
   const EditJournal& edits() const { return edits_; }
 
  private:
+  void check_kept_calibration(const LogOptions& options);
+
   std::shared_ptr<const SessionRecording> recording_;
   std::filesystem::path log_;
   std::vector<RecordedLog> logs_;
   EditJournal edits_;
-  bool same_log_ = false;  ///< log_ is the last log of the recording
+  bool same_log_ = false;           ///< log_ is the last log of the recording
+  bool keeps_calibration_ = false;  ///< the calibration of log_ is that of the log before it
 };
 
 /// An input that is open for a run.

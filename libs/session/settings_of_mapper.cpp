@@ -105,10 +105,11 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
       .number("max_doubtful_correction_sigmas", front_end.doubtful_corrections.max_sigmas, at_least(0), "",
               "Largest doubtful correction, in standard deviations of the motion by odometry since the last "
               "correction. A larger doubtful correction is not applied.")
-      .number("max_doubtful_correction_m", front_end.doubtful_corrections.max_sum_m, at_least(0).at_most(100),
-              "m",
-              "Largest sum of doubtful corrections, such as a person who walks ahead of the robot causes. A "
-              "correction beyond this sum is not applied.")
+      .number(
+          "max_doubtful_correction_m", front_end.doubtful_corrections.max_sum_m, at_least(0).at_most(100),
+          "m",
+          "Largest sum of doubtful corrections, such as a person who walks ahead of the robot causes. It is "
+          "larger for odometry with larger errors, and for scans far apart.")
       .number("doubtful_correction_travel_m", front_end.doubtful_corrections.travel_m, above(0).at_most(1000),
               "m", "Travel over which the sum of doubtful corrections decays to 37 %.")
       .number(

@@ -218,13 +218,28 @@ TEST_F(PsiSlamApp, an_interrupt_ends_the_calibration_without_a_map) {
   while (bytes_of(folder_.path() / "stderr").empty() &&
          std::chrono::steady_clock::now() - began < std::chrono::seconds(60))
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the program has told its settings
   process.send(SIGINT);
   const AppRun run = process.finish();
   EXPECT_EQ(run.code, 1);
   EXPECT_THAT(run.err, HasSubstr("psi-slam: interrupted before " + fs::path(log).filename().string() +
                                  " was calibrated. Nothing was written\n"));
   EXPECT_FALSE(fs::exists(output("out")));
+}
+
+TEST_F(PsiSlamApp, reports_a_full_output_folder_and_missing_edits_before_the_calibration) {
+  const std::string log = room_log(100);
+  fs::create_directories(output("out"));
+  write_file(output("out") / "notes.txt", "full");
+  const std::vector<std::string> calibrating{log, "-o", output("out").string(), "--set",
+                                             "log.calibrate=true"};
+  const AppRun full = run_app(calibrating, true);
+  EXPECT_THAT(full.err, HasSubstr("is not empty"));
+  EXPECT_EQ(full.err.find("calibrating"), std::string::npos);
+  std::vector<std::string> edited = calibrating;
+  edited.insert(edited.end(), {"--force", "--edits", output("missing.edits").string()});
+  const AppRun missing = run_app(edited, true);
+  EXPECT_THAT(missing.err, HasSubstr("missing.edits"));
+  EXPECT_EQ(missing.err.find("calibrating"), std::string::npos);
 }
 
 TEST_F(PsiSlamApp, shows_the_progress_of_a_calibration) {

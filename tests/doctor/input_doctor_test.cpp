@@ -212,6 +212,10 @@ TEST_F(InputDoctorTest, measures_the_scale_of_odometry) {
   LogOptions stated;
   stated.odometry_scale = 1 / 1.1;
   EXPECT_TRUE(finding_of(diagnose_run(run, stated), "odometry_scale").sentence.empty());
+  stated.odometry_scale = 0.8;
+  EXPECT_THAT(finding_of(diagnose_run(run, stated), "odometry_scale").remedy,
+              testing::StartsWith("log.odometry_scale = 0.9"))
+      << "log.calibrate estimates no stated option";
 }
 
 TEST_F(InputDoctorTest, measures_the_delay_of_scans) {
@@ -226,6 +230,25 @@ TEST_F(InputDoctorTest, measures_the_delay_of_scans) {
   LogOptions stated;
   stated.scan_delay_s = "0.25";
   EXPECT_TRUE(finding_of(diagnose_run(run, stated), "scan_delay").sentence.empty());
+  stated.scan_delay_s = "0.1";
+  EXPECT_THAT(finding_of(diagnose_run(run, stated), "scan_delay").remedy,
+              testing::StartsWith("log.scan_delay_s = 0.2"))
+      << "log.calibrate estimates no stated option";
+  LogOptions all;
+  all.laser = "all";
+  EXPECT_THAT(finding_of(diagnose_run(run, all), "scan_delay").remedy,
+              testing::StartsWith("log.calibrate = true, or log.scan_delay_s = FLASER 0.2"));
+}
+
+TEST_F(InputDoctorTest, uses_the_stated_delay_of_a_laser_whose_scans_come_late_in_the_log) {
+  std::string head;
+  for (int line = 0; line < 600; ++line) head += "# line " + std::to_string(line) + '\n';
+  const std::string log = head + carmen_log(with_late_stamps(round_trips(2), 0.25));
+  LogOptions stated;
+  stated.scan_delay_s = "FLASER 0.25";
+  EXPECT_TRUE(finding_of(diagnose_text(log, stated), "scan_delay").sentence.empty());
+  stated.scan_delay_s = "FLASER 0.1";
+  EXPECT_FALSE(finding_of(diagnose_text(log, stated), "scan_delay").sentence.empty());
 }
 
 TEST_F(InputDoctorTest, detects_wrong_beam_angles) {

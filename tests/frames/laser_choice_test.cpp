@@ -80,6 +80,15 @@ TEST(StatedMounts, apply_to_any_name_of_the_laser) {
   EXPECT_EQ(options_of_laser(options, {"RLASER", "rear"}).robot_T_laser, TPose2D(1, 2, 3));
 }
 
+TEST(ChoiceOfLasers, names_combined_lasers_and_those_left_out) {
+  EXPECT_EQ(choice_of_lasers({"FRONT"}, {}), "");
+  EXPECT_EQ(
+      choice_of_lasers({"FRONT", "REAR"}, {"TOP"}),
+      "the scans of FRONT, REAR are combined, because their mounts are stated. The scans of TOP are not "
+      "used, because no fixed and level mount of their own is stated. State mounts with "
+      "log.laser_mounts. Select lasers with log.laser");
+}
+
 TEST(LasersOfAFormat, topics_override_lasers_in_bags_only) {
   LogOptions options;
   for (const LogFormat format : {LogFormat::kCarmen, LogFormat::kMrptRawlog, LogFormat::kRos1Bag}) {

@@ -53,6 +53,27 @@ TEST(DoubtfulCorrections, apply_corrections_that_lower_the_sum) {
   EXPECT_TRUE(applies(corrections, -0.02));
 }
 
+TEST(DoubtfulCorrections, limit_the_sum_by_the_errors_of_the_last_step) {
+  DoubtfulCorrections corrections({3, 0.05, 1000});
+  corrections.moved(0.1, 0.1);
+  EXPECT_TRUE(corrections.add_doubtful({0.2, 0})) << "errors of this step explain 0.3 m";
+  corrections.moved(0.1, 0.01);
+  EXPECT_TRUE(corrections.add_doubtful({-0.02, 0})) << "lowers the sum, which is above its limit";
+  corrections.moved(0.1, 0.01);
+  EXPECT_FALSE(corrections.add_doubtful({0.02, 0}));
+}
+
+TEST(DoubtfulCorrections, limit_the_sum_by_the_scale) {
+  DoubtfulCorrections corrections({3, 0.05, 1000});
+  for (int i = 0; i < 500; ++i) {
+    corrections.moved(0.1, 0.01);
+    corrections.add_supported(0.02);
+  }
+  EXPECT_TRUE(applies(corrections, 0.05));
+  EXPECT_TRUE(applies(corrections, 0.045)) << "the scale is 2";
+  EXPECT_FALSE(applies(corrections, 0.05));
+}
+
 TEST(DoubtfulCorrections, learn_the_errors_of_poor_odometry_from_supported_corrections) {
   DoubtfulCorrections corrections({3, 1, 10});
   for (int i = 0; i < 500; ++i) {

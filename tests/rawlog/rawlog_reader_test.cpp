@@ -138,6 +138,10 @@ TEST_F(RawlogReaderTest, combines_lasers_at_different_poses) {
   slow.push_back(sensory_frame({scan_at("SLOW", -0.2)}));
   read(slow);
   EXPECT_EQ(contents_.laser, "FAST, SLOW");
+  LogOptions all;
+  all.laser = "all";
+  read(slow, all);
+  EXPECT_EQ(contents_.laser, "FAST, SLOW");
 
   LogOptions options;
   options.robot_T_laser = TPose2D{0.1, 0, 0};

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -134,11 +135,15 @@ TEST(LogCalibration, uses_a_delay_for_each_laser) {
 }
 
 /// Log of a front and a rear laser whose scans are stamped late by different times.
-std::string log_of_two_lasers(double front_delay_s, double rear_delay_s) {
+std::string log_of_two_lasers(double front_delay_s, double rear_delay_s, bool rear_is_mirrored = false) {
   SimulatedRun front = with_late_stamps(round_trips(1), front_delay_s);
   SimulatedRun rear = with_late_stamps(round_trips(1), rear_delay_s);
   front.robot_T_laser = {0.2, 0, 0};
   rear.robot_T_laser = {-0.2, 0, M_PI};
+  if (rear_is_mirrored)
+    rear.put_into = [](std::vector<float>& ranges_m, std::size_t) {
+      std::reverse(ranges_m.begin(), ranges_m.end());
+    };
   std::string log = "PARAM robot_frontlaser_offset 0.2 host 1\nPARAM robot_rearlaser_offset -0.2 host 1\n";
   std::istringstream fronts(carmen_log(front));
   std::istringstream rears(carmen_log(rear));
@@ -187,6 +192,34 @@ TEST(LogCalibration, estimates_the_delay_of_each_laser) {
   wrong.scan_delay_s = "LEFT 0.1";
   EXPECT_THAT(sentence_of([&] { open_log(path, wrong); }),
               HasSubstr("log.scan_delay_s is \"LEFT\", expected"));
+}
+
+TEST(LogCalibration, says_why_a_further_laser_gives_no_delay) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "two.log";
+  write_file(path, log_of_two_lasers(0.3, 0.3, true));
+  LogOptions options;
+  options.calibrate = true;
+  const LogCalibration made = calibrate_log(path, options);
+  EXPECT_THAT(made.sentences, testing::Contains(HasSubstr("the delay of scans of FLASER: 0.")));
+  EXPECT_THAT(made.sentences,
+              testing::Contains("log.calibrate estimates no delay of scans of RLASER, because odometry "
+                                "contradicts the scans. See psi-slam check"));
+}
+
+TEST(LogCalibration, leaves_the_mount_if_all_lasers_are_selected) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "one.log";
+  SimulatedRun run = round_trips(1);
+  run.robot_T_laser = {0.3, 0, 0};
+  write_file(path, "PARAM robot_frontlaser_offset 0.0 host 1\n" + carmen_log(run));  // the wrong mount
+  LogOptions options;
+  options.calibrate = true;
+  EXPECT_TRUE(calibrated_options(options, calibrate_log(path, options)).robot_T_laser);
+  options.laser = "all";
+  const LogOptions calibrated = calibrated_options(options, calibrate_log(path, options));
+  EXPECT_FALSE(calibrated.robot_T_laser);
+  EXPECT_TRUE(open_log(path, calibrated)->next());
 }
 
 /// Two rooms at the ends of a corridor of 50 m whose walls show no motion along it.

@@ -17,6 +17,7 @@
 #include "session/settings.h"
 #include "simulated_run.h"
 #include "temporary_folder.h"
+#include "test_files.h"
 
 namespace psi_slam {
 namespace {
@@ -319,6 +320,37 @@ TEST_F(CalibratedSession, keeps_its_estimates_for_a_log_that_continues_it) {
   EXPECT_EQ(input.logs().back().calibration->estimates.front().log, "second.log");
   EXPECT_THAT(input.logs().back().calibration->sentences,
               ElementsAre("log.calibrate keeps the estimates of first.log"));
+}
+
+TEST_F(CalibratedSession, keeps_no_estimates_that_do_not_suit_the_lasers_of_the_next_log) {
+  const auto half = lines_.begin() + 200;
+  saved_after(200, log("first.log", {lines_.begin(), half}));
+  SessionRecording recording = read_session_file(saved_);
+  const auto second = log("second.log", {half, lines_.end()});
+  std::vector<CalibratedOption>& estimates = recording.facts.logs.back().calibration->estimates;
+  const auto input_after = [&](std::vector<CalibratedOption> estimated) {
+    estimates = std::move(estimated);
+    return SessionInput(std::make_shared<const SessionRecording>(recording), second);
+  };
+  const std::vector<CalibratedOption> mount{{"", "", "log.laser_x_m", 0.2, 0.001, true},
+                                            {"", "", "log.laser_y_m", 0, 0.001, true},
+                                            {"", "", "log.laser_yaw_deg", 0, 0.1, true}};
+  for (const char* lasers : {"", "all"}) {
+    const bool all = lasers == std::string("all");
+    settings_.log.laser = lasers;
+    SessionInput input = input_after(mount);
+    for (int twice = 0; twice < 2; ++twice) input.calibrate(log_options(settings_));
+    const LogCalibration& kept = *input.logs().back().calibration;
+    EXPECT_EQ(kept.estimates.front().is_used, !all);
+    EXPECT_EQ(kept.sentences.size(), all ? 2U : 1U);
+  }
+  settings_.log.laser.clear();
+  SessionInput input = input_after({{"", "LEFT", "log.scan_delay_s", 0.2, 0.001, true}});
+  EXPECT_THAT(
+      sentence_of([&] { input.calibrate(log_options(settings_)); }),
+      testing::AllOf(testing::HasSubstr("second.log keeps the calibration of first.log, but has other "
+                                        "lasers: log.scan_delay_s"),
+                     testing::HasSubstr("combine both with psi-slam merge")));
 }
 
 TEST_F(CalibratedSession, can_be_interrupted_while_it_calibrates) {

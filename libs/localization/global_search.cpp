@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localization/global_search.h"
 
+#include <mrpt/math/wrap2pi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -34,8 +36,9 @@ constexpr double kSurface_m = 0.25;  // a wall this close in front of the hit su
 // Specks do not block beams, and neither do the thick ends of walls that a beam passes.
 constexpr double kBeside_m = 0.1;
 constexpr double kBesideCells = 2;
-constexpr double kAlongBeside =
-    2;  // searched along the beam, as a multiple: walls that a beam crosses at 27 degrees
+// Walls beside the beam are searched this many times as far along it, so that walls block beams that cross
+// them at 27 degrees or more.
+constexpr double kAlongBeside = 2;
 constexpr double kLeastIncidence = 0.05;  // lower bound of the sine of the angle between beam and wall
 constexpr double kNoSurface = 0.5;        // sine of the angle between beam and wall without a surface normal
 
@@ -110,16 +113,18 @@ FoundPlace GlobalSearch::find(std::size_t node, const KeyframeStore& memory, con
     place.objection = "the scan has no points";
     return place;
   }
-  const MatchResult somewhere =
-      match_anywhere(*matcher_, kSearchedShare * options_.min_response, context, seed);
-  FoundPlace place = judge(somewhere, context, node, memory);
+  const WholeMapMatch somewhere =
+      match_anywhere(*matcher_, kSearchedShare * options_.min_response, 0, context, seed);
+  FoundPlace place = judge(somewhere.match, context, node, memory);
   if (!place.believed() || options_.matcher == MatcherKind::kCsm) return place;
 
   // A genetic search may have missed a place that fits as well or better. The exact search finds it, and it
-  // is fast, because it need not consider places with lower responses.
+  // is fast, because it need not consider places with lower responses. It begins in the window in which the
+  // response was reached, because a window with another centre has other headings.
   const std::int64_t evaluations = place.evaluations;
-  place = judge(match_anywhere(exact_matcher_, kCheckedShare * somewhere.response, context, seed), context,
-                node, memory);
+  const WholeMapMatch checked = match_anywhere(exact_matcher_, kCheckedShare * somewhere.match.response,
+                                               somewhere.centre_rad, context, seed);
+  place = judge(checked.match, context, node, memory);
   place.evaluations += evaluations;
   return place;
 }
@@ -148,26 +153,30 @@ FoundPlace GlobalSearch::judge(const MatchResult& somewhere, const ScanPoints& c
   return place;
 }
 
-// Matches the context in the whole map at all headings. If the best heading is near +-180 degrees, both ends
-// of the window contain it, and the match seems ambiguous. The search is then repeated with a window centred
-// on 180 degrees.
-MatchResult GlobalSearch::match_anywhere(const Matcher& matcher, double min_response,
-                                         const ScanPoints& context, const MatchSeed& seed) const {
+// Matches the context in the whole map at all headings, in a window centred on the heading `centre_rad`. If
+// the best heading is near the ends of the window, both ends contain it, and the match seems ambiguous. The
+// search is then repeated with the opposite heading at the centre.
+GlobalSearch::WholeMapMatch GlobalSearch::match_anywhere(const Matcher& matcher, double min_response,
+                                                         double centre_rad, const ScanPoints& context,
+                                                         const MatchSeed& seed) const {
   const ScoreGrid& grid = map_.coarse->scores();
   const double half_x_m = 0.5 * grid.finest().width() * grid.resolution_m();
   const double half_y_m = 0.5 * grid.finest().height() * grid.resolution_m();
-  const TPose2D middle(grid.origin_x_m() + half_x_m, grid.origin_y_m() + half_y_m, 0);
+  const TPose2D middle(grid.origin_x_m() + half_x_m, grid.origin_y_m() + half_y_m, centre_rad);
   MatchProblem problem{grid, context, middle, {half_x_m, half_y_m, M_PI}};
   problem.min_response = min_response;
   problem.measure_ambiguity = true;
   problem.seed = seed;
   MatchResult match = matcher.match(problem);
-  if (!match.found || std::abs(match.lattice_pose.phi) < M_PI - options_.match.distinct_rad) return match;
+  const double turn_rad = std::abs(mrpt::math::wrapToPi(match.lattice_pose.phi - centre_rad));
+  if (!match.found || turn_rad < M_PI - options_.match.distinct_rad) return {match, centre_rad};
   const std::int64_t evaluations = match.evaluations;
-  problem.map_T_robot.phi = M_PI;
+  problem.map_T_robot.phi = mrpt::math::wrapToPi(centre_rad + M_PI);
+  // The headings of the repeated search may miss the best heading by up to half a step.
+  problem.min_response = std::min(min_response, kSearchedShare * match.response);
   match = matcher.match(problem);
   match.evaluations += evaluations;
-  return match;
+  return {match, problem.map_T_robot.phi};
 }
 
 // Returns the least share of clear beams of a place. Specks and moved furniture block many beams at the true

@@ -30,7 +30,8 @@ struct ClearBeams {
 };
 
 /// Follows all beams of the scan through the map. A wall near the end of a beam counts as the surface that
-/// the beam hit. A wall that ends within 0.1 m and two cells of a beam does not block it.
+/// the beam hit. A wall blocks a beam only if it continues on both sides of the beam for 0.1 m or two cells,
+/// whichever is more, and only if the beam crosses it at 27 degrees or more.
 ClearBeams clear_beams(const ScoreGrid& map, const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot);
 
 class GlobalSearch {
@@ -44,8 +45,13 @@ class GlobalSearch {
   const ReferenceMap& map() const { return map_; }
 
  private:
-  MatchResult match_anywhere(const Matcher& matcher, double min_response, const ScanPoints& context,
-                             const MatchSeed& seed) const;
+  struct WholeMapMatch {
+    MatchResult match;
+    double centre_rad = 0;  ///< heading at the centre of the window in which the match was found
+  };
+
+  WholeMapMatch match_anywhere(const Matcher& matcher, double min_response, double centre_rad,
+                               const ScanPoints& context, const MatchSeed& seed) const;
   FoundPlace judge(const MatchResult& somewhere, const ScanPoints& context, std::size_t node,
                    const KeyframeStore& memory) const;
   double least_clear_share(double ambiguity) const;

@@ -12,6 +12,9 @@
 
 namespace psi_slam {
 
+/// Number of points of a scan context that keeps all its points.
+constexpr int kAllPoints = 1'000'000;
+
 /// Options of a search of the whole map.
 struct GlobalSearchOptions {
   MatcherKind matcher = kLargeWindowMatcher;
@@ -19,7 +22,7 @@ struct GlobalSearchOptions {
   MatcherOptions match;
   double resolution_m = 0.1;  ///< largest cell size of the coarse grid, which is searched first
   double smoothing_sigma_m = 0.03;
-  ScanContextOptions context{15.0, 0.5, 0.2, 1'000'000};
+  ScanContextOptions context{15.0, 0.5, 0.2, kAllPoints};
 
   double min_response = 0.5;        ///< smallest response at the place found
   double max_ambiguity = 0.87;      ///< largest ratio of the next best place's response to the best response

@@ -93,8 +93,9 @@ FinalSearchOutcome final_search(const KeyframeStore& keyframes, const PoseGraph&
     unpack_local_maps(keyframes, local_maps, pool);
     auto attempts = map_in_parallel<LoopAttempt>(pool, end - begin, [&](std::size_t index) {
       const auto& [node, candidate] = pairs[begin + index];
-      return attempt_loop(node, *keyframes.nodes[node].points, candidate, keyframes, matchers, verification,
-                          run_seed);
+      return attempt_loop(node, *keyframes.nodes[node].points, candidate,
+                          least_reported_response(candidate.extent, verification), keyframes, matchers,
+                          verification, run_seed);
     });
     for (LoopAttempt& attempt : attempts) {
       outcome.effort += attempt.effort;

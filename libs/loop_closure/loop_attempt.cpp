@@ -17,7 +17,7 @@ bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
 }  // namespace
 
 LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCandidate& candidate,
-                         const KeyframeStore& keyframes, const NodeMatchers& matchers,
+                         double least_response, const KeyframeStore& keyframes, const NodeMatchers& matchers,
                          const LoopVerificationOptions& verification, std::uint64_t run_seed) {
   LoopAttempt attempt;
   const NodeScan& here = keyframes.nodes[node];
@@ -25,7 +25,7 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   if (!can_be_searched(scan, local_map)) return attempt;
   MatchProblem problem{std::as_const(*local_map.map).scores(), scan, candidate.anchor_T_node,
                        candidate.extent};
-  problem.min_response = least_reported_response(candidate.extent, verification);
+  problem.min_response = least_response;
   problem.measure_ambiguity = true;
   problem.seed = {run_seed, here.frame, local_map.id};
   const ChosenMatcher& matcher =

@@ -17,9 +17,10 @@ struct LoopAttempt {
 };
 
 /// Matches `scan` with one local map and verifies the match. `scan` holds the points of the node or of its
-/// context. The local map must be unpacked. `run_seed` becomes MatchSeed::run. Thread-safe.
+/// context. `least_response` is the smallest response of a match. The local map must be unpacked. `run_seed`
+/// becomes MatchSeed::run. Thread-safe.
 LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCandidate& candidate,
-                         const KeyframeStore& keyframes, const NodeMatchers& matchers,
+                         double least_response, const KeyframeStore& keyframes, const NodeMatchers& matchers,
                          const LoopVerificationOptions& verification, std::uint64_t run_seed);
 
 }  // namespace psi_slam

@@ -119,8 +119,9 @@ LoopCloser::Outcome LoopCloser::close(std::size_t node, const KeyframeStore& key
 
   for (LoopAttempt& attempt : map_in_parallel<LoopAttempt>(pool, candidates.size(), [&](std::size_t index) {
          const LoopCandidate& candidate = candidates[index];
-         return attempt_loop(node, wide(candidate) ? context : scan, candidate, keyframes, matchers,
-                             options_.verification, run_seed_);
+         return attempt_loop(node, wide(candidate) ? context : scan, candidate,
+                             least_reported_response(candidate.extent, options_.verification), keyframes,
+                             matchers, options_.verification, run_seed_);
        })) {
     outcome.effort += attempt.effort;
     if (attempt.loop) outcome.effort_of[attempt.loop->matcher] += attempt.effort;
@@ -138,7 +139,8 @@ std::optional<LoopRecord> LoopCloser::match(std::size_t node, const LoopCandidat
   const bool wide = is_wide(candidate.extent, options_.verification);
   return attempt_loop(node,
                       wide ? scan_context(node, keyframes, options_.context) : *keyframes.nodes[node].points,
-                      candidate, keyframes, matchers, options_.verification, run_seed_)
+                      candidate, least_response_by_hand(candidate.extent, options_.verification), keyframes,
+                      matchers, options_.verification, run_seed_)
       .loop;
 }
 

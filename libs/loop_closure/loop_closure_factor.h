@@ -18,7 +18,7 @@
 namespace psi_slam {
 
 struct PsiOptions {
-  double psi_1 = 1;  ///< kCsm searches for loops for Psi <= psi_1
+  double psi_1 = 1;  ///< kCsm searches windows of at most max_poses poses for Psi <= psi_1
   /// kGa searches for Psi >= psi_2, and kCsmGa between psi_1 and psi_2. By default kCsmGa is never chosen:
   /// share/doc/matchers.md has the measurements.
   double psi_2 = 1;

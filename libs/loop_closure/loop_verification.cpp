@@ -13,6 +13,7 @@ namespace {
 using mrpt::math::TPose2D;
 
 constexpr double kReverseTolerance_m = 0.25;
+constexpr double kReportedShare = 0.8;  // of min_response()
 
 double largest_sigma_m(const Eigen::Matrix3d& covariance) {
   const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
@@ -110,8 +111,11 @@ double min_response(const SearchExtent& extent, const LoopVerificationOptions& o
 }
 
 double least_reported_response(const SearchExtent& extent, const LoopVerificationOptions& options) {
-  constexpr double kReportedShare = 0.8;
   return (is_wide(extent, options) ? 1 : kReportedShare) * min_response(extent, options);
+}
+
+double least_response_by_hand(const SearchExtent& extent, const LoopVerificationOptions& options) {
+  return kReportedShare * min_response(extent, options);
 }
 
 void verify(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& keyframes,

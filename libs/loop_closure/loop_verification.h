@@ -36,6 +36,10 @@ double min_response(const SearchExtent& extent, const LoopVerificationOptions& o
 /// so that records show which matches were refused, and why. In wide windows that would cost much time.
 double least_reported_response(const SearchExtent& extent, const LoopVerificationOptions& options);
 
+/// Returns the least response of a match by hand. It is below min_response() in all windows, so that records
+/// show which matches were refused.
+double least_response_by_hand(const SearchExtent& extent, const LoopVerificationOptions& options);
+
 /// Sets the verdict, the shares and the refusal of `loop`. A verified match in a wide window is pending until
 /// other matches agree, see LoopConsensus. `scan` holds the points that were matched.
 void verify(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& keyframes,

@@ -13,8 +13,8 @@ struct ScanContextOptions {
   double travel_m = 8.0;         ///< length of the path before the scan that the context covers
   double node_spacing_m = 1.0;   ///< smallest distance along the path between scans of the context
   double point_spacing_m = 0.1;  ///< side length of squares; the context keeps one point per square
-  /// Largest number of points. A larger context keeps every nth point. This bounds the time of a search
-  /// outdoors and in halls.
+  /// Largest number of points. A larger context keeps this many, evenly spread over their order. This bounds
+  /// the time of a search outdoors and in halls.
   int max_points = 1000;
 };
 

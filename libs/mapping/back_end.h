@@ -98,8 +98,8 @@ class BackEnd {
   double optimize(PoseGraph& graph, SparsePoseAdjustment& solver);
 
   /// Runs the final loop search after the last scan. Before the first pass and after each pass, optimises the
-  /// graph and switches off outlier loops. Refuses all pending loops. Returns the matcher and its effort. The
-  /// matcher is that of the largest Psi, because a loop is expected in every window.
+  /// graph and switches off outlier loops. Refuses all pending loops. Returns the matcher of the largest
+  /// Psi, which searched all windows, and its effort.
   std::pair<MatcherKind, LoopEffort> finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
                                                   SparsePoseAdjustment& solver, FinalProgress& progress);
 

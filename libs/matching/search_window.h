@@ -21,6 +21,7 @@ struct SearchWindow {
   int n_y = 0;
   int n_theta = 0;
 
+  /// Number of poses of an exhaustive search of the window.
   double poses() const { return (2.0 * n_x + 1) * (2.0 * n_y + 1) * (2.0 * n_theta + 1); }
 };
 

@@ -286,7 +286,10 @@ std::string psi_plot(const MappingResult& result) {
   std::vector<Tick> ticks = decade_ticks(axes, power_text);
   ticks.front().label = "≤ " + ticks.front().label;
   std::string svg = plot_of(series, axes, ticks);
-  for (const auto& [name, threshold] : {std::pair("Ψ₁ = ", result.psi.psi_1), {"Ψ₂ = ", result.psi.psi_2}})
+  std::vector<std::pair<std::string, double>> thresholds = {{"Ψ₁ = ", result.psi.psi_1},
+                                                            {"Ψ₂ = ", result.psi.psi_2}};
+  if (result.psi.psi_1 == result.psi.psi_2) thresholds = {{"Ψ₁ = Ψ₂ = ", result.psi.psi_1}};
+  for (const auto& [name, threshold] : thresholds)
     if (threshold > 0)
       svg += level(axes, threshold, "limit", name + trimmed_text(threshold, 2), "limit early", kLeft + 4, -5);
   return figure("The factor Ψ over time", svg + search_strip(result.frames, series, axes));

@@ -174,7 +174,7 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
             "Closes loops. Without loops, the map is that of the front end alone.")
       .choice("matcher", mapper.back_end.matcher, choices,
               "How to search for loops: csm is exhaustive, csm_ga partly genetic, ga genetic. adaptive "
-              "chooses among them by the factor Psi.")
+              "chooses among them by the factor Psi and the number of poses of the window.")
       .number("window_x_m", candidates.max_window.x_m, above(0).at_most(100), "m",
               "Largest half-width of the search window along x, centred on the predicted pose.")
       .number("window_y_m", candidates.max_window.y_m, above(0).at_most(100), "m",
@@ -231,8 +231,8 @@ void describe_psi(OptionTable& table, PsiOptions& psi) {
   table.section("psi", "Factor Psi: chooses the matcher if loop_closure.matcher = adaptive")
       .number(
           "psi_1", psi.psi_1, any_number(), "",
-          "Up to this value of Psi, csm searches for loops; for larger values, csm_ga or ga. Psi is never "
-          "negative, so a negative value never uses csm.")
+          "Up to this value of Psi, csm searches windows of at most max_poses poses; for larger values of "
+          "Psi, csm_ga or ga. Psi is never negative, so a negative value never uses csm.")
       .number("psi_2", psi.psi_2, any_number(), "",
               "From this value of Psi on, ga searches for loops; between psi_1 and psi_2, csm_ga.")
       .number("max_poses", psi.max_poses, at_least(0), "poses",

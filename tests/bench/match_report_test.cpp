@@ -116,9 +116,8 @@ TEST(MatchReport, windows_tell_loops_from_places_without) {
   result.windows.push_back(failed);
   const BenchReport report = match_report(result, {}, "a machine");
   EXPECT_THAT(report.markdown,
-              AllOf(HasSubstr("| window 1 | csm | 1 | 100.0 | × 1.000 | 40.0 / 40.0 / 40.0 | 2 | 70.0 / 80.0 "
-                              "/ 80.0 |\n"),
-                    HasSubstr("| context | ga | 2 | 50.0 | × 0.500 | 1.5 / 2.0 / 2.0 | 0 |")));
+              AllOf(HasSubstr("| window 1 | csm | 1 | 100.0 | × 1.000 | 40.0 / 40.0 | 2 | 70.0 / 80.0 |\n"),
+                    HasSubstr("| context | ga | 2 | 50.0 | × 0.500 | 1.5 / 2.0 | 0 |")));
   const OrderedJson json = OrderedJson::parse(report.json);
   EXPECT_EQ(json["windows"][3]["window_deg"], 180);
   EXPECT_EQ(json["windows"][4]["context"], true);

@@ -293,6 +293,51 @@ TEST(Localizer, keeps_twin_corridors_apart_until_a_scan_decides) {
   }
 }
 
+/// A hall without symmetry.
+FloorPlan uneven_hall() {
+  FloorPlan plan;
+  const auto wall = [&](double x0, double y0, double x1, double y1) {
+    plan.segments.push_back({{x0, y0}, {x1, y1}, Material::kWall});
+  };
+  wall(-9, -5, 9, -5);
+  wall(9, -5, 9, 3);
+  wall(9, 3, 4, 6);
+  wall(4, 6, -9, 6);
+  wall(-9, 6, -9, -5);
+  wall(-3, -5, -3, -3);
+  wall(1, 6, 1, 4.5);
+  wall(5, -5, 6, -3);
+  wall(6, -3, 7, -5);
+  return plan;
+}
+
+// Near 180 degrees, the genetic search repeats its search with other headings. The check must find the place
+// in them too.
+TEST(Localizer, checks_places_with_headings_near_180_degrees) {
+  const FloorPlan plan = uneven_hall();
+  ScanSimulatorOptions options;
+  options.seed = 1;
+  std::vector<TPose2D> tour;
+  for (double turned_rad = 0; turned_rad < 2 * M_PI; turned_rad += 0.1)
+    tour.emplace_back(5 * std::cos(turned_rad), 1.5 * std::sin(turned_rad), turned_rad);
+  const auto map = map_of(scanned_from(tour, plan, options));
+  for (const double off_rad : {-0.009, -0.006, -0.003, 0.0, 0.003, 0.006, 0.009}) {
+    options.seed = 2;
+    std::vector<TPose2D> poses;
+    for (double way_m = 0; way_m < 6; way_m += 0.1)
+      poses.emplace_back(3 - way_m * std::cos(off_rad), -way_m * std::sin(off_rad), M_PI + off_rad);
+    const TrueRun run = scanned_from(poses, plan, options);
+    Localizer localizer(reference_of(map), {});
+    const auto steps = localize(localizer, run.frames);
+    for (const LocalizationStep& step : steps) {
+      if (!step.search) continue;
+      EXPECT_TRUE(step.search->found) << off_rad << ": " << step.search->objection;
+    }
+    EXPECT_EQ(steps.back().state, State::kTracking) << off_rad;
+    EXPECT_LT(worst_m(steps, run), kTracked_m) << off_rad;
+  }
+}
+
 TEST(Localizer, checks_what_a_genetic_search_found_by_an_exact_search) {
   const TrueRun first = along_corridor(0, 1);
   const TrueRun second = along_corridor(kTwin_m, 2);

@@ -25,11 +25,12 @@ class AskedMatcher : public Matcher {
     SearchExtent extent;
     MatchSeed seed;
     std::size_t points = 0;
+    double min_response = 0;
   };
 
   MatchResult match(const MatchProblem& problem) const override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    questions_.push_back({problem.extent, problem.seed, problem.scan.points.size()});
+    questions_.push_back({problem.extent, problem.seed, problem.scan.points.size(), problem.min_response});
     MatchResult result;
     result.evaluations = 7;
     return result;
@@ -150,6 +151,29 @@ TEST(LoopCloser, a_node_searches_few_wide_windows_and_the_next_nodes_the_others)
     ASSERT_EQ(outcome.loops.size(), 1U);
     EXPECT_TRUE(searched.insert(outcome.loops.front().local_map).second) << "every local map gets its turn";
   }
+}
+
+TEST(LoopCloser, a_search_by_hand_reports_lower_responses_of_wide_windows) {
+  LoopCandidate candidate;
+  candidate.local_map = 0;
+  candidate.extent = LoopCandidateOptions().max_window;
+  ASSERT_TRUE(is_wide(candidate.extent, {}));
+  const AskedMatcher matcher;
+  WorkerPool pool(1);
+  const LoopCloser closer(near_maps_too(), 5);
+  closer.match(two_rounds().node, candidate, two_rounds().keyframes, {{MatcherKind::kCsm, matcher}}, pool);
+  ASSERT_EQ(matcher.questions().size(), 1U);
+  EXPECT_DOUBLE_EQ(matcher.questions().front().min_response, least_response_by_hand(candidate.extent, {}));
+  EXPECT_LT(matcher.questions().front().min_response, LoopVerificationOptions().min_context_response);
+
+  PoseGraph graph = two_rounds().graph();
+  for (const std::uint32_t constraint : graph.constraints_of(two_rounds().node))
+    graph.set_enabled(constraint, false);
+  const AskedMatcher asked;
+  close(graph, asked);
+  ASSERT_FALSE(asked.questions().empty());
+  for (const auto& question : asked.questions())
+    EXPECT_EQ(question.min_response, LoopVerificationOptions().min_context_response);
 }
 
 TEST(LoopCloser, effort_is_divided_by_the_matchers_of_small_and_large_windows) {

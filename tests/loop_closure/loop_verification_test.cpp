@@ -100,6 +100,18 @@ TEST(LoopVerification, the_response_needed_depends_on_the_window) {
   }
 }
 
+TEST(LoopVerification, searches_report_low_responses_in_narrow_windows_or_by_hand) {
+  LoopVerificationOptions options;
+  options.min_response = 0.5;
+  options.min_context_response = 0.35;
+  const SearchExtent narrow{kNarrow_m, kNarrow_m, 0.1};
+  const SearchExtent wide{kWide_m, kWide_m, 0.1};
+  EXPECT_DOUBLE_EQ(least_reported_response(narrow, options), 0.4);
+  EXPECT_DOUBLE_EQ(least_reported_response(wide, options), 0.35);
+  EXPECT_DOUBLE_EQ(least_response_by_hand(narrow, options), 0.4);
+  EXPECT_DOUBLE_EQ(least_response_by_hand(wide, options), 0.28);
+}
+
 TEST(LoopVerification, a_position_known_in_one_direction_only_is_refused) {
   LoopRecord loop = two_rounds().loop(kNarrow_m);
   // Standard deviations of 0.4 m along a corridor at 45 degrees and of 0.01 m across it. Along x and y, they

@@ -153,7 +153,7 @@ TEST(ReportHtml, shows_empty_and_interrupted_runs) {
 
 TEST(ReportHtml, shows_psi_for_any_thresholds) {
   for (const auto& [psi_1, psi_2] :
-       {std::pair{-1.0, 1.0}, {0.0, 1e-300}, {-2.0, -1.0}, {1.0, 4.0}, {1e200, 1e300}}) {
+       {std::pair{-1.0, 1.0}, {0.0, 1e-300}, {-2.0, -1.0}, {1.0, 1.0}, {1.0, 4.0}, {1e200, 1e300}}) {
     MappingResult result = walk_around_the_room();
     result.psi.psi_1 = psi_1;
     result.psi.psi_2 = psi_2;
@@ -161,6 +161,7 @@ TEST(ReportHtml, shows_psi_for_any_thresholds) {
     EXPECT_EQ(complaint_about(without_style_and_script(html)), "") << psi_1 << ", " << psi_2;
     EXPECT_THAT(html, Not(HasSubstr("nan")));
     EXPECT_THAT(html, Not(HasSubstr("inf")));
+    EXPECT_EQ(html.find("Ψ₁ = Ψ₂ = 1<") != std::string::npos, psi_1 == psi_2);
     EXPECT_EQ(html.find("Ψ₁ = ") != std::string::npos, psi_1 > 0);
     EXPECT_EQ(html.find("Ψ₂ = ") != std::string::npos, psi_2 > 0);
   }

@@ -128,8 +128,7 @@ ReportTable table_of_windows(const std::vector<MatchSeries>& windows) {
   const auto times = [](const std::string& head, TimeFigures MatchFigures::*cases) {
     return ColumnOf<Row>{{head}, [=](const Row& row) {
                            const TimeFigures& time_ms = row.figures.*cases;
-                           return cell(fixed_text(time_ms.mean, 1) + " / " + fixed_text(time_ms.p99, 1) +
-                                       " / " + fixed_text(time_ms.max, 1));
+                           return cell(fixed_text(time_ms.mean, 1) + " / " + fixed_text(time_ms.max, 1));
                          }};
   };
   return table_of<Row>(
@@ -139,9 +138,9 @@ ReportTable table_of_windows(const std::vector<MatchSeries>& windows) {
        {{"success %"}, [](const Row& row) { return percent(row.figures.success_rate); }},
        {{"of csm's"},
         [](const Row& row) { return ratio(row.figures.success_rate.value_or(0), row.csm_success_rate, 3); }},
-       times("loop: mean / p99 / max ms", &MatchFigures::loop_time_ms),
+       times("loop: mean / max ms", &MatchFigures::loop_time_ms),
        {{"none"}, [](const Row& row) { return cell(row.figures.negative); }},
-       times("none: mean / p99 / max ms", &MatchFigures::no_loop_time_ms)},
+       times("none: mean / max ms", &MatchFigures::no_loop_time_ms)},
       rows_of(windows));
 }
 

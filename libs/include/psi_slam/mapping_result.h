@@ -51,9 +51,10 @@ struct FrameRecord {
   /// earlier frames that this frame confirmed, and loops that are switched off later.
   int loops_accepted = 0;
   bool searched_loops = false;  ///< whether this frame searched for loops, possibly without candidates
-  /// Matcher that Psi or a setting chose for the loops of this frame; empty if it is no node.
+  /// Matcher that Psi or a setting chose for the loops of this frame; empty if it is no node. If Psi chose,
+  /// kGa searches large windows instead, see LoopRecord::matcher.
   std::optional<MatcherKind> matcher;
-  /// Number of searches that the matcher ran for the loops of this frame, in the order of kSearchKinds.
+  /// Number of searches that ran for the loops of this frame, in the order of kSearchKinds.
   std::array<int, kSearchKinds.size()> searches{};
   std::int64_t loop_evaluations = 0;  ///< number of poses scored to close loops
   std::int64_t evaluations = 0;       ///< number of poses scored by loop closing and the front end
@@ -103,7 +104,7 @@ struct StageTiming {
 
 /// Thresholds of the factor Psi, see PsiOptions.
 struct PsiThresholds {
-  double psi_1 = 0;  ///< up to this Psi, kCsm searches for loops
+  double psi_1 = 0;  ///< up to this Psi, kCsm searches windows of at most max_poses poses
   double psi_2 = 0;  ///< from this Psi on, kGa searches for loops
 };
 

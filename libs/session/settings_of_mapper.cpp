@@ -467,6 +467,8 @@ void describe_localization(OptionTable& table, LocalizerOptions& localization) {
               "Search of the whole map: least travel between the scans that are searched together.")
       .number("context_point_spacing_m", search.context.point_spacing_m, above(0), "m",
               "Search of the whole map: one point is kept in each square of this side length.")
+      .integer("context_max_points", search.context.max_points, between(10, 1'000'000), "points",
+               "Search of the whole map: largest number of points that are searched together.")
       .number("min_search_response", search.min_response, between(0, 1), "",
               "Search of the whole map: least response of a place.")
       .number("max_ambiguity", search.max_ambiguity, between(0, 1), "",

@@ -334,7 +334,7 @@ TEST(Mapper, uses_the_matcher_chosen_by_psi_and_that_of_frequent_loops_in_the_fi
 TEST(Mapper, outlier_loops_are_switched_off_without_a_final_search_too) {
   MapperOptions options;
   options.back_end.final_search.passes = 0;
-  options.back_end.max_loop_chi = 0.7;
+  options.back_end.max_loop_chi = 0.9;
   const MappingResult result = map_of(office_drive().frames, options);
   expect_consistent(result, office_drive().frames.size());
   std::size_t off = 0;

@@ -45,9 +45,10 @@ class SettingsTest : public testing::Test {
 TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
   // LaserMount describes the pose of the laser, which is one member of LogOptions.
   const std::size_t log = member_count<LogOptions>() - 1 + member_count<LaserMount>();
-  const std::size_t front_end = member_count<FrontEndOptions>() - 4 + member_count<ScanFilterOptions>() +
+  const std::size_t front_end = member_count<FrontEndOptions>() - 5 + member_count<ScanFilterOptions>() +
                                 member_count<LocalMapOptions>() + member_count<RefinementOptions>() +
-                                member_count<ConstantVelocityOptions>();
+                                member_count<ConstantVelocityOptions>() +
+                                member_count<DoubtfulCorrectionOptions>();
   const std::size_t matcher = member_count<MatcherOptions>() - 1 + member_count<RefinementOptions>();
   const std::size_t loops = member_count<LoopClosureOptions>() - 3 + member_count<LoopCandidateOptions>() -
                             1 + member_count<SearchExtent>() + member_count<LoopVerificationOptions>() +

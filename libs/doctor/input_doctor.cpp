@@ -110,7 +110,7 @@ SweepDirectionStudy study_first_laser(const std::filesystem::path& path, const L
 
 }  // namespace
 
-std::vector<SingleLaser> single_lasers(const std::filesystem::path& path, const LogOptions& options) {
+LasersOfLog single_lasers(const std::filesystem::path& path, const LogOptions& options) {
   const LogFormat format = detect_log_format(path);
   const LogContents contents = open_log_reader(path, options)->contents();
   if (!combines_lasers(contents, options, format)) {
@@ -118,7 +118,7 @@ std::vector<SingleLaser> single_lasers(const std::filesystem::path& path, const 
         contents.laser_names.empty() ? std::vector<std::string>() : contents.laser_names.front();
     SingleLaser only{"", options};
     if (!names.empty()) only.options.scan_delay_s = options_of_laser(options, names).scan_delay_s;
-    return {only};
+    return {false, {only}};
   }
   std::vector<SingleLaser> lasers;
   for (const std::vector<std::string>& names : contents.laser_names) {
@@ -132,20 +132,20 @@ std::vector<SingleLaser> single_lasers(const std::filesystem::path& path, const 
     lasers.push_back({"", options});
     lasers.front().options.laser.clear();
   }
-  return lasers;
+  return {true, std::move(lasers)};
 }
 
 LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options) {
   LogDiagnosis diagnosis;
   diagnosis.path = path;
-  const std::vector<SingleLaser> lasers = single_lasers(path, options);
-  diagnosis.options = lasers.front().options;
+  const LasersOfLog log = single_lasers(path, options);
+  diagnosis.options = log.lasers.front().options;
   diagnosis.options.every_nth_scan = 1;
   diagnosis.options.sweep_time_s = 0;  // judge the log as recorded
   FirstPass pass = read_once(path, diagnosis.options);
   diagnosis.facts = pass.facts;
-  diagnosis.facts.contents.several_lasers = combines_lasers(path, options);
-  diagnosis.laser = lasers.front().name;
+  diagnosis.facts.contents.several_lasers = log.are_combined;
+  diagnosis.laser = log.lasers.front().name;
   diagnosis.own_body = find_own_body(*open_log_reader(path, diagnosis.options)).sectors();
   if (!pass.facts.contents.states_beam_angles) {
     diagnosis.used_beam_angles =

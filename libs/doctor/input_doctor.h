@@ -65,9 +65,14 @@ struct SingleLaser {
   LogOptions options;  ///< read this laser alone, with its stated delay
 };
 
+struct LasersOfLog {
+  bool are_combined = false;  ///< see combines_lasers()
+  std::vector<SingleLaser> lasers;
+};
+
 /// Returns the lasers that `options` select and that have appeared in the beginning of the log, at least one.
 /// Leaves out lasers with names that no option can list. Throws UserError if the log is unreadable.
-std::vector<SingleLaser> single_lasers(const std::filesystem::path& path, const LogOptions& options);
+LasersOfLog single_lasers(const std::filesystem::path& path, const LogOptions& options);
 
 /// Derives findings from the measurements, warnings first. diagnose() calls this function.
 std::vector<Finding> judge(const LogDiagnosis& diagnosis);

@@ -94,10 +94,10 @@ LaserEstimate estimate(const std::filesystem::path& path, LogOptions options, co
 
 OdometryCalibration calibrate_odometry(const std::filesystem::path& path, const LogOptions& options,
                                        const ShareObserver& progress) {
-  const std::vector<SingleLaser> lasers = single_lasers(path, options);
+  const auto [are_combined, lasers] = single_lasers(path, options);
   const std::size_t estimated = stated_delays(options).empty() ? lasers.size() : 1;
   OdometryCalibration calibration;
-  calibration.several_lasers = combines_lasers(path, options);
+  calibration.several_lasers = are_combined;
   for (std::size_t i = 0; i < estimated; ++i) {
     LogOptions alone = lasers[i].options;
     alone.every_nth_scan = 1;

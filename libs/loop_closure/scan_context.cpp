@@ -16,12 +16,11 @@ std::int64_t square_of(float x, float y, double size_m) {
   return row * (std::int64_t{1} << 32) + column;
 }
 
-// Keeps at most `most` elements, at equal distances.
+// Keeps `count` of more elements, at equal distances.
 template <class Element>
-void thin(std::vector<Element>& elements, std::size_t most) {
-  const std::size_t size = elements.size();
-  for (std::size_t i = 0; i < std::min(size, most); ++i) elements[i] = elements[i * size / most];
-  elements.resize(std::min(size, most));
+void thin(std::vector<Element>& elements, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) elements[i] = elements[i * elements.size() / count];
+  elements.resize(count);
 }
 
 }  // namespace
@@ -57,9 +56,10 @@ ScanPoints scan_context(std::size_t node, const KeyframeStore& keyframes, const 
     last_m = there.travelled_m;
     add(there);
   }
-  if (context.points.size() > static_cast<std::size_t>(options.max_points)) {
-    thin(context.points, static_cast<std::size_t>(options.max_points));
-    thin(context.normals, static_cast<std::size_t>(options.max_points));
+  const auto most = static_cast<std::size_t>(options.max_points);
+  if (context.points.size() > most) {
+    thin(context.points, most);
+    thin(context.normals, most);
   }
   for (const auto& point : context.points)
     context.farthest_m = std::max(context.farthest_m, std::hypot(double{point.x}, double{point.y}));

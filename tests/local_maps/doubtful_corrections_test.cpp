@@ -14,6 +14,14 @@ bool applies(DoubtfulCorrections& corrections, double correction_m) {
   return corrections.add_doubtful(Vector2d(correction_m, 0));
 }
 
+// Makes 500 such steps with supported corrections.
+void support(DoubtfulCorrections& corrections, double correction_m) {
+  for (int i = 0; i < 500; ++i) {
+    corrections.moved(0.1, 0.01);
+    corrections.add_supported(correction_m);
+  }
+}
+
 TEST(DoubtfulCorrections, apply_what_errors_of_odometry_explain) {
   DoubtfulCorrections corrections({3, 1, 10});
   EXPECT_TRUE(applies(corrections, 0.029));
@@ -65,10 +73,7 @@ TEST(DoubtfulCorrections, limit_the_sum_by_the_errors_of_the_last_step) {
 
 TEST(DoubtfulCorrections, limit_the_sum_by_the_scale) {
   DoubtfulCorrections corrections({3, 0.05, 1000});
-  for (int i = 0; i < 500; ++i) {
-    corrections.moved(0.1, 0.01);
-    corrections.add_supported(0.02);
-  }
+  support(corrections, 0.02);
   EXPECT_TRUE(applies(corrections, 0.05));
   EXPECT_TRUE(applies(corrections, 0.045)) << "the scale is 2";
   EXPECT_FALSE(applies(corrections, 0.05));
@@ -76,10 +81,7 @@ TEST(DoubtfulCorrections, limit_the_sum_by_the_scale) {
 
 TEST(DoubtfulCorrections, learn_the_errors_of_poor_odometry_from_supported_corrections) {
   DoubtfulCorrections corrections({3, 1, 10});
-  for (int i = 0; i < 500; ++i) {
-    corrections.moved(0.1, 0.01);
-    corrections.add_supported(0.02);
-  }
+  support(corrections, 0.02);
   corrections.moved(0.1, 0.01);
   EXPECT_NEAR(corrections.sigma_m(), 0.02, 1e-4);
   EXPECT_TRUE(corrections.add_doubtful(Vector2d(0, 0.05)));
@@ -87,10 +89,7 @@ TEST(DoubtfulCorrections, learn_the_errors_of_poor_odometry_from_supported_corre
 
 TEST(DoubtfulCorrections, never_trust_odometry_more_than_its_standard_deviation) {
   DoubtfulCorrections corrections({3, 1, 10});
-  for (int i = 0; i < 500; ++i) {
-    corrections.moved(0.1, 0.01);
-    corrections.add_supported(0.001);
-  }
+  support(corrections, 0.001);
   EXPECT_TRUE(applies(corrections, 0.029));
 }
 

@@ -61,7 +61,8 @@ CLI::App* add_check(CLI::App& app, CommandLine& line) {
 
 CLI::App* add_live(CLI::App& app, CommandLine& line) {
   CLI::App* const live = app.add_subcommand(
-      "live", "Map while the robot drives: from a stream of CARMEN lines or a growing log, until Ctrl-C");
+      "live",
+      "Map while the robot drives: from a stream of CARMEN lines, a growing log or sensors, until Ctrl-C");
   add_live_options(*live, line.live);
   add_value(*live, "-o,--output", line.output, kFolderHelp, "DIR");
   add_run_options(*live, line);
@@ -136,13 +137,14 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
   if (maps) require(!line.log.empty() || !line.resume.empty(), "name the log: psi-slam LOG -o DIR");
   if (line.command == Command::kCheck) require(!line.log.empty(), "name the log: psi-slam check LOG");
   const bool has_source = live_input(line.live).has_value();
-  if (is_live) require(has_source, "name a source: --stdin, --tcp PORT or --follow LOG");
+  if (is_live) require(has_source, "name a source: --stdin, --tcp PORT, --follow LOG or --sensors INI");
   if (localizes)
     require(!line.map.empty() && (has_source || !line.log.empty()),
             "name a map and a log: psi-slam localize MAP LOG");
   refuse(has_source && !line.log.empty(), "name a log or a live source, not both");
-  refuse(line.json && pose_format(line.live),
-         "--json contradicts --poses: only poses go to standard output. Read the figures in the results folder");
+  refuse(
+      line.json && pose_format(line.live),
+      "--json contradicts --poses: only poses go to standard output. Read the figures in the results folder");
   if (merges) require(line.inputs.size() >= 2, "name the runs: psi-slam merge FIRST SECOND -o DIR");
   if (maps || merges || is_live) require(!line.output.empty(), "name the folder for the results: -o DIR");
   refuse(merges && line.inputs.size() > 2 && !line.start.empty(),
@@ -227,12 +229,10 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   app.add_flag("-v,--verbose", line.verbose, "Also print the changed settings and the times of all stages");
   app.add_flag("--dump-config", dump_config, "Print a settings file with all options and exit");
   app.set_version_flag("--version", "psi-slam " PSI_SLAM_VERSION, "Print the version and exit");
-  const std::vector<std::pair<CLI::App*, Command>> commands{{add_check(app, line), Command::kCheck},
-                                                            {add_live(app, line), Command::kLive},
-                                                            {add_localize(app, line), Command::kLocalize},
-                                                            {add_merge(app, line), Command::kMerge},
-                                                            {add_options(app, line), Command::kOptions},
-                                                            {add_sweep(app, line), Command::kSweep}};
+  const std::vector<std::pair<CLI::App*, Command>> commands{
+      {add_check(app, line), Command::kCheck},       {add_live(app, line), Command::kLive},
+      {add_localize(app, line), Command::kLocalize}, {add_merge(app, line), Command::kMerge},
+      {add_options(app, line), Command::kOptions},   {add_sweep(app, line), Command::kSweep}};
   app.require_subcommand(0, 1);
   app.allow_extras();
   for (const auto& [command, kind] : commands) command->allow_extras();

@@ -17,6 +17,7 @@ struct LiveArguments {
   std::string tcp;          ///< number of the port
   std::string address;      ///< --bind
   std::string follow;       ///< log that grows
+  std::string sensors;      ///< settings file of rawlog-grabber
   std::string idle_s;       ///< seconds
   std::string look_over_s;  ///< seconds
   std::string poses;        ///< "tum" or "json"
@@ -25,8 +26,8 @@ struct LiveArguments {
 /// Adds the options that fill `arguments`.
 void add_live_options(CLI::App& command, LiveArguments& arguments);
 
-/// Returns the source that the options name; empty if they name none. Throws UserError if they name several sources,
-/// if a value is invalid, or if an option has no effect.
+/// Returns the source that the options name; empty if they name none. Throws UserError if they name several
+/// sources, if a value is invalid, or if an option has no effect.
 std::optional<LiveInput> live_input(const LiveArguments& arguments);
 
 /// Returns the form of the lines of poses; empty for none. Throws UserError for an unknown form.

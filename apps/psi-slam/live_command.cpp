@@ -24,7 +24,8 @@ class Leaving {
 
 LivePose last_pose(const Mapper& mapper) {
   const FrameRecord& record = mapper.frames().back();
-  return {record.time_us, record.map_T_robot, mapper.frames().size() - 1, record.match == ScanMatch::kMatched};
+  return {record.time_us, record.map_T_robot, mapper.frames().size() - 1,
+          record.match == ScanMatch::kMatched};
 }
 
 }  // namespace
@@ -45,7 +46,8 @@ int map_live(const CommandLine& line, const Streams& streams) {
   const Leaving leaving(run);
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
   std::optional<ProgressLine> progress_line;
-  if (streams.err_is_terminal && !line.quiet) progress_line.emplace(streams.err, ProgressLine::Input::kStream);
+  if (streams.err_is_terminal && !line.quiet)
+    progress_line.emplace(streams.err, ProgressLine::Input::kStream);
   run.set_before_message([&] {
     if (progress_line) progress_line->clear();
   });
@@ -58,7 +60,8 @@ int map_live(const CommandLine& line, const Streams& streams) {
     if (poses) LiveRun::print(streams.out, last_pose(session.mapper()), *poses);
   }
 
-  if (run.end()) streams.err << "psi-slam: finishing the map. Interrupt again to finish it without more loops\n";
+  if (run.end())
+    streams.err << "psi-slam: finishing the map. Interrupt again to finish it without more loops\n";
   session.finish(run.interrupted());
   return save_and_export(session, folder, line, texts, progress_line);
 }

@@ -8,7 +8,7 @@ namespace psi_slam {
 
 LiveRun::LiveRun(const Streams& streams) : streams_(streams) {
   signals_.emplace();
-  // A reader of the poses that ends must not end the mapping, nor must a sensor that closes its connection.
+  // A program that reads the poses must not end the mapping by its own end.
   std::signal(SIGPIPE, SIG_IGN);
 }
 

@@ -16,9 +16,9 @@
 
 namespace psi_slam {
 
-/// Control of a live source. The first Ctrl-C ends the source; end() makes the next one available for the work that
-/// follows. Messages of the source and of this thread do not mix. The object must outlive the source; leave() lets the
-/// source be destroyed at any time.
+/// Control of a live source. The first Ctrl-C ends the source; end() makes the next one available for the
+/// work that follows. Messages of the source and of this thread do not mix. The object must outlive the
+/// source; leave() lets the source be destroyed at any time.
 class LiveRun {
  public:
   explicit LiveRun(const Streams& streams);
@@ -26,7 +26,9 @@ class LiveRun {
   LiveControl control();
 
   /// Sets the function that erases a line of progress before a message.
-  void set_before_message(std::function<void()> before_message) { before_message_ = std::move(before_message); }
+  void set_before_message(std::function<void()> before_message) {
+    before_message_ = std::move(before_message);
+  }
 
   /// Prints to the error stream while no other thread does.
   void print(const std::function<void()>& print);
@@ -36,7 +38,8 @@ class LiveRun {
     out << pose_line(pose, format) << std::flush;
   }
 
-  /// Call after the last frame. Returns whether Ctrl-C ended the source. The next Ctrl-C makes interrupted() true.
+  /// Call after the last frame. Returns whether Ctrl-C ended the source. The next Ctrl-C makes interrupted()
+  /// true.
   bool end();
   const std::atomic<bool>& interrupted() const { return signals_->came(); }
 

@@ -11,8 +11,8 @@ std::string pose_line(const LivePose& pose, PoseFormat format) {
   if (format == PoseFormat::kTum) return tum_text({{pose.time_us, place}});
   return "{\"time\": " + format_seconds(pose.time_us) + ", \"x\": " + exact_text(place.x) +
          ", \"y\": " + exact_text(place.y) + ", \"yaw\": " + exact_text(place.phi) +
-         ", \"frame\": " + std::to_string(pose.frame) + ", \"matched\": " + (pose.matched ? "true" : "false") +
-         "}\n";
+         ", \"frame\": " + std::to_string(pose.frame) +
+         ", \"matched\": " + (pose.matched ? "true" : "false") + "}\n";
 }
 
 }  // namespace psi_slam

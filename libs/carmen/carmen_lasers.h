@@ -27,8 +27,9 @@ namespace psi_slam {
 std::vector<std::string> carmen_laser_messages(const std::string& laser,
                                                const std::string& option = "log.laser");
 
-/// Names of the messages that may hold the scans of each laser that the options choose. "all" stands for the front
-/// laser, the rear laser, RAWLASER3 and RAWLASER4. A laser with several kinds of messages is thus read once.
+/// Names of the messages that may hold the scans of each laser that the options choose. "all" stands for the
+/// front laser, the rear laser, RAWLASER3 and RAWLASER4. A laser with several kinds of messages is thus read
+/// once.
 std::vector<std::vector<std::string>> carmen_laser_candidates(const LogOptions& options);
 
 /// Pose of the laser on the robot, from the two poses in the ROBOTLASER lines with this name. Reads until the

@@ -15,8 +15,8 @@
 // The reader skips malformed lines if they are few: one line, or at most 1 % of the lines that it needs. It
 // throws UserError if there are more malformed lines, or if the last line is truncated.
 //
-// A stream is looked over only for its first seconds, see open_carmen_stream(). All its malformed lines are skipped,
-// because a connection may be cut at any time.
+// A stream is looked over only for its first seconds, see open_carmen_stream(). All its malformed lines are
+// skipped, because a connection may be cut at any time.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -58,8 +58,8 @@ class CopiedSource : public ByteSource {
 /// Beginning of a stream.
 struct StreamHead {
   std::filesystem::path name;  ///< name of the stream
-  std::string lines;  ///< the lines that decide what is read
-  std::string bytes;  ///< all bytes that were taken from the stream
+  std::string lines;           ///< the lines that decide what is read
+  std::string bytes;           ///< all bytes that were taken from the stream
   bool has_odometry = false;
 };
 
@@ -104,11 +104,10 @@ class CarmenReader : public LogReader {
 
   /// Reads a stream from its beginning.
   CarmenReader(const StreamHead& head, std::unique_ptr<ByteSource> stream, const LogOptions& options)
-      : CarmenReader(
-            CarmenText(head.name, std::make_shared<const std::string>(head.lines)),
-            LineReader(std::make_unique<TextSource>(std::make_shared<const std::string>(head.bytes), head.name,
-                                                    std::move(stream))),
-            options, kMostWaitingOfStream) {
+      : CarmenReader(CarmenText(head.name, std::make_shared<const std::string>(head.lines)),
+                     LineReader(std::make_unique<TextSource>(std::make_shared<const std::string>(head.bytes),
+                                                             head.name, std::move(stream))),
+                     options, kMostWaitingOfStream) {
     is_stream_ = true;
     if (!with_odometry_ || head.has_odometry) return;
     interpolator_.expect_no_odometry();
@@ -189,7 +188,8 @@ class CarmenReader : public LogReader {
       ++lines_needed_;
       if (std::exchange(ignores_odom_lines_, false))
         contents_.assumptions.push_back(
-            "no ODOM line came in the first seconds, so later ones are not used. Wait longer with --look-over-s");
+            "no ODOM line came in the first seconds, so later ones are not used. Wait longer with "
+            "--look-over-s");
       const CarmenOdometryMessage odometry = read_odometry(fields);
       interpolator_.add_odometry(odometry.time_us, odometry.odom_T_robot);
     } else if (name == "PARAM") {
@@ -297,7 +297,7 @@ class CarmenReader : public LogReader {
   bool with_odometry_;
   bool is_stream_ = false;
   bool ignores_odom_lines_ = false;  // because the first lines of the stream had none; none has come so far
-  std::size_t lines_needed_ = 0;  // number of lines needed so far, malformed ones included
+  std::size_t lines_needed_ = 0;     // number of lines needed so far, malformed ones included
   bool at_end_ = false;
 };
 

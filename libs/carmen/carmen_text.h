@@ -10,8 +10,8 @@
 
 namespace psi_slam {
 
-/// CARMEN lines that are looked over before the first scan is read, as often as needed: those of a whole log, or
-/// the first lines of a stream.
+/// CARMEN lines that are looked over before the first scan is read, as often as needed: those of a whole log,
+/// or the first lines of a stream.
 class CarmenText {
  public:
   /// Lines of a file, which converts implicitly.

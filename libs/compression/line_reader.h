@@ -12,8 +12,8 @@
 
 namespace psi_slam {
 
-/// Reads the lines of a plain or compressed text file, or of a stream, without their line ends ("\n" or "\r\n").
-/// Throws UserError as CompressedFile does, and for a line of 16 MiB or more.
+/// Reads the lines of a plain or compressed text file, or of a stream, without their line ends ("\n" or
+/// "\r\n"). Throws UserError as CompressedFile does, and for a line of 16 MiB or more.
 class LineReader {
  public:
   explicit LineReader(std::filesystem::path path);

@@ -152,8 +152,8 @@ class OwnBodyFinder {
   std::map<std::size_t, Laser> lasers_;
 };
 
-/// Reads a log until the finder has settled. With `most_s`, reads at most kMostFramesOfStream frames, until `most_s`
-/// seconds after the first one. Stops without an error where the log is damaged.
+/// Reads a log until the finder has settled. With `most_s`, reads at most kMostFramesOfStream frames, until
+/// `most_s` seconds after the first one. Stops without an error where the log is damaged.
 OwnBodyMask find_own_body(FrameSource& log, std::optional<double> most_s = std::nullopt);
 
 }  // namespace psi_slam

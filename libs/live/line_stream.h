@@ -12,12 +12,13 @@
 
 namespace psi_slam {
 
-/// Text that is still being sent. Gives whole lines only: a line that is cut off by a lost connection is ended, and a
-/// line that is incomplete when the user ends the stream is dropped. The stream also ends after a stated time without
-/// a byte.
+/// Text that is still being sent. Gives whole lines only: a line that is cut off by a lost connection is
+/// ended, and a line that is incomplete when the user ends the stream is dropped. The stream also ends after
+/// a stated time without a byte.
 class LineStream : public ByteSource {
  public:
-  /// `name` stands for a path in messages. `idle_s`: seconds without a byte after which the stream ends; empty: never.
+  /// `name` stands for a path in messages. `idle_s`: seconds without a byte after which the stream ends;
+  /// empty: never.
   LineStream(std::filesystem::path name, LiveControl control, std::optional<double> idle_s);
 
   std::size_t read(char* bytes, std::size_t size) final;

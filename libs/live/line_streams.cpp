@@ -75,8 +75,8 @@ class TcpInput : public LineStream {
       throw UserError("--bind " + address + ": expected an IPv4 address of this computer, such as 127.0.0.1");
     const auto fail = [&](const std::string& remedy) {
       const std::string reason = std::strerror(errno);
-      throw UserError("cannot listen on port " + std::to_string(port) + " of " + address + ": " + reason + ". " +
-                      remedy);
+      throw UserError("cannot listen on port " + std::to_string(port) + " of " + address + ": " + reason +
+                      ". " + remedy);
     };
     listener_ = Descriptor(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
     if (!listener_.is_open()) fail("Close other programs");
@@ -109,8 +109,8 @@ class TcpInput : public LineStream {
   void accept() {
     sockaddr_in sender = {};
     socklen_t size = sizeof(sender);
-    client_ = Descriptor(
-        ::accept4(listener_.number(), reinterpret_cast<sockaddr*>(&sender), &size, SOCK_CLOEXEC | SOCK_NONBLOCK));
+    client_ = Descriptor(::accept4(listener_.number(), reinterpret_cast<sockaddr*>(&sender), &size,
+                                   SOCK_CLOEXEC | SOCK_NONBLOCK));
     if (!client_.is_open()) return;
     find_cut_cables();
     std::array<char, INET_ADDRSTRLEN> address{};
@@ -118,7 +118,8 @@ class TcpInput : public LineStream {
     notify("connected to the sender at " + std::string(address.data()));
   }
 
-  /// Lets the system close a connection that has been dead for about 10 s, so that the sender can connect again.
+  /// Lets the system close a connection that has been dead for about 10 s, so that the sender can connect
+  /// again.
   void find_cut_cables() const {
     const auto set = [&](int level, int option, int value) {
       ::setsockopt(client_.number(), level, option, &value, sizeof(value));
@@ -168,7 +169,8 @@ void check_growing_lines(const fs::path& file) {
   if (!fs::exists(file, ignored))
     throw UserError(file.string() + " does not exist, expected a log that is being recorded. Check the path");
   const std::string remedy =
-      " cannot be followed, expected a plain CARMEN log. Record CARMEN lines, or map the log when it is complete";
+      " cannot be followed, expected a plain CARMEN log. Record CARMEN lines, or map the log when it is "
+      "complete";
   if (fs::is_directory(file, ignored)) throw UserError(file.string() + " is a folder and" + remedy);
   std::array<char, 4> head{};
   const Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));

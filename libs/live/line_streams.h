@@ -16,14 +16,14 @@ namespace psi_slam {
 std::unique_ptr<LineStream> standard_input(LiveControl control, std::optional<double> idle_s,
                                            int descriptor = 0);
 
-/// Listens on a TCP port of the IPv4 address `address` and reads what a client sends. Serves one client at a time. After
-/// a lost connection the next client continues. Port 0 lets the system choose a port, which the first notice names.
-/// Throws UserError if the address is invalid or the port cannot be opened.
+/// Listens on a TCP port of the IPv4 address `address` and reads what a client sends. Serves one client at a
+/// time. After a lost connection the next client continues. Port 0 lets the system choose a port, which the
+/// first notice names. Throws UserError if the address is invalid or the port cannot be opened.
 std::unique_ptr<LineStream> tcp_input(const std::string& address, std::uint16_t port, LiveControl control,
                                       std::optional<double> idle_s);
 
-/// Reads a text file from its beginning and waits for more at its end. Throws UserError if the file is unreadable, and
-/// if its content shows a format without lines: a compressed file, a rawlog or a bag.
+/// Reads a text file from its beginning and waits for more at its end. Throws UserError if the file is
+/// unreadable, and if its content shows a format without lines: a compressed file, a rawlog or a bag.
 std::unique_ptr<LineStream> growing_file(const std::filesystem::path& file, LiveControl control,
                                          std::optional<double> idle_s);
 

@@ -10,7 +10,8 @@ namespace psi_slam {
 struct LiveControl {
   /// Returns whether the source shall end. Called about ten times a second, from the threads of the source.
   std::function<bool()> should_stop;
-  /// Takes sentences such as "listening on 127.0.0.1:5000", without full stop. Called from the threads of the source.
+  /// Takes sentences such as "listening on 127.0.0.1:5000", without full stop. Called from the threads of the
+  /// source.
   std::function<void(const std::string&)> notify;
 };
 

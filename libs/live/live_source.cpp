@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "live/live_source.h"
 
+#include <filesystem>
 #include <functional>
 #include <utility>
 
 #include "carmen/carmen_stream.h"
 #include "live/line_streams.h"
+#include "live/sensor_set.h"
 #include "logs/frame_pipeline.h"
 #include "psi_slam/user_error.h"
+#include "rawlog/observation_stream.h"
 
 namespace psi_slam {
 namespace {
@@ -56,7 +59,7 @@ std::string name_of(const LiveInput& input) {
     case LiveInput::Kind::kSensors:
       break;
   }
-  return input.file;
+  return std::filesystem::path(input.file).filename().string();
 }
 
 std::unique_ptr<FrameSource> open_live(const LiveInput& input, const LogOptions& options,
@@ -66,14 +69,25 @@ std::unique_ptr<FrameSource> open_live(const LiveInput& input, const LogOptions&
   if (options.calibrate)
     throw UserError("log.calibrate needs a complete log, but " + name +
                     " is still being sent. Calibrate a recorded log, and set the options that it reports");
-  check_options_for(LogFormat::kCarmen, name, options);
-  // The reader is opened once, so it may take the stream.
+  const LogFormat format =
+      input.kind == LiveInput::Kind::kSensors ? LogFormat::kMrptRawlog : LogFormat::kCarmen;
+  check_options_for(format, name, options);
+  // A reader is opened once, so it may take its stream.
+  if (input.kind == LiveInput::Kind::kSensors) {
+    auto sensors = std::make_shared<std::unique_ptr<ObjectSource>>(
+        std::make_unique<SensorSet>(input.file, control, input.idle_s));
+    return std::make_unique<AwaitedSource>(
+        [sensors, options, look_over_s = input.look_over_s] {
+          return open_observation_stream(std::move(*sensors), options, look_over_s);
+        },
+        format, options, input.look_over_s);
+  }
   auto lines = std::make_shared<std::unique_ptr<ByteSource>>(open_lines(input, control));
   return std::make_unique<AwaitedSource>(
       [lines, options, look_over_s = input.look_over_s] {
         return open_carmen_stream(std::move(*lines), options, look_over_s);
       },
-      LogFormat::kCarmen, options, input.look_over_s);
+      format, options, input.look_over_s);
 }
 
 }  // namespace psi_slam

@@ -90,7 +90,7 @@ void check_options_for(LogFormat format, const std::string& log, const LogOption
 }
 
 std::unique_ptr<FrameSource> frames_to_map(std::unique_ptr<LogReader> reader, LogFormat format,
-                                       const LogOptions& options, std::optional<double> look_over_s) {
+                                           const LogOptions& options, std::optional<double> look_over_s) {
   const LogContents& contents = reader->contents();  // of the reader, which becomes the innermost source
   const bool several_lasers = combines_lasers(contents, options, format);
   std::unique_ptr<FrameSource> source = std::move(reader);

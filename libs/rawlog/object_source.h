@@ -8,7 +8,8 @@
 
 namespace psi_slam {
 
-/// Actions, sensory frames and observations of MRPT in their order: those of a rawlog, or of sensors that are read.
+/// Actions, sensory frames and observations of MRPT in their order: those of a rawlog, or of sensors that are
+/// read.
 class ObjectSource {
  public:
   virtual ~ObjectSource() = default;
@@ -16,7 +17,8 @@ class ObjectSource {
   /// Returns the next object, or null at the end. Sensors wait for their next observation.
   virtual mrpt::serialization::CSerializable::Ptr next() = 0;
 
-  /// Place of the object that next() last returned, for error messages: "path: object 12". Objects are counted from 1.
+  /// Place of the object that next() last returned, for error messages: "path: object 12". Objects are
+  /// counted from 1.
   virtual std::string place() const = 0;
 
   virtual const std::filesystem::path& path() const = 0;

@@ -219,8 +219,8 @@ Sensors find_sensors(const std::filesystem::path& path, const LogOptions& option
   return find_sensors(archive, options);
 }
 
-constexpr std::size_t kMostScansOfHead = 500;       // of a stream
-constexpr std::size_t kMostWaitingOfStream = 100;   // scans of a stream that wait for odometry
+constexpr std::size_t kMostScansOfHead = 500;        // of a stream
+constexpr std::size_t kMostWaitingOfStream = 100;    // scans of a stream that wait for odometry
 constexpr std::size_t kMostSkippedBeforeScans = 20;  // observations of a stream
 
 /// Objects in memory, and after them those of another source unless that is null.

@@ -84,6 +84,7 @@ class CarmenStreamTest : public testing::Test {
   }
 
   void expect_as_file(const std::string& text, const LogOptions& options = half_circle()) {
+    SCOPED_TRACE(text.substr(0, 300));
     const auto file = folder_.path() / "log.clf";
     write_file(file, text);
     const auto log = open_carmen_log(file, options);
@@ -100,7 +101,8 @@ class CarmenStreamTest : public testing::Test {
 
 TEST_F(CarmenStreamTest, gives_the_frames_of_a_file_to_the_last_bit) {
   const std::string mounts =
-      "# comment\nPARAM robot_frontlaser_offset 0.3 nav 1 host 1\nPARAM robot_rearlaser_offset -0.2 nav 1 host 1\n";
+      "# comment\nPARAM robot_frontlaser_offset 0.3 nav 1 host 1\nPARAM robot_rearlaser_offset -0.2 nav 1 "
+      "host 1\n";
   expect_as_file(log_of({kFlaser}));
   expect_as_file(log_of({kFlaser, kOdom}, mounts));
   expect_as_file(log_of({kRobotlaser, kFlaser}));

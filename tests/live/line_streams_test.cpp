@@ -182,7 +182,9 @@ TEST_F(LineStreamsTest, says_which_files_cannot_be_followed) {
   };
   EXPECT_THAT(complaint("#ROSBAG V2.0\n"), HasSubstr("log is a ROS 1 bag and cannot be followed"));
   EXPECT_THAT(complaint("\x89MCAP0\r\n"), HasSubstr("log is a ROS 2 bag (MCAP) and cannot be followed"));
-  EXPECT_THAT(complaint("\x98" "CObservation2DRangeScan"), HasSubstr("is a MRPT rawlog and cannot be followed"));
+  EXPECT_THAT(complaint("\x98"
+                        "CObservation2DRangeScan"),
+              HasSubstr("is a MRPT rawlog and cannot be followed"));
   EXPECT_THAT(complaint("\x1f\x8b\x08"), HasSubstr("log is compressed and cannot be followed"));
   EXPECT_THAT(sentence_of([&] { growing_file(folder_.path(), control(), std::nullopt); }),
               HasSubstr("is a folder and cannot be followed"));

@@ -49,9 +49,9 @@ TEST_P(RealLog, gives_the_same_frames_while_it_grows) {
 }
 
 INSTANTIATE_TEST_SUITE_P(LiveSource, RealLog,
-                         testing::Values("aces.clf.gz", "intel.clf.gz", "mit-csail.clf.gz", "mit-killian.clf.gz",
-                                         "fr079.clf.gz", "sparse/acapulco.clf.gz", "sparse/fhw.clf.gz",
-                                         "sparse/freiburg-campus.clf.gz"),
+                         testing::Values("aces.clf.gz", "intel.clf.gz", "mit-csail.clf.gz",
+                                         "mit-killian.clf.gz", "fr079.clf.gz", "sparse/acapulco.clf.gz",
+                                         "sparse/fhw.clf.gz", "sparse/freiburg-campus.clf.gz"),
                          [](const auto& log) { return "log_" + std::to_string(log.index); });
 
 TEST(LiveSource, refuses_options_that_need_a_complete_log) {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <ostream>
 
-#include "closing_text.h"
 #include "commands.h"
 #include "live_run.h"
-#include "psi_slam/user_error.h"
 #include "session/session_input.h"
 
 namespace psi_slam {
@@ -38,32 +36,24 @@ int map_live(const CommandLine& line, const Streams& streams) {
   // Only poses go to standard output if there are any.
   const Streams texts{poses ? streams.err : streams.out, streams.err, streams.err_is_terminal};
   OutputFolder::check(line.output, line.force);
-  LiveRun run(texts);
+  LiveRun run(texts, streams.err_is_terminal && !line.quiet);
   MappingSession session(
       SessionInput(name_of(source),
                    [&](const LogOptions& options) { return open_live(source, options, run.control()); }),
       bound.settings);
   const Leaving leaving(run);
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
-  std::optional<ProgressLine> progress_line;
-  if (streams.err_is_terminal && !line.quiet)
-    progress_line.emplace(streams.err, ProgressLine::Input::kStream);
-  run.set_before_message([&] {
-    if (progress_line) progress_line->clear();
-  });
-  session.set_observer([&](const SessionProgress& progress) {
-    if (progress_line) run.print([&] { progress_line->show(progress); });
-  });
+  session.set_observer([&](const SessionProgress& progress) { run.show(progress); });
 
   while (session.step()) {
     // Here, after each scan, is the place for what follows the robot while it drives.
-    if (poses) LiveRun::print(streams.out, last_pose(session.mapper()), *poses);
+    if (poses) print_pose(streams.out, last_pose(session.mapper()), *poses);
   }
 
   if (run.end())
     streams.err << "psi-slam: finishing the map. Interrupt again to finish it without more loops\n";
   session.finish(run.interrupted());
-  return save_and_export(session, folder, line, texts, progress_line);
+  return save_and_export(session, folder, line, texts, run.progress_line());
 }
 
 }  // namespace psi_slam

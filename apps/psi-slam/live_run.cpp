@@ -2,29 +2,30 @@
 #include "live_run.h"
 
 #include <csignal>
-#include <utility>
+#include <string>
 
 namespace psi_slam {
 
-LiveRun::LiveRun(const Streams& streams) : streams_(streams) {
+LiveRun::LiveRun(const Streams& streams, bool shows_progress) : streams_(streams) {
   signals_.emplace();
   // A program that reads the poses must not end the mapping by its own end.
   std::signal(SIGPIPE, SIG_IGN);
+  if (shows_progress) progress_line_.emplace(streams.err, ProgressLine::Input::kStream);
 }
 
 LiveControl LiveRun::control() {
   return {[this, &came = signals_->came()] { return came || left_; },
           [this](const std::string& sentence) {
-            print([&] {
-              before_message_();
-              streams_.err << "psi-slam: " << sentence << std::endl;
-            });
+            const std::lock_guard lock(printing_);
+            if (left_) return;
+            if (progress_line_) progress_line_->clear();
+            streams_.err << "psi-slam: " << sentence << std::endl;
           }};
 }
 
-void LiveRun::print(const std::function<void()>& print) {
+void LiveRun::show(const SessionProgress& progress) {
   const std::lock_guard lock(printing_);
-  print();
+  if (progress_line_) progress_line_->show(progress);
 }
 
 bool LiveRun::end() {
@@ -32,6 +33,11 @@ bool LiveRun::end() {
   const bool interrupted = signals_->came();
   signals_.emplace();
   return interrupted;
+}
+
+void LiveRun::leave() {
+  const std::lock_guard lock(printing_);
+  left_ = true;
 }
 
 }  // namespace psi_slam

@@ -93,7 +93,7 @@ int localize_live(const CommandLine& line, const LiveInput& source, const Settin
                   Localizer& localizer, const Streams& streams) {
   const std::optional<PoseFormat> poses = pose_format(line.live);
   const Streams texts{poses ? streams.err : streams.out, streams.err, streams.err_is_terminal};
-  LiveRun run(texts);
+  LiveRun run(texts, false);
   const auto frames = open_live(source, log_options(settings), run.control());
   const std::optional<OutputFolder> folder = prepare_folder(line);
   const LocalizedLog localized = localize_all(
@@ -101,7 +101,7 @@ int localize_live(const CommandLine& line, const LiveInput& source, const Settin
       [&](const std::vector<LocalizationStep>& steps) {
         const LocalizationStep& last = steps.back();
         if (poses && last.state == LocalizationStep::State::kTracking)
-          LiveRun::print(streams.out, {last.time_us, last.map_T_robot, steps.size() - 1, last.fits}, *poses);
+          print_pose(streams.out, {last.time_us, last.map_T_robot, steps.size() - 1, last.fits}, *poses);
       });
   run.end();
   return report(localized, *frames, name_of(source), {}, folder, line, texts);

@@ -3,14 +3,18 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
+#include "../live/hokuyo_emulator.h"
 #include "../session/room_log.h"
 #include "app_run.h"
 #include "same_results.h"
 #include "sender.h"
 #include "temporary_folder.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {
@@ -186,6 +190,38 @@ TEST_F(LiveApp, says_what_is_wrong_with_the_arguments) {
   EXPECT_THAT(complaint({"localize", "map.yaml", "--idle-s", "1"}), HasSubstr("need a source"));
   EXPECT_THAT(complaint({"localize", "map.yaml", "my.log", "--stdin"}), HasSubstr("a log or a live source"));
   EXPECT_FALSE(std::filesystem::exists(folder("live")));
+}
+
+TEST_F(LiveApp, maps_what_a_laser_measures) {
+  const auto port = folder("ttyLASER");
+  const auto settings = folder("sensors.ini");
+  write_file(settings,
+             "[LASER]\ndriver = CHokuyoURG\nsensorLabel = LASER\nprocess_rate = 500\ncomms_timeout_ms = 30\n"
+             "maxMissedScansToDeclareError = 300\ndisable_firmware_timestamp = true\nCOM_port_LIN = " +
+                 port.string() + '\n');
+  constexpr double kStep_rad = M_PI / 360;
+  const mrpt::math::TPose2D start = room_pose(0);
+  std::vector<HokuyoEmulator::Message> scans(kScans);
+  mrpt::math::TPose2D end;
+  for (std::size_t i = 0; i < kScans; ++i) {
+    const mrpt::math::TPose2D pose = room_pose(0.02 * static_cast<double>(i));
+    end = pose - start;
+    for (std::size_t beam = 0; beam < HokuyoEmulator::kBeams; ++beam)
+      scans[i].ranges_m.push_back(static_cast<float>(
+          room_range_m(pose.x, pose.y, pose.phi + kStep_rad * (static_cast<double>(beam) - 180))));
+  }
+  const HokuyoEmulator laser(port, scans);
+  const AppProcess process(live({"--sensors", settings.string(), "--poses", "tum", "--look-over-s", "0"}),
+                           folder_.path());
+  ASSERT_TRUE(soon([&] { return lines_in(out()) >= kScans; })) << err();
+  process.send(SIGINT);
+  const AppRun run = process.finish();
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("sensor [LASER] sends data"), HasSubstr("scans of sensors.ini")));
+  const Trajectory poses = read_trajectory(folder("live") / "trajectory.tum");
+  EXPECT_NEAR(poses.back().pose.x, end.x, 0.05);
+  EXPECT_NEAR(poses.back().pose.y, end.y, 0.05);
+  EXPECT_NEAR(poses.back().pose.phi, end.phi, 0.02);
 }
 
 TEST_F(LiveApp, localizes_while_the_robot_drives) {

@@ -138,12 +138,14 @@ TEST_F(CarmenStreamTest, decides_by_500_lines_if_time_stands_still) {
 
 TEST_F(CarmenStreamTest, expects_no_odometry_that_did_not_come_in_the_first_seconds) {
   const auto live = stream(log_of({kRawlaser1}) + log_of({kOdom}));
-  ASSERT_THAT(live->assumptions(), testing::SizeIs(1));
-  EXPECT_THAT(live->assumptions()[0], HasSubstr("no ODOM line came"));
   const auto first = live->next();
   ASSERT_TRUE(first);
   EXPECT_FALSE(first->has_odometry);
   EXPECT_LT(taken_, log_of({kRawlaser1}).size() / 2) << "scans do not wait for odometry";
+  while (live->next()) {
+  }
+  ASSERT_THAT(live->assumptions(), testing::SizeIs(1));
+  EXPECT_THAT(live->assumptions()[0], HasSubstr("no ODOM line came in the first seconds"));
 }
 
 TEST_F(CarmenStreamTest, continues_if_odometry_stops) {

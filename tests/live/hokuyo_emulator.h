@@ -23,7 +23,8 @@
 namespace psi_slam {
 
 /// The laser plays its messages in turn: scans as ranges in metres, or raw bytes. It is silent after the last
-/// one. The cable is plugged in while the object exists: `port` is then a symbolic link to the terminal.
+/// one. It begins with the first one again when it is started anew, which the driver does twice in a row. The
+/// cable is plugged in while the object exists: `port` is then a symbolic link to the terminal.
 class HokuyoEmulator {
  public:
   static constexpr std::size_t kBeams = 361;  ///< one each half degree, counter-clockwise
@@ -99,7 +100,10 @@ class HokuyoEmulator {
         reply += with_sum(fact);
     if (command == "VV\n") reply += with_sum("VEND:psi-slam;");
     if (command == "QT\n") streamed_.clear();
-    if (command.substr(0, 2) == "MD") streamed_ = command;
+    if (command.substr(0, 2) == "MD") {
+      streamed_ = command;
+      played_ = 0;
+    }
     send(reply + '\n');
   }
 

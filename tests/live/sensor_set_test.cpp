@@ -217,8 +217,8 @@ TEST_F(SensorSetTest, says_what_is_wrong_with_the_settings) {
               HasSubstr("sensors.ini describes no sensor, expected a section with a key driver"));
   EXPECT_THAT(complaint("[A]\ndriver = CNoLaser\n"),
               HasSubstr("sensors.ini: section [A]: driver \"CNoLaser\" is unknown, expected a class"));
-  EXPECT_THAT(complaint("[A]\ndriver = CHokuyoURG\nprocess_rate = 20\nIP_DIR = 10.0.0.1\n"),
-              AllOf(HasSubstr("section [A]: "), HasSubstr("PORT_DIR")));
+  EXPECT_THAT(complaint("[A]\ndriver = CHokuyoURG\nprocess_rate = 20\n"),
+              AllOf(HasSubstr("section [A]: "), HasSubstr("Either COM_port or IP_DIR must be defined")));
   EXPECT_THAT(complaint("[A]\ndriver = CHokuyoURG\nCOM_port_LIN = ttyACM0\n"),
               HasSubstr("section [A]: process_rate is missing"));
   EXPECT_THAT(sentence_of([&] { SensorSet("none.ini", control(), std::nullopt); }),

@@ -75,7 +75,7 @@ CLI::App* add_localize(CLI::App& app, CommandLine& line) {
       "Find and track a robot in a finished map, without start pose (exit code 1 if it is not localized at "
       "the end)");
   add_value(*localize, "MAP", line.map, "Map written by psi-slam: map.yaml or map.gridmap.gz", "");
-  add_value(*localize, "LOG", line.log, "Log of a robot in that building", "");
+  add_value(*localize, "LOG", line.log, "Log of a robot in that building. Not with a live source", "");
   add_value(*localize, "-o,--output", line.output,
             "Folder for localization.csv and trajectory.tum, new or empty", "DIR");
   add_value(*localize, "--start", line.start, "Rough start of the robot: metres and degrees in the map",

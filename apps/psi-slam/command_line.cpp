@@ -28,6 +28,7 @@ constexpr const char* kExamples =
     "  psi-slam --resume my.session my.log -o more/   resume an interrupted run\n"
     "  psi-slam merge monday.log friday.log -o out/   make one map of several runs\n"
     "  psi-slam localize out/map.yaml new.log   find and track a robot in a finished map\n"
+    "  psi-slam live --tcp 5000 -o out/         map while the robot drives\n"
     "  psi-slam -c my.ini my.log -o out/ --set map.resolution_m=0.025\n"
     "  psi-slam --dump-config > my.ini          print settings to start from\n"
     "  psi-slam sweep *.log -o out/ --set loop_closure.matcher=csm,ga --seeds 10\n";
@@ -58,6 +59,16 @@ CLI::App* add_check(CLI::App& app, CommandLine& line) {
   return check;
 }
 
+CLI::App* add_live(CLI::App& app, CommandLine& line) {
+  CLI::App* const live = app.add_subcommand(
+      "live",
+      "Map while the robot drives: from a stream of CARMEN lines, a growing log or sensors, until Ctrl-C");
+  add_live_options(*live, line.live);
+  add_value(*live, "-o,--output", line.output, kFolderHelp, "DIR");
+  add_run_options(*live, line);
+  return live;
+}
+
 CLI::App* add_localize(CLI::App& app, CommandLine& line) {
   CLI::App* const localize = app.add_subcommand(
       "localize",
@@ -69,6 +80,7 @@ CLI::App* add_localize(CLI::App& app, CommandLine& line) {
             "Folder for localization.csv and trajectory.tum, new or empty", "DIR");
   add_value(*localize, "--start", line.start, "Rough start of the robot: metres and degrees in the map",
             "X,Y,YAW_DEG");
+  add_live_options(*localize, line.live);
   add_run_options(*localize, line);
   return localize;
 }
@@ -102,7 +114,7 @@ CLI::App* add_sweep(CLI::App& app, CommandLine& line) {
 
 /// Throws UserError for an argument that is neither the log nor a known option.
 [[noreturn]] void fail_unknown(const std::string& argument, const CommandLine& line, const CLI::App& app) {
-  const auto command = nearest_name(line.log, {"check", "localize", "merge", "options", "sweep"});
+  const auto command = nearest_name(line.log, {"check", "live", "localize", "merge", "options", "sweep"});
   if (command && !is_option(argument))
     throw UserError("there is no command \"" + line.log + "\"; did you mean \"" + *command + "\"?");
   throw UserError(unknown_argument_text(argument, app, "psi-slam"));
@@ -119,16 +131,25 @@ void refuse(bool given, const char* why) {
 void check_together(const CommandLine& line, const std::string& log_to_map) {
   using Command = CommandLine::Command;
   const bool maps = line.command == Command::kMap;
+  const bool is_live = line.command == Command::kLive;
   const bool merges = line.command == Command::kMerge;
   const bool localizes = line.command == Command::kLocalize;
   if (maps) require(!line.log.empty() || !line.resume.empty(), "name the log: psi-slam LOG -o DIR");
   if (line.command == Command::kCheck) require(!line.log.empty(), "name the log: psi-slam check LOG");
-  if (localizes) require(!line.log.empty(), "name a map and a log: psi-slam localize MAP LOG");
+  const bool has_source = live_input(line.live).has_value();
+  if (is_live) require(has_source, "name a source: --stdin, --tcp PORT, --follow LOG or --sensors INI");
+  if (localizes)
+    require(!line.map.empty() && (has_source || !line.log.empty()),
+            "name a map and a log: psi-slam localize MAP LOG");
+  refuse(has_source && !line.log.empty(), "name a log or a live source, not both");
+  refuse(
+      line.json && pose_format(line.live),
+      "--json contradicts --poses: only poses go to standard output. Read the figures in the results folder");
   if (merges) require(line.inputs.size() >= 2, "name the runs: psi-slam merge FIRST SECOND -o DIR");
-  if (maps || merges) require(!line.output.empty(), "name the folder for the results: -o DIR");
+  if (maps || merges || is_live) require(!line.output.empty(), "name the folder for the results: -o DIR");
   refuse(merges && line.inputs.size() > 2 && !line.start.empty(),
          "--start needs exactly two runs. Merge the first two, then merge their session with further runs");
-  refuse(!maps && !merges && !localizes && !line.output.empty(),
+  refuse(!maps && !merges && !localizes && !is_live && !line.output.empty(),
          "-o has no effect on this command, because nothing is written. Leave -o out");
   refuse(!maps && !line.edits.empty(), "--edits is only for mapping a log");
   refuse(!maps && !line.resume.empty(), "--resume is only for mapping a log");
@@ -208,11 +229,10 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   app.add_flag("-v,--verbose", line.verbose, "Also print the changed settings and the times of all stages");
   app.add_flag("--dump-config", dump_config, "Print a settings file with all options and exit");
   app.set_version_flag("--version", "psi-slam " PSI_SLAM_VERSION, "Print the version and exit");
-  const std::vector<std::pair<CLI::App*, Command>> commands{{add_check(app, line), Command::kCheck},
-                                                            {add_localize(app, line), Command::kLocalize},
-                                                            {add_merge(app, line), Command::kMerge},
-                                                            {add_options(app, line), Command::kOptions},
-                                                            {add_sweep(app, line), Command::kSweep}};
+  const std::vector<std::pair<CLI::App*, Command>> commands{
+      {add_check(app, line), Command::kCheck},       {add_live(app, line), Command::kLive},
+      {add_localize(app, line), Command::kLocalize}, {add_merge(app, line), Command::kMerge},
+      {add_options(app, line), Command::kOptions},   {add_sweep(app, line), Command::kSweep}};
   app.require_subcommand(0, 1);
   app.allow_extras();
   for (const auto& [command, kind] : commands) command->allow_extras();

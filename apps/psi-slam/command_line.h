@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "config/option_table.h"
+#include "live_arguments.h"
 #include "psi_slam_app.h"
 #include "session/settings.h"
 #include "sweep_command.h"
@@ -18,7 +19,7 @@ namespace psi_slam {
 
 /// The arguments of psi-slam, before their values are examined.
 struct CommandLine {
-  enum class Command { kMap, kCheck, kLocalize, kMerge, kOptions, kDumpConfig, kSweep };
+  enum class Command { kMap, kCheck, kLive, kLocalize, kMerge, kOptions, kDumpConfig, kSweep };
 
   Command command = Command::kMap;
   std::string log;
@@ -38,6 +39,7 @@ struct CommandLine {
   bool quiet = false;
   bool verbose = false;
   bool markdown = false;
+  LiveArguments live;
   SweepArguments sweep;
 };
 

@@ -19,11 +19,15 @@ namespace psi_slam {
 /// psi-slam LOG: maps a log or resumes a session. The exit code is 2 if one of the logs is damaged.
 int map_log(const CommandLine& line, const Streams& streams);
 
+/// psi-slam live: maps what a driving robot sends, until it ends or the user interrupts. The exit code is 2
+/// if reading failed on the way.
+int map_live(const CommandLine& line, const Streams& streams);
+
 /// psi-slam merge: makes one map of several runs. Writes nothing if a run is unreadable or cannot be placed.
 int merge_runs(const CommandLine& line, const Streams& streams);
 
-/// psi-slam localize: finds and tracks a robot in a finished map. The exit code is 0 if the robot is
-/// localized at the end of the log, 1 if it is not, 2 if the log is damaged.
+/// psi-slam localize: finds and tracks a robot in a finished map, by a log or while it drives. The exit code
+/// is 0 if the robot is localized at the end of the log, 1 if it is not, 2 if the log is damaged.
 int localize(const CommandLine& line, const Streams& streams);
 
 /// psi-slam check: prints what the log holds and what looks wrong, as sentences or as JSON. The exit code is

@@ -18,13 +18,13 @@ constexpr double kEarlyShare = 0.01;  // share of the work below which an estima
 
 }  // namespace
 
-std::string progress_text(const SessionProgress& progress) {
+std::string progress_text(const SessionProgress& progress, bool of_stream) {
   using Phase = SessionProgress::Phase;
+  const std::string scans = mrpt::format("%zu scans   %.0f scans/s", progress.scans, progress.scans_per_s);
+  if (of_stream && progress.phase == Phase::kMapping) return scans;
   if (progress.phase == Phase::kWriting) return "drawing the map and writing the results";
   std::string line = mrpt::format("%3.0f %%   ", 100 * progress.share);
-  line += progress.phase == Phase::kFinalSearch
-              ? "final loop search"
-              : mrpt::format("%zu scans   %.0f scans/s", progress.scans, progress.scans_per_s);
+  line += progress.phase == Phase::kFinalSearch ? "final loop search" : scans;
   if (progress.remaining_s) line += "   " + minutes_text(*progress.remaining_s) + " left";
   return line;
 }
@@ -54,7 +54,7 @@ void OverwrittenLine::clear() {
 void ProgressLine::show(const SessionProgress& progress) {
   if (phase_ == progress.phase && !line_.is_due()) return;
   phase_ = progress.phase;
-  line_.show(progress_text(progress));
+  line_.show(progress_text(progress, input_ == Input::kStream));
 }
 
 void ProgressLine::clear() {

@@ -13,7 +13,8 @@ namespace psi_slam {
 
 /// Text such as " 43 %   5876 scans   2100 scans/s   0:04 left". The final loop search has its name in place
 /// of the scans; the text of the writing phase has no figures. The time left is that of the current phase.
-std::string progress_text(const SessionProgress& progress);
+/// With `of_stream`, the mapping phase has only the scans, because the end of the log is unknown.
+std::string progress_text(const SessionProgress& progress, bool of_stream = false);
 
 /// Text such as "intel, cases   34 %   12:30 left", without the time left in the first percent of the work.
 std::string work_progress_text(const std::string& doing, double share, double elapsed_s);
@@ -42,13 +43,17 @@ class OverwrittenLine {
 /// Progress of a session. Shows every new phase at once, and updates a phase a few times a second.
 class ProgressLine {
  public:
-  explicit ProgressLine(std::ostream& terminal) : line_(&terminal) {}
+  enum class Input { kLog, kStream };
+
+  explicit ProgressLine(std::ostream& terminal, Input input = Input::kLog)
+      : line_(&terminal), input_(input) {}
 
   void show(const SessionProgress& progress);
   void clear();
 
  private:
   OverwrittenLine line_;
+  Input input_;
   std::optional<SessionProgress::Phase> phase_;  ///< phase shown last
 };
 

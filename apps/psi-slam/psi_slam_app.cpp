@@ -26,6 +26,8 @@ int run(const CommandLine& line, const Streams& streams) {
       return check_log(line, streams);
     case CommandLine::Command::kLocalize:
       return localize(line, streams);
+    case CommandLine::Command::kLive:
+      return map_live(line, streams);
     case CommandLine::Command::kMerge:
       return merge_runs(line, streams);
     case CommandLine::Command::kOptions:

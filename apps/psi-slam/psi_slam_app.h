@@ -5,6 +5,7 @@
 //     psi-slam --resume SESSION [LOG] -o DIR                        resumes a saved run
 //     psi-slam check [-c INI] LOG                                   shows what a log holds and what is wrong
 //     psi-slam localize MAP LOG [-o DIR] [--start X,Y,YAW_DEG]      finds a robot in a finished map
+//     psi-slam live --stdin|--tcp PORT|--follow LOG|--sensors INI -o DIR   maps while the robot drives
 //     psi-slam merge A B... -o DIR [--start X,Y,YAW_DEG]            makes one map of several runs
 //     psi-slam options [--markdown]                                 explains every option
 //     psi-slam sweep LOG... -o DIR [--set SECTION.KEY=V,V]...       maps many logs with many settings

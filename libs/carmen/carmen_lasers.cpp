@@ -24,7 +24,6 @@ using Messages = std::set<std::string, std::less<>>;
 const std::vector<std::string> kFrontMessages{"ROBOTLASER1", "FLASER", "RAWLASER1"};
 const std::vector<std::string> kRearMessages{"ROBOTLASER2", "RLASER", "RAWLASER2"};
 const std::vector<std::string> kOtherMessages{"RAWLASER3", "RAWLASER4"};
-constexpr std::size_t kLinesOfHead = 500;
 constexpr std::size_t kAllLines = std::numeric_limits<std::size_t>::max();
 constexpr double kEnoughPath_m = 3.0;
 constexpr double kEnoughTurn_rad = 1.0;
@@ -36,8 +35,8 @@ constexpr double kBelowNoReturn = 0.97;
 constexpr float kLargestReading_m = 1000;  // a larger reading is damaged or in another unit
 constexpr std::size_t kRepeated = 3;       // fewer readings near the largest one count as damaged, too
 
-Messages messages_in(const std::filesystem::path& path, std::size_t most_lines) {
-  LineReader lines(path);
+Messages messages_in(const CarmenText& text, std::size_t most_lines) {
+  LineReader lines = text.lines();
   Messages found;
   std::string_view line;
   for (std::size_t i = 0; i < most_lines && lines.next_readable(line); ++i) {
@@ -67,13 +66,12 @@ std::optional<CarmenLaserMessage> readable_laser(CarmenFields& fields) {
   }
 }
 
-void set_mount_by_robotlaser(const std::filesystem::path& path, CarmenLaser& laser) {
+void set_mount_by_robotlaser(const CarmenText& text, CarmenLaser& laser) {
   if (!starts_with(laser.message_name(), "ROBOTLASER")) return;
-  if (const auto mount = mount_by_robotlaser(path, laser.message_name())) laser.set_mount_by_poses(*mount);
+  if (const auto mount = mount_by_robotlaser(text, laser.message_name())) laser.set_mount_by_poses(*mount);
 }
 
-/// Names of the messages that may hold the scans of each chosen laser. "all" stands for the front laser, the
-/// rear laser, RAWLASER3 and RAWLASER4. A laser with several kinds of messages is thus read once.
+/// Does what carmen_laser_candidates() does, for a value of `log.laser`.
 std::vector<std::vector<std::string>> messages_wanted(const LaserChoice& choice) {
   std::vector<std::vector<std::string>> wanted;
   if (choice.all) {
@@ -87,11 +85,11 @@ std::vector<std::vector<std::string>> messages_wanted(const LaserChoice& choice)
 }
 
 /// Pose of a laser on the robot, if the user or the first lines of the log state it.
-std::optional<TPose2D> stated_mount(const std::filesystem::path& path, const std::string& message,
+std::optional<TPose2D> stated_mount(const CarmenText& text, const std::string& message,
                                     const LogOptions& options) {
   CarmenLaser laser(message, options);
-  set_mount_by_robotlaser(path, laser);
-  LineReader lines(path);
+  set_mount_by_robotlaser(text, laser);
+  LineReader lines = text.lines();
   std::string_view line;
   for (std::size_t i = 0; i < kLinesOfHead && lines.next_readable(line); ++i) {
     CarmenFields fields(line, lines);
@@ -117,6 +115,10 @@ std::vector<std::string> carmen_laser_messages(const std::string& laser, const s
   throw UserError(
       option + " is \"" + laser +
       "\", expected \"front\", \"rear\" or the name of a CARMEN laser message such as \"RAWLASER1\"");
+}
+
+std::vector<std::vector<std::string>> carmen_laser_candidates(const LogOptions& options) {
+  return messages_wanted(laser_choice("log.laser", options.laser));
 }
 
 CarmenLaser::CarmenLaser(std::string message_name, const LogOptions& options)
@@ -219,8 +221,8 @@ LaserScan CarmenLaser::scan(CarmenLaserMessage message, const CarmenFields& fiel
   return scan;
 }
 
-std::optional<TPose2D> mount_by_robotlaser(const std::filesystem::path& path, std::string_view message) {
-  LineReader lines(path);
+std::optional<TPose2D> mount_by_robotlaser(const CarmenText& text, std::string_view message) {
+  LineReader lines = text.lines();
   std::optional<TPose2D> mount;
   std::optional<TPose2D> last_robot;
   double path_m = 0;
@@ -244,8 +246,8 @@ std::optional<TPose2D> mount_by_robotlaser(const std::filesystem::path& path, st
   return mount;
 }
 
-double max_range_by_readings_m(const std::filesystem::path& path, std::string_view message) {
-  LineReader lines(path);
+double max_range_by_readings_m(const CarmenText& text, std::string_view message) {
+  LineReader lines = text.lines();
   std::vector<float> far_m;
   std::string_view line;
   for (std::size_t i = 0; i < kLinesOfHead && lines.next_readable(line); ++i) {
@@ -266,18 +268,18 @@ double max_range_by_readings_m(const std::filesystem::path& path, std::string_vi
   return kUnstatedMaxRange_m;
 }
 
-CarmenLasers::CarmenLasers(const std::filesystem::path& path, const LogOptions& options)
-    : path_(path), options_(options) {
+CarmenLasers::CarmenLasers(CarmenText text, const LogOptions& options)
+    : text_(std::move(text)), options_(options) {
   const LaserChoice choice = laser_choice("log.laser", options.laser);
   for (const auto& [option, name] : lasers_with_stated_values(options)) carmen_laser_messages(name, option);
-  Messages found = messages_in(path, kLinesOfHead);
+  Messages found = messages_in(text_, kLinesOfHead);
   const bool states_none = !choice.all && choice.names.empty() && !options.robot_T_laser;
   for (auto& candidates : states_none ? usual_candidates(found) : messages_wanted(choice))
     slots_.push_back({std::move(candidates), {}});
   const auto is_missing = [&](const Slot& slot) { return first_of(slot.candidates, found).empty(); };
   const bool names_several = choice.names.size() > 1;
   if (names_several && std::any_of(slots_.begin(), slots_.end(), is_missing))
-    found = messages_in(path, kAllLines);
+    found = messages_in(text_, kAllLines);
   for (Slot& slot : slots_)
     if (const std::string message = first_of(slot.candidates, found); !message.empty()) choose(slot, message);
   if (names_several) require_all(choice);
@@ -291,7 +293,7 @@ CarmenLasers::Candidates CarmenLasers::usual_candidates(const Messages& found) {
   for (const auto& candidates : messages_wanted(LaserChoice{true, {}})) {
     const std::string message = first_of(candidates, found);
     if (message.empty()) continue;
-    const auto mount = stated_mount(path_, message, options_);
+    const auto mount = stated_mount(text_, message, options_);
     const bool can_join = mount && std::all_of(mounts.begin(), mounts.end(), [&](const auto& other) {
                             return other && !same_mount(*mount, *other);
                           });
@@ -321,26 +323,26 @@ std::vector<std::vector<std::string>> CarmenLasers::names() const {
 void CarmenLasers::choose(Slot& slot, const std::string& message) {
   const auto number = static_cast<std::size_t>(&slot - slots_.data());
   slot.laser = Laser{CarmenLaser(message, options_), number, parameters_.size(), false};
-  set_mount_by_robotlaser(path_, slot.laser->laser);
-  if (!options_.max_range_m) slot.laser->laser.set_max_range(max_range_by_readings_m(path_, message));
+  set_mount_by_robotlaser(text_, slot.laser->laser);
+  if (!options_.max_range_m) slot.laser->laser.set_max_range(max_range_by_readings_m(text_, message));
 }
 
 void CarmenLasers::require_all(const LaserChoice& choice) const {
   const std::string log_laser = "log.laser is \"" + options_.laser + "\"";
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     if (!slots_[i].laser) {
-      const Messages found = messages_in(path_, kAllLines);
+      const Messages found = messages_in(text_, kAllLines);
       std::vector<std::string> lasers;
       for (const std::string& name : carmen_laser_messages(""))
         if (found.count(name) != 0) lasers.push_back(name);
-      throw UserError(log_laser + ", but " + path_.string() + " has no laser \"" + choice.names[i] +
+      throw UserError(log_laser + ", but " + text_.path().string() + " has no laser \"" + choice.names[i] +
                       "\", expected some of: " + quoted_list(lasers));
     }
     for (std::size_t j = 0; j < i; ++j)
       if (slots_[j].laser->laser.message_name() == slots_[i].laser->laser.message_name())
         throw UserError(log_laser + ", but \"" + choice.names[j] + "\" and \"" + choice.names[i] +
                         "\" are the same laser: the " + slots_[i].laser->laser.message_name() +
-                        " messages of " + path_.string() + ". Name it once");
+                        " messages of " + text_.path().string() + ". Name it once");
   }
 }
 

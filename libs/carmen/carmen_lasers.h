@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <deque>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <set>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "carmen/carmen_message.h"
+#include "carmen/carmen_text.h"
 #include "frames/laser_choice.h"
 #include "psi_slam/frame.h"
 #include "psi_slam/log_options.h"
@@ -27,19 +27,23 @@ namespace psi_slam {
 std::vector<std::string> carmen_laser_messages(const std::string& laser,
                                                const std::string& option = "log.laser");
 
+/// Names of the messages that may hold the scans of each laser that the options choose. "all" stands for the
+/// front laser, the rear laser, RAWLASER3 and RAWLASER4. A laser with several kinds of messages is thus read
+/// once.
+std::vector<std::vector<std::string>> carmen_laser_candidates(const LogOptions& options);
+
 /// Pose of the laser on the robot, from the two poses in the ROBOTLASER lines with this name. Reads until the
 /// robot has moved 3 m or turned 1 rad and skips malformed lines. Empty if there are no such lines. Empty
 /// also if the difference of the two poses varies or is no possible mount: a mapper has then corrected the
 /// laser's pose.
-std::optional<mrpt::math::TPose2D> mount_by_robotlaser(const std::filesystem::path& path,
-                                                       std::string_view message);
+std::optional<mrpt::math::TPose2D> mount_by_robotlaser(const CarmenText& text, std::string_view message);
 
 /// Estimates the maximum range, metres, of a laser whose log states none. Uses the messages with this name in
 /// the first 500 lines. Lasers write codes of 50 m or more for "no return", which differ between logs and
 /// settings of the laser: 50.00, 51.06, 81.83, 81.91. Returns 0.97 times the largest reading, to exclude such
 /// codes, but at least kUnstatedMaxRange_m. Skips malformed lines, readings beyond 1000 m, and large readings
 /// with fewer than two others within 3 % below them.
-double max_range_by_readings_m(const std::filesystem::path& path, std::string_view message);
+double max_range_by_readings_m(const CarmenText& text, std::string_view message);
 
 /// Turns the messages of one laser into scans. The user's options override PARAM lines and messages.
 class CarmenLaser {
@@ -87,6 +91,9 @@ class CarmenLaser {
   BeamBearings bearings_;
 };
 
+/// Number of lines at the beginning of a log that decide which lasers are read.
+inline constexpr std::size_t kLinesOfHead = 500;
+
 /// Lasers of a log that are read. If several kinds of messages can hold the scans of a laser, the first 500
 /// lines of the log decide. If these lines contain none of the messages, the first such message to appear
 /// decides.
@@ -104,7 +111,7 @@ class CarmenLasers {
 
   /// Throws UserError for a selected laser that CARMEN does not have. If several lasers are named, throws
   /// UserError also if the log lacks one of them.
-  CarmenLasers(const std::filesystem::path& path, const LogOptions& options);
+  CarmenLasers(CarmenText text, const LogOptions& options);
 
   /// Returns the laser whose scans are in messages with this name, or null if these messages are not read.
   Laser* laser_of(std::string_view message);
@@ -145,7 +152,7 @@ class CarmenLasers {
   void choose(Slot& slot, const std::string& message);
   void require_all(const LaserChoice& choice) const;
 
-  std::filesystem::path path_;
+  CarmenText text_;
   LogOptions options_;
   std::vector<Slot> slots_;
   std::deque<std::string> parameters_;

@@ -14,11 +14,16 @@
 //
 // The reader skips malformed lines if they are few: one line, or at most 1 % of the lines that it needs. It
 // throws UserError if there are more malformed lines, or if the last line is truncated.
+//
+// A stream is looked over only for its first seconds, see open_carmen_stream(). All its malformed lines are
+// skipped, because a connection may be cut at any time.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/text_parts.h"
 #include "carmen/carmen_lasers.h"
+#include "carmen/carmen_stream.h"
 #include "frames/log_reader.h"
 #include "frames/odometry_interpolator.h"
 
@@ -30,14 +35,83 @@ constexpr std::size_t kLinesForOneSkipped = 100;
 // fraction of skipped lines can fall later.
 constexpr std::size_t kSkippedBeforeTheEnd = 100;
 
+constexpr std::size_t kMostWaitingOfStream = 100;  // scans of a stream that wait for odometry
+
+/// Keeps a copy of the bytes that are read from another source.
+class CopiedSource : public ByteSource {
+ public:
+  CopiedSource(ByteSource& source, std::string& copy) : source_(source), copy_(copy) {}
+
+  std::size_t read(char* bytes, std::size_t size) override {
+    const std::size_t done = source_.read(bytes, size);
+    copy_.append(bytes, done);
+    return done;
+  }
+  const std::filesystem::path& path() const override { return source_.path(); }
+  double progress() const override { return source_.progress(); }
+
+ private:
+  ByteSource& source_;
+  std::string& copy_;
+};
+
+/// Beginning of a stream.
+struct StreamHead {
+  std::filesystem::path name;  ///< name of the stream
+  std::string lines;           ///< the lines that decide what is read
+  std::string bytes;           ///< all bytes that were taken from the stream
+  bool has_odometry = false;
+};
+
+/// Returns the time of a scan line; empty for a malformed one.
+std::optional<TimeUs> time_of_scan(CarmenFields& fields) {
+  try {
+    return read_laser(fields).time_us;
+  } catch (const MalformedLine&) {  // the reader reports this line later
+    return std::nullopt;
+  }
+}
+
+/// Reads a stream until `look_over_s` seconds after its first scan of a laser that may be read.
+StreamHead look_over(ByteSource& stream, const LogOptions& options, double look_over_s) {
+  StreamHead head;
+  head.name = stream.path();
+  LineReader lines(std::make_unique<CopiedSource>(stream, head.bytes));
+  std::vector<std::string> scans;
+  for (const auto& candidates : carmen_laser_candidates(options))
+    scans.insert(scans.end(), candidates.begin(), candidates.end());
+  std::optional<TimeUs> first_us;
+  bool is_enough = false;
+  std::string_view line;
+  while (!is_enough && lines.next(line)) {
+    head.lines.append(line) += '\n';
+    CarmenFields fields(line, lines);
+    head.has_odometry = head.has_odometry || fields.message() == "ODOM";
+    if (contains(scans, std::string(fields.message())))
+      if (const auto time_us = time_of_scan(fields)) {
+        if (!first_us) first_us = time_us;
+        is_enough = std::abs(seconds(*time_us - *first_us)) >= look_over_s;
+      }
+    is_enough = is_enough || (first_us && lines.line_number() >= kLinesOfHead);
+  }
+  return head;
+}
+
 class CarmenReader : public LogReader {
  public:
   CarmenReader(const std::filesystem::path& path, const LogOptions& options)
-      : lasers_(path, options), lines_(path), with_odometry_(!ignores_odometry(options)) {
-    if (!with_odometry_) interpolator_.expect_no_odometry();
-    contents_.several_lasers = lasers_.several();
-    contents_.laser_names = lasers_.names();
-    if (!lasers_.assumption().empty()) contents_.assumptions.push_back(lasers_.assumption());
+      : CarmenReader(CarmenText(path), LineReader(path), options) {}
+
+  /// Reads a stream from its beginning.
+  CarmenReader(const StreamHead& head, std::unique_ptr<ByteSource> stream, const LogOptions& options)
+      : CarmenReader(CarmenText(head.name, std::make_shared<const std::string>(head.lines)),
+                     LineReader(std::make_unique<TextSource>(std::make_shared<const std::string>(head.bytes),
+                                                             head.name, std::move(stream))),
+                     options, kMostWaitingOfStream) {
+    is_stream_ = true;
+    if (!with_odometry_ || head.has_odometry) return;
+    interpolator_.expect_no_odometry();
+    ignores_odom_lines_ = lasers_.any_needs_odometry();
   }
 
   double progress() const override { return lines_.progress(); }
@@ -57,6 +131,18 @@ class CarmenReader : public LogReader {
   }
 
  private:
+  CarmenReader(CarmenText text, LineReader lines, const LogOptions& options,
+               std::size_t most_waiting = OdometryInterpolator::kMaxWaiting)
+      : lasers_(std::move(text), options),
+        lines_(std::move(lines)),
+        interpolator_(most_waiting),
+        with_odometry_(!ignores_odometry(options)) {
+    if (!with_odometry_) interpolator_.expect_no_odometry();
+    contents_.several_lasers = lasers_.several();
+    contents_.laser_names = lasers_.names();
+    if (!lasers_.assumption().empty()) contents_.assumptions.push_back(lasers_.assumption());
+  }
+
   void count(std::string_view message, CarmenLasers::Laser* laser) {
     if (laser == nullptr) {
       ++contents_.messages[std::string(message)];
@@ -76,7 +162,7 @@ class CarmenReader : public LogReader {
     try {
       return take_line(line);
     } catch (const MalformedLine& error) {
-      if (!lines_.line_was_ended()) throw;
+      if (!lines_.line_was_ended() && !is_stream_) throw;
       skip(error);
       return std::nullopt;
     }
@@ -86,7 +172,7 @@ class CarmenReader : public LogReader {
     SkippedLines& skipped = contents_.skipped;
     if (skipped.count == 0) skipped.first = error.what();
     ++skipped.count;
-    if (skipped.count > std::max(kSkippedBeforeTheEnd, lines_needed_ / kLinesForOneSkipped))
+    if (!is_stream_ && skipped.count > std::max(kSkippedBeforeTheEnd, lines_needed_ / kLinesForOneSkipped))
       fail_as_garbled();
   }
 
@@ -100,6 +186,10 @@ class CarmenReader : public LogReader {
     if (laser != nullptr) return take_scan(fields, *laser);
     if (name == "ODOM" && (!lasers_.any_known() || lasers_.any_needs_odometry())) {
       ++lines_needed_;
+      if (std::exchange(ignores_odom_lines_, false))
+        contents_.assumptions.push_back(
+            "no ODOM line came in the first seconds, so later ones are not used. Wait longer with "
+            "--look-over-s");
       const CarmenOdometryMessage odometry = read_odometry(fields);
       interpolator_.add_odometry(odometry.time_us, odometry.odom_T_robot);
     } else if (name == "PARAM") {
@@ -135,7 +225,7 @@ class CarmenReader : public LogReader {
     frame.has_odometry = with_odometry_;
     if (!is_raw) return frame;
     interpolator_.add_scan(std::move(frame));
-    if (!interpolator_.has_odometry() && interpolator_.waiting() > OdometryInterpolator::kMaxWaiting) {
+    if (!interpolator_.has_odometry() && interpolator_.waiting() > interpolator_.most_waiting()) {
       interpolator_.expect_no_odometry();
       contents_.assumptions.push_back("no ODOM line is among the first " +
                                       std::to_string(interpolator_.waiting()) +
@@ -163,7 +253,8 @@ class CarmenReader : public LogReader {
     at_end_ = interpolator_.waiting() == 0;
     const bool gives_nothing = frames_given() == 0 && at_end_;
     if (gives_nothing && contents_.skipped.count > 0) throw UserError(contents_.skipped.first);
-    if (at_end_ && contents_.skipped.count > std::max<std::size_t>(1, lines_needed_ / kLinesForOneSkipped))
+    if (at_end_ && !is_stream_ &&
+        contents_.skipped.count > std::max<std::size_t>(1, lines_needed_ / kLinesForOneSkipped))
       fail_as_garbled();
     if (at_end_ && frames_given() == 0) fail_without_scans();
     if (!interpolator_.has_odometry()) interpolator_.expect_no_odometry();
@@ -193,7 +284,8 @@ class CarmenReader : public LogReader {
     for (const auto& [name, lines] : contents_.messages) found.push_back(std::to_string(lines) + " " + name);
     throw UserError(lines_.path().string() + " has no laser scans, expected lines of one of " +
                     name_list(lasers_.candidates()) + "; found " +
-                    (found.empty() ? "no messages. Check that the file is a CARMEN log"
+                    (found.empty() ? std::string("no messages. Check that the ") +
+                                         (is_stream_ ? "sender writes CARMEN lines" : "file is a CARMEN log")
                                    : name_list(found) + ". Select a laser with log.laser"));
   }
 
@@ -203,7 +295,9 @@ class CarmenReader : public LogReader {
   // Pointers into contents_.messages, by number of the laser, to avoid a search.
   std::vector<std::size_t*> scan_counts_;
   bool with_odometry_;
-  std::size_t lines_needed_ = 0;  // number of lines needed so far, malformed ones included
+  bool is_stream_ = false;
+  bool ignores_odom_lines_ = false;  // because the first lines of the stream had none; none has come so far
+  std::size_t lines_needed_ = 0;     // number of lines needed so far, malformed ones included
   bool at_end_ = false;
 };
 
@@ -211,6 +305,12 @@ class CarmenReader : public LogReader {
 
 std::unique_ptr<LogReader> open_carmen_log(const std::filesystem::path& path, const LogOptions& options) {
   return std::make_unique<CarmenReader>(path, options);
+}
+
+std::unique_ptr<LogReader> open_carmen_stream(std::unique_ptr<ByteSource> stream, const LogOptions& options,
+                                              double look_over_s) {
+  const StreamHead head = look_over(*stream, options, look_over_s);
+  return std::make_unique<CarmenReader>(head, std::move(stream), options);
 }
 
 }  // namespace psi_slam

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "compression/byte_source.h"
 #include "compression/file_decoder.h"
 #include "psi_slam/user_error.h"
 
@@ -16,7 +17,7 @@ namespace psi_slam {
 /// Reads a file once from its beginning, plain or compressed by gzip or zstd. Recognises the compression by
 /// the content of the file, not by its name. The constructor throws UserError if the file does not exist, is
 /// a folder or is not readable.
-class CompressedFile {
+class CompressedFile : public ByteSource {
  public:
   /// `expected` names the kind of file in the messages about a missing file and about a folder.
   explicit CompressedFile(std::filesystem::path path, const std::string& expected = "a log file");
@@ -24,12 +25,12 @@ class CompressedFile {
   /// Reads the next `size` decompressed bytes and returns their number. The number is smaller than `size`
   /// only at the end of the file and before damaged or truncated data. Throws UserError if such data come
   /// first.
-  std::size_t read(char* bytes, std::size_t size);
+  std::size_t read(char* bytes, std::size_t size) override;
 
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const override { return path_; }
 
   /// Fraction of the file on disk that has been read, in [0, 1].
-  double progress() const;
+  double progress() const override;
 
  private:
   std::optional<UserError> failure_now() const;

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "compression/compressed_file.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -14,7 +15,11 @@ constexpr std::size_t kMaxLineBytes = std::size_t{16} * 1024 * 1024;
 
 }  // namespace
 
-LineReader::LineReader(std::filesystem::path path) : file_(std::move(path)), buffer_(kInitialBytes) {}
+LineReader::LineReader(std::filesystem::path path)
+    : LineReader(std::make_unique<CompressedFile>(std::move(path))) {}
+
+LineReader::LineReader(std::unique_ptr<ByteSource> bytes)
+    : bytes_(std::move(bytes)), buffer_(kInitialBytes) {}
 
 bool LineReader::fill() {
   if (begin_ > 0) {
@@ -24,12 +29,12 @@ bool LineReader::fill() {
   }
   if (end_ == buffer_.size()) {
     if (buffer_.size() >= kMaxLineBytes) {
-      throw UserError(file_.path().string() + ":" + std::to_string(line_number_ + 1) +
+      throw UserError(bytes_->path().string() + ":" + std::to_string(line_number_ + 1) +
                       ": the line is longer than 16 MB, expected a text file. Check that the file is a log");
     }
     buffer_.resize(buffer_.size() * 2);
   }
-  const std::size_t got = file_.read(buffer_.data() + end_, buffer_.size() - end_);
+  const std::size_t got = bytes_->read(buffer_.data() + end_, buffer_.size() - end_);
   end_ += got;
   return got > 0;
 }
@@ -65,7 +70,7 @@ bool LineReader::next_readable(std::string_view& line) {
 }
 
 std::string LineReader::place() const {
-  return file_.path().string() + ":" + std::to_string(line_number_);
+  return bytes_->path().string() + ":" + std::to_string(line_number_);
 }
 
 }  // namespace psi_slam

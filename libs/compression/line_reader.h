@@ -3,19 +3,21 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "compression/compressed_file.h"
+#include "compression/byte_source.h"
 
 namespace psi_slam {
 
-/// Reads the lines of a plain or compressed text file without their line ends ("\n" or "\r\n"). Throws
-/// UserError as CompressedFile does, and for a line of 16 MiB or more.
+/// Reads the lines of a plain or compressed text file, or of a stream, without their line ends ("\n" or
+/// "\r\n"). Throws UserError as CompressedFile does, and for a line of 16 MiB or more.
 class LineReader {
  public:
   explicit LineReader(std::filesystem::path path);
+  explicit LineReader(std::unique_ptr<ByteSource> bytes);
 
   /// Reads the next line; returns false at the end of the file. The view is valid until the next call.
   bool next(std::string_view& line);
@@ -32,13 +34,13 @@ class LineReader {
   /// Place of the last line read: "path:line".
   std::string place() const;
 
-  const std::filesystem::path& path() const { return file_.path(); }
-  double progress() const { return file_.progress(); }
+  const std::filesystem::path& path() const { return bytes_->path(); }
+  double progress() const { return bytes_->progress(); }
 
  private:
   bool fill();
 
-  CompressedFile file_;
+  std::unique_ptr<ByteSource> bytes_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0;  // unread bytes of the buffer: from begin_ to end_
   std::size_t end_ = 0;

@@ -24,7 +24,7 @@ std::string sentence_of(const std::vector<BodySector>& sectors) {
 }  // namespace
 
 void BodyMaskedSource::look_ahead() {
-  mask_ = find_own_body(source_);
+  mask_ = find_own_body(source_, most_s_);
   source_.rewind();
   std::map<std::size_t, std::vector<BodySector>> by_laser;
   for (const BodySector& sector : mask_.sectors()) by_laser[sector.laser].push_back(sector);

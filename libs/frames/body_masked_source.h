@@ -22,7 +22,9 @@ namespace psi_slam {
 /// appears later is not found.
 class BodyMaskedSource : public FrameSource {
  public:
-  explicit BodyMaskedSource(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
+  /// With `most_s`, looks for the body in the first `most_s` seconds only, see find_own_body().
+  explicit BodyMaskedSource(std::unique_ptr<FrameSource> source, std::optional<double> most_s = std::nullopt)
+      : source_(std::move(source)), most_s_(most_s) {}
 
   /// Returns the next frame. Throws an error of the source after the frames before it.
   std::optional<Frame> next() override;
@@ -37,6 +39,7 @@ class BodyMaskedSource : public FrameSource {
   void look_ahead();
 
   RewindableSource source_;
+  std::optional<double> most_s_;
   bool started_ = false;
   OwnBodyMask mask_;
   std::vector<std::string> sentences_;  ///< what is masked, one sentence for each laser

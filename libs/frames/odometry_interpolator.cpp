@@ -69,7 +69,7 @@ bool OdometryInterpolator::place_between_messages(Frame& frame) const {
 }
 
 bool OdometryInterpolator::must_wait(const Scan& scan) const {
-  if (scan.is_placed || ended_ || scans_.size() > kMaxWaiting) return false;
+  if (scan.is_placed || ended_ || scans_.size() > most_waiting_) return false;
   return scan.frame.time_us > odometry_.back().time_us || (scan.steps_back && !scan.after);
 }
 

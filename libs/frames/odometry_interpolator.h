@@ -22,8 +22,13 @@ namespace psi_slam {
 /// whose time steps back therefore waits for the next odometry message.
 class OdometryInterpolator {
  public:
-  /// Largest number of scans that wait for odometry. If more scans arrive, odometry is taken to have stopped.
+  /// Largest number of scans of a log that wait for odometry. If more scans arrive, odometry is taken to have
+  /// stopped.
   static constexpr std::size_t kMaxWaiting = 1000;
+
+  OdometryInterpolator() = default;
+  /// Lets `most_waiting` scans wait instead of kMaxWaiting.
+  explicit OdometryInterpolator(std::size_t most_waiting) : most_waiting_(most_waiting) {}
 
   void add_odometry(TimeUs time_us, const mrpt::math::TPose2D& odom_T_robot);
   void add_scan(Frame frame);
@@ -37,6 +42,7 @@ class OdometryInterpolator {
 
   bool has_odometry() const { return !odometry_.empty(); }
   std::size_t waiting() const { return scans_.size(); }
+  std::size_t most_waiting() const { return most_waiting_; }
 
  private:
   struct Odometry {
@@ -58,6 +64,7 @@ class OdometryInterpolator {
   void place(Scan& scan) const;
   bool place_between_messages(Frame& frame) const;
 
+  std::size_t most_waiting_ = kMaxWaiting;
   // The last messages since time stepped back; never empty after the first message.
   std::deque<Odometry> odometry_;
   std::deque<Scan> scans_;

@@ -257,13 +257,18 @@ OwnBodyMask OwnBodyFinder::mask() const {
   return mask;
 }
 
-OwnBodyMask find_own_body(FrameSource& log) {
+OwnBodyMask find_own_body(FrameSource& log, std::optional<double> most_s) {
   OwnBodyFinder finder;
+  std::optional<TimeUs> first_us;
   try {
-    while (!finder.settled()) {
+    for (std::size_t frames = 1; !finder.settled(); ++frames) {
       const std::optional<Frame> frame = log.next();
       if (!frame) break;
       finder.add(*frame);
+      if (!first_us) first_us = frame->time_us;
+      if (most_s && (frames >= OwnBodyFinder::kMostFramesOfStream ||
+                     std::abs(seconds(frame->time_us - *first_us)) >= *most_s))
+        break;
     }
   } catch (const UserError&) {  // damage is reported where the log is mapped or checked
   }

@@ -105,6 +105,7 @@ class OwnBodyFinder {
   static constexpr double kFar_m = 2.0;
   static constexpr double kReach_m = 1.0;  ///< the body is at most this far from the laser
   static constexpr std::size_t kMostFrames = 10'000;
+  static constexpr std::size_t kMostFramesOfStream = 500;
   static constexpr std::size_t kMostKeyScans = 60;
   static constexpr std::size_t kLeastSeen = 15;
   static constexpr std::size_t kLeastSeenWithoutHeading = 40;
@@ -151,7 +152,8 @@ class OwnBodyFinder {
   std::map<std::size_t, Laser> lasers_;
 };
 
-/// Reads a log until the finder has settled. Stops without an error where the log is damaged.
-OwnBodyMask find_own_body(FrameSource& log);
+/// Reads a log until the finder has settled. With `most_s`, reads at most kMostFramesOfStream frames, until
+/// `most_s` seconds after the first one. Stops without an error where the log is damaged.
+OwnBodyMask find_own_body(FrameSource& log, std::optional<double> most_s = std::nullopt);
 
 }  // namespace psi_slam

@@ -90,8 +90,8 @@ bool has_rate(const mrpt::obs::CObservationIMU& imu) {
 }
 
 ObservationFrames::ObservationFrames(const LogOptions& options, Odometry odometry,
-                                     std::optional<std::string> gyroscope)
-    : lasers_(options), odometry_(odometry), gyroscope_(std::move(gyroscope)) {
+                                     std::optional<std::string> gyroscope, std::size_t most_waiting)
+    : lasers_(options), odometry_(odometry), gyroscope_(std::move(gyroscope)), waiting_(most_waiting) {
   if (ignores_odometry(options) || odometry == Odometry::kNone) decide_for_none();
 }
 

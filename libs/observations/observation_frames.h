@@ -86,9 +86,10 @@ class ObservationFrames {
   /// Prepares to read the lasers that `options` choose. If `odometry` is kUndecided, uses the kind of
   /// odometry that comes first, or none if OdometryInterpolator::kMaxWaiting scans come before any. If
   /// `options` ask for no odometry, kNone applies. Only with kNone, `gyroscope`, a sensor label, selects the
-  /// observations of IMUs that give the headings of the frames.
+  /// observations of IMUs that give the headings of the frames. `most_waiting` scans may wait for odometry.
   explicit ObservationFrames(const LogOptions& options, Odometry odometry = Odometry::kUndecided,
-                             std::optional<std::string> gyroscope = std::nullopt);
+                             std::optional<std::string> gyroscope = std::nullopt,
+                             std::size_t most_waiting = OdometryInterpolator::kMaxWaiting);
 
   /// Takes the movement of the robot, if there is one. `place` says where the action is in the log.
   void take(const mrpt::obs::CActionCollection& action, const std::string& place);

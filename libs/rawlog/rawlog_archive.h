@@ -1,31 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <mrpt/serialization/CSerializable.h>
-
 #include <filesystem>
 #include <memory>
 #include <string>
 
+#include "rawlog/object_source.h"
+
 namespace psi_slam {
 
 /// Reads the objects of an MRPT rawlog, plain or gzipped, in the order of the file.
-class RawlogArchive {
+class RawlogArchive : public ObjectSource {
  public:
   explicit RawlogArchive(const std::filesystem::path& path);
-  ~RawlogArchive();
+  ~RawlogArchive() override;
 
   /// Returns the next object, or null at the end of the file. Throws UserError if the file ends within an
   /// object, is damaged, or holds an object that this version of MRPT does not know.
-  mrpt::serialization::CSerializable::Ptr next();
+  mrpt::serialization::CSerializable::Ptr next() override;
 
-  /// Place of the object that next() last read, for error messages: "path: object 12". Objects are counted
-  /// from 1.
-  std::string place() const;
-
-  const std::filesystem::path& path() const;
-  /// Share of the file read so far, in [0, 1].
-  double progress() const;
+  std::string place() const override;
+  const std::filesystem::path& path() const override;
+  double progress() const override;
 
  private:
   struct State;

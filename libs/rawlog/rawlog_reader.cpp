@@ -17,6 +17,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 #include <utility>
@@ -28,6 +29,7 @@
 #include "observations/mrpt_objects.h"
 #include "observations/observation_frames.h"
 #include "psi_slam/user_error.h"
+#include "rawlog/observation_stream.h"
 #include "rawlog/rawlog_archive.h"
 
 namespace psi_slam {
@@ -148,11 +150,11 @@ void use(const UsualLasers& usual, Sensors& sensors) {
     sensors.options.laser += (sensors.options.laser.empty() ? "" : ",") + label;
 }
 
-/// Finds the lasers to read, the kind of odometry and the gyroscope. Reads the rawlog until the lasers, all
-/// sensors that the user names, and odometry have appeared, or to its end. Throws UserError if a sensor is
+/// Finds the lasers to read, the kind of odometry and the gyroscope. Reads objects until the lasers, all
+/// sensors that the user names, and odometry have appeared, or to their end. Throws UserError if a sensor is
 /// missing.
-Sensors find_sensors(const std::filesystem::path& path, const LogOptions& options) {
-  RawlogArchive archive(path);
+Sensors find_sensors(ObjectSource& archive, const LogOptions& options) {
+  const std::filesystem::path& path = archive.path();
   const auto named = named_labels(options);
   const LaserChoice choice = laser_choice("log.laser", options.laser);
   ChosenLasers chosen(choice);
@@ -212,12 +214,73 @@ Sensors find_sensors(const std::filesystem::path& path, const LogOptions& option
   return found;
 }
 
+Sensors find_sensors(const std::filesystem::path& path, const LogOptions& options) {
+  RawlogArchive archive(path);
+  return find_sensors(archive, options);
+}
+
+constexpr std::size_t kMostScansOfHead = 500;        // of a stream
+constexpr std::size_t kMostWaitingOfStream = 100;    // scans of a stream that wait for odometry
+constexpr std::size_t kMostSkippedBeforeScans = 20;  // observations of a stream
+
+/// Objects in memory, and after them those of another source unless that is null.
+class KeptObjects : public ObjectSource {
+ public:
+  KeptObjects(std::vector<mrpt::serialization::CSerializable::Ptr> objects, std::filesystem::path path,
+              std::unique_ptr<ObjectSource> rest = nullptr)
+      : objects_(std::move(objects)), path_(std::move(path)), rest_(std::move(rest)) {}
+
+  mrpt::serialization::CSerializable::Ptr next() override {
+    if (next_ == objects_.size()) return rest_ ? rest_->next() : nullptr;
+    return objects_[next_++];
+  }
+  std::string place() const override {
+    if (next_ == objects_.size() && rest_) return rest_->place();
+    return path_.string() + ": object " + std::to_string(next_);
+  }
+  const std::filesystem::path& path() const override { return path_; }
+  double progress() const override { return 0; }
+
+ private:
+  std::vector<mrpt::serialization::CSerializable::Ptr> objects_;
+  std::filesystem::path path_;
+  std::unique_ptr<ObjectSource> rest_;
+  std::size_t next_ = 0;
+};
+
+/// Reads a stream until `look_over_s` seconds after its first scan.
+std::vector<mrpt::serialization::CSerializable::Ptr> look_over(ObjectSource& stream, double look_over_s) {
+  std::vector<mrpt::serialization::CSerializable::Ptr> head;
+  std::optional<TimeUs> first_us;
+  std::size_t scans = 0;
+  while (scans < kMostScansOfHead) {
+    head.push_back(stream.next());
+    if (!head.back()) {
+      head.pop_back();
+      break;
+    }
+    const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(head.back().get());
+    const std::optional<TimeUs> stamp = scan != nullptr ? time_us(*scan) : std::nullopt;
+    if (!stamp) continue;
+    ++scans;
+    if (!first_us) first_us = stamp;
+    if (std::abs(seconds(*stamp - *first_us)) >= look_over_s) break;
+  }
+  return head;
+}
+
 class RawlogReader : public LogReader {
  public:
   RawlogReader(const std::filesystem::path& path, const LogOptions& options)
-      : archive_(path),
-        found_(find_sensors(path, options)),
-        frames_(found_.options, found_.odometry, found_.gyroscope.name) {
+      : RawlogReader(std::make_unique<RawlogArchive>(path), find_sensors(path, options)) {}
+
+  /// Reads objects from their beginning. With `of_stream`, skips invalid observations.
+  RawlogReader(std::unique_ptr<ObjectSource> objects, Sensors found, bool of_stream = false)
+      : archive_(std::move(objects)),
+        found_(std::move(found)),
+        frames_(found_.options, found_.odometry, found_.gyroscope.name,
+                of_stream ? kMostWaitingOfStream : OdometryInterpolator::kMaxWaiting),
+        is_stream_(of_stream) {
     contents_.laser = name_list(found_.lasers);
     contents_.several_lasers = found_.lasers.size() > 1;
     name_lasers(found_.lasers);
@@ -225,7 +288,7 @@ class RawlogReader : public LogReader {
     if (!found_.gyroscope.assumption.empty()) contents_.assumptions.push_back(found_.gyroscope.assumption);
   }
 
-  double progress() const override { return archive_.progress(); }
+  double progress() const override { return archive_->progress(); }
 
  protected:
   std::optional<Frame> read_frame() override {
@@ -235,8 +298,8 @@ class RawlogReader : public LogReader {
         throw UserError(contents_.skipped.first +
                         ", as in all of its observations. Map without odometry with log.odometry=none");
       if (at_end_) return std::nullopt;
-      if (const auto object = archive_.next()) {
-        take(*object);
+      if (const auto object = archive_->next()) {
+        take_or_skip(*object);
       } else {
         at_end_ = true;
         frames_.end_of_log();
@@ -245,18 +308,28 @@ class RawlogReader : public LogReader {
   }
 
  private:
+  void take_or_skip(mrpt::serialization::CSerializable& object) {
+    try {
+      take(object);
+    } catch (const UserError& error) {
+      if (!is_stream_) throw;
+      if (invalid_.count++ == 0) invalid_.first = error.what();
+      if (frames_given() == 0 && invalid_.count > kMostSkippedBeforeScans) throw;
+    }
+    contents_.skipped = frames_.skipped() + invalid_;
+  }
+
   void take(mrpt::serialization::CSerializable& object) {
     if (const auto* actions = dynamic_cast<const CActionCollection*>(&object))
-      frames_.take(*actions, archive_.place());
+      frames_.take(*actions, archive_->place());
     for_each_observation(object, [&](const CObservation& observation) {
       const std::size_t scans = frames_.scans();
-      frames_.take(observation, archive_.place());
+      frames_.take(observation, archive_->place());
       const bool is_scan = dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;
       if (is_scan && frames_.scans() == scans) ++contents_.other_lasers[observation.sensorLabel];
       if (const auto labels = frames_.labels(); labels.size() > contents_.laser_names.size())
         name_lasers(labels);
     });
-    contents_.skipped = frames_.skipped();
   }
 
   void name_lasers(const std::vector<std::string>& labels) {
@@ -264,9 +337,11 @@ class RawlogReader : public LogReader {
     for (const std::string& label : labels) contents_.laser_names.push_back({label});
   }
 
-  RawlogArchive archive_;
+  std::unique_ptr<ObjectSource> archive_;
   Sensors found_;
   ObservationFrames frames_;
+  bool is_stream_;
+  SkippedLines invalid_;  // observations of a stream that were skipped
   bool at_end_ = false;
 };
 
@@ -274,6 +349,15 @@ class RawlogReader : public LogReader {
 
 std::unique_ptr<LogReader> open_rawlog(const std::filesystem::path& path, const LogOptions& options) {
   return std::make_unique<RawlogReader>(path, options);
+}
+
+std::unique_ptr<LogReader> open_observation_stream(std::unique_ptr<ObjectSource> stream,
+                                                   const LogOptions& options, double look_over_s) {
+  const auto head = look_over(*stream, look_over_s);
+  const std::filesystem::path path = stream->path();
+  KeptObjects first(head, path);
+  return std::make_unique<RawlogReader>(std::make_unique<KeptObjects>(head, path, std::move(stream)),
+                                        find_sensors(first, options), true);
 }
 
 }  // namespace psi_slam

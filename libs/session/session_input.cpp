@@ -112,6 +112,10 @@ class RecordedSource : public FrameSource {
 
 SessionInput::SessionInput(std::filesystem::path log) : log_(std::move(log)), logs_{{name_of(log_), "", 0}} {}
 
+SessionInput::SessionInput(const std::string& name,
+                           std::function<std::unique_ptr<FrameSource>(const LogOptions&)> open)
+    : open_stream_(std::move(open)), logs_{{name, "", 0}} {}
+
 SessionInput::SessionInput(std::shared_ptr<const SessionRecording> recording, std::filesystem::path log)
     : recording_(std::move(recording)),
       log_(std::move(log)),
@@ -176,6 +180,7 @@ void SessionInput::check_kept_calibration(const LogOptions& options) {
 }
 
 std::unique_ptr<FrameSource> SessionInput::open(const LogOptions& options) const {
+  if (open_stream_) return open_stream_(options);
   if (!recording_) return open_log(log_, options);
   return std::make_unique<RecordedSource>(recording_, log_.empty() ? nullptr : open_log(log_, options),
                                           same_log_, log_);

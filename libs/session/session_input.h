@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +23,10 @@ class SessionInput {
  public:
   /// Reads a log from its beginning.
   explicit SessionInput(std::filesystem::path log);
+
+  /// Reads a stream that `open` opens when it is first read. Such an input can be opened once. `name` stands
+  /// for the log in reports.
+  SessionInput(const std::string& name, std::function<std::unique_ptr<FrameSource>(const LogOptions&)> open);
 
   /// Reads a recording, and then `log` unless that path is empty. If the checksum of `log` is that of the
   /// recording's last log, only the rest of that log is read, else all of `log`. Throws UserError if `log` is
@@ -57,6 +62,8 @@ class SessionInput {
   void check_kept_calibration(const LogOptions& options);
 
   std::shared_ptr<const SessionRecording> recording_;
+  std::function<std::unique_ptr<FrameSource>(const LogOptions&)>
+      open_stream_;  ///< empty unless a stream is read
   std::filesystem::path log_;
   std::vector<RecordedLog> logs_;
   EditJournal edits_;

@@ -254,7 +254,7 @@ MapperOptions mapper_options(const Settings& settings) {
   MapperOptions options = settings.mapper;
   options.back_end.seed = settings.run.seed;
   options.back_end.threads = worker_threads(settings.run);
-  options.back_end_thread = options.back_end.threads > 1;
+  options.back_end_thread = options.back_end_thread || options.back_end.threads > 1;
   return options;
 }
 

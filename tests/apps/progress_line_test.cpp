@@ -21,6 +21,12 @@ TEST(ProgressLine, shows_share_speed_and_time_left) {
             "drawing the map and writing the results");
 }
 
+TEST(ProgressLine, shows_no_share_of_a_stream) {
+  EXPECT_EQ(progress_text({Phase::kMapping, 0, 5876, 2100.4, 2.8, {}}, true), "5876 scans   2100 scans/s");
+  EXPECT_EQ(progress_text({Phase::kFinalSearch, 0.25, 5876, 10, 0.1, 61}, true),
+            " 25 %   final loop search   1:01 left");
+}
+
 TEST(ProgressLine, is_redrawn_for_every_phase_but_not_for_every_scan) {
   std::ostringstream terminal;
   ProgressLine line(terminal);

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "compression/compressed_file.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 
@@ -51,6 +52,17 @@ TEST_F(LineReaderTest, joins_lines_over_the_borders_of_its_buffer) {
     text += written.back() + "\n";
   }
   EXPECT_EQ(lines_of(text), written);
+}
+
+TEST_F(LineReaderTest, reads_text_in_memory_and_what_follows_it) {
+  write_file(path_, "nd\nthird\n");
+  LineReader reader(std::make_unique<TextSource>(std::make_shared<const std::string>("first\nseco"), "stream",
+                                                 std::make_unique<CompressedFile>(path_)));
+  std::vector<std::string> lines;
+  std::string_view line;
+  while (reader.next(line)) lines.emplace_back(line);
+  EXPECT_THAT(lines, testing::ElementsAre("first", "second", "third"));
+  EXPECT_EQ(reader.place(), "stream:3");
 }
 
 TEST_F(LineReaderTest, names_the_place_as_editors_take_it) {

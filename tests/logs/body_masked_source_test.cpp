@@ -123,6 +123,17 @@ TEST_F(BodyMaskedSourceTest, masks_up_to_the_damage_of_a_log) {
   EXPECT_EQ(scans, run_.truth.size() - 1);
 }
 
+TEST_F(BodyMaskedSourceTest, looks_only_at_the_first_seconds_of_a_stream) {
+  const auto plain = open_log_reader(log_, {});
+  BodyMaskedSource brief(open_log_reader(log_, {}), 1.0);
+  EXPECT_EQ(masked_readings(all_frames(*plain), all_frames(brief)), 0U) << "the robot has not turned enough";
+  EXPECT_THAT(brief.assumptions(), IsEmpty());
+  BodyMaskedSource at_length(open_log_reader(log_, {}), 1e9);
+  const std::optional<Frame> first = at_length.next();
+  ASSERT_TRUE(first);
+  EXPECT_TRUE(std::isnan(first->scan.ranges_m[RobotBody::first_mast_beam(180)]));
+}
+
 TEST_F(BodyMaskedSourceTest, masks_companions_too) {
   TwoLasers robot;
   robot.scans = 200;  // three turns

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live_arguments.h"
+
+#include <cstdint>
+#include <limits>
+
+#include "base/number_text.h"
+#include "document_options.h"
+#include "psi_slam/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+double seconds_of(const std::string& option, const std::string& text) {
+  const std::optional<double> value = parse_number(text);
+  if (!value || *value < 0) throw UserError(option + " " + text + ": expected seconds, 0 or more");
+  return *value;
+}
+
+std::uint16_t port_of(const std::string& text) {
+  constexpr double kMostPort = std::numeric_limits<std::uint16_t>::max();
+  const std::optional<double> value = parse_number(text);
+  if (!value || *value < 0 || *value > kMostPort || *value != static_cast<std::uint16_t>(*value))
+    throw UserError("--tcp " + text +
+                    ": expected the number of a port, 0 to 65535. With 0 the system chooses one");
+  return static_cast<std::uint16_t>(*value);
+}
+
+}  // namespace
+
+void add_live_options(CLI::App& command, LiveArguments& arguments) {
+  command.add_flag("--stdin", arguments.standard_input, "Read CARMEN lines from standard input");
+  add_value(command, "--tcp", arguments.tcp, "Read CARMEN lines that a client sends to this TCP port",
+            "PORT");
+  add_value(command, "--bind", arguments.address,
+            "Address of this computer to listen on with --tcp. Default: 127.0.0.1, which only this computer "
+            "reaches",
+            "ADDRESS");
+  add_value(command, "--follow", arguments.follow, "Read a CARMEN log that is still being recorded", "FILE");
+  add_value(
+      command, "--sensors", arguments.sensors,
+      "Read sensors by the drivers of MRPT, with the settings that rawlog-grabber and icp-slam-live use",
+      "INI");
+  add_value(command, "--idle-s", arguments.idle_s,
+            "End after so many seconds without data. Default: end with the data or by Ctrl-C", "SECONDS");
+  add_value(
+      command, "--look-over-s", arguments.look_over_s,
+      "Choose lasers, odometry and the mask of the robot's body by the first seconds of scans. Default: 5",
+      "SECONDS");
+  add_value(command, "--poses", arguments.poses,
+            "Print the pose of each scan to standard output, one line each: tum or json", "FORMAT");
+}
+
+std::optional<LiveInput> live_input(const LiveArguments& arguments) {
+  const int sources = (arguments.standard_input ? 1 : 0) + (arguments.tcp.empty() ? 0 : 1) +
+                      (arguments.follow.empty() ? 0 : 1) + (arguments.sensors.empty() ? 0 : 1);
+  if (sources > 1) throw UserError("name only one source: --stdin, --tcp, --follow or --sensors");
+  if (!arguments.address.empty() && arguments.tcp.empty())
+    throw UserError("--bind has no effect without --tcp PORT");
+  if (sources == 0) {
+    if (!arguments.idle_s.empty() || !arguments.look_over_s.empty() || !arguments.poses.empty())
+      throw UserError(
+          "--idle-s, --look-over-s and --poses need a source: --stdin, --tcp PORT, --follow FILE or "
+          "--sensors INI");
+    return std::nullopt;
+  }
+  LiveInput input;
+  if (!arguments.tcp.empty()) {
+    input.kind = LiveInput::Kind::kTcp;
+    input.port = port_of(arguments.tcp);
+    if (!arguments.address.empty()) input.address = arguments.address;
+  } else if (!arguments.follow.empty()) {
+    input.kind = LiveInput::Kind::kFollow;
+    input.file = arguments.follow;
+  } else if (!arguments.sensors.empty()) {
+    input.kind = LiveInput::Kind::kSensors;
+    input.file = arguments.sensors;
+  }
+  if (!arguments.idle_s.empty()) input.idle_s = seconds_of("--idle-s", arguments.idle_s);
+  if (!arguments.look_over_s.empty()) input.look_over_s = seconds_of("--look-over-s", arguments.look_over_s);
+  return input;
+}
+
+std::optional<PoseFormat> pose_format(const LiveArguments& arguments) {
+  if (arguments.poses.empty()) return std::nullopt;
+  if (arguments.poses == "tum") return PoseFormat::kTum;
+  if (arguments.poses == "json") return PoseFormat::kJson;
+  throw UserError("--poses " + arguments.poses + ": expected tum or json");
+}
+
+}  // namespace psi_slam

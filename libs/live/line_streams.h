@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Streams of text lines: standard input, a TCP port, and a file that grows.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "live/line_stream.h"
+
+namespace psi_slam {
+
+/// Reads the descriptor of standard input, or another one that is kept open by the caller, to its end.
+std::unique_ptr<LineStream> standard_input(LiveControl control, std::optional<double> idle_s,
+                                           int descriptor = 0);
+
+/// Listens on a TCP port of the IPv4 address `address` and reads what a client sends. Serves one client at a
+/// time. After a lost connection the next client continues. Port 0 lets the system choose a port, which the
+/// first notice names. Throws UserError if the address is invalid or the port cannot be opened.
+std::unique_ptr<LineStream> tcp_input(const std::string& address, std::uint16_t port, LiveControl control,
+                                      std::optional<double> idle_s);
+
+/// Reads a text file from its beginning and waits for more at its end. Throws UserError if the file is
+/// unreadable, and if its content shows a format without lines: a compressed file, a rawlog or a bag.
+std::unique_ptr<LineStream> growing_file(const std::filesystem::path& file, LiveControl control,
+                                         std::optional<double> idle_s);
+
+}  // namespace psi_slam

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Frames of a robot that is driving.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "live/live_control.h"
+#include "psi_slam/frame_source.h"
+#include "psi_slam/log_options.h"
+
+namespace psi_slam {
+
+/// Where the frames of a driving robot come from.
+struct LiveInput {
+  enum class Kind {
+    kStandardInput,  ///< CARMEN lines on standard input
+    kTcp,            ///< CARMEN lines that a client sends to a TCP port
+    kFollow,         ///< a CARMEN log that grows
+    kSensors,        ///< sensors with drivers of MRPT, described by a settings file of rawlog-grabber
+  };
+
+  Kind kind = Kind::kStandardInput;
+  std::uint16_t port = 0;             ///< kTcp: port; 0: the system chooses one
+  std::string address = "127.0.0.1";  ///< kTcp: IPv4 address of this computer that is listened on
+  std::string file;                   ///< kFollow: the log; kSensors: the settings file
+  std::optional<double> idle_s;       ///< ends the frames after so many seconds without data; empty: never
+  /// Seconds of the stream, by its time stamps, after its first scan. They decide what a log is looked over
+  /// for: the lasers, their mounts and maximum range, whether there is odometry, and the robot's own body.
+  /// Frames wait for these decisions.
+  double look_over_s = 5;
+};
+
+/// Returns the name of the source for messages and reports: "standard input", or the name of the file.
+std::string name_of(const LiveInput& input);
+
+/// Returns the frames of a live source, numbered from 0. next() waits for the next frame, and returns nothing
+/// after the source has ended or should stop; the scans that were received before are returned first. Damaged
+/// messages and lost connections do not end the frames. progress() is 0.
+///
+/// Throws UserError for options that a stream cannot follow, such as log.calibrate, and if the source cannot
+/// be opened. next() throws UserError if no scan came at all.
+std::unique_ptr<FrameSource> open_live(const LiveInput& input, const LogOptions& options,
+                                       const LiveControl& control);
+
+}  // namespace psi_slam

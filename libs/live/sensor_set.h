@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sensors that drivers of MRPT read.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "live/live_control.h"
+#include "rawlog/object_source.h"
+
+namespace psi_slam {
+
+/// Reads the sensors of a settings file as rawlog-grabber and icp-slam-live do: each section with a key
+/// `driver` is a sensor, whose driver is a class of mrpt::hwdrivers, and is read in a thread of its own.
+/// Yields scans, odometry, robot actions and readings of IMUs in the order of their arrival; other
+/// observations are dropped.
+///
+/// A driver that fails, sends empty scans or, for a laser, sends nothing for five seconds, is started again
+/// every second until it works. Notices say so.
+class SensorSet : public ObjectSource {
+ public:
+  /// Loads the settings of all sensors. next() starts them. `idle_s`: see LiveInput. Throws UserError if the
+  /// file is unreadable, names no sensor or an unknown driver, or if a driver rejects its settings.
+  SensorSet(std::filesystem::path settings, LiveControl control, std::optional<double> idle_s);
+  /// Waits until all drivers have returned.
+  ~SensorSet() override;
+  SensorSet(const SensorSet&) = delete;
+  SensorSet& operator=(const SensorSet&) = delete;
+
+  mrpt::serialization::CSerializable::Ptr next() override;
+  std::string place() const override;
+  const std::filesystem::path& path() const override { return settings_; }
+  double progress() const override { return 0; }
+
+ private:
+  class Sensor;
+
+  void start();
+  void keep_reading(const std::string& section);
+  void pause(std::chrono::duration<double> time);
+  bool should_stop() const;
+
+  std::filesystem::path settings_;
+  LiveControl control_;
+  std::optional<double> idle_s_;
+  std::vector<std::string> sections_;
+  std::vector<std::thread> threads_;
+  std::size_t given_ = 0;
+
+  mutable std::mutex mutex_;  ///< protects the members below
+  std::condition_variable changed_;
+  std::deque<mrpt::serialization::CSerializable::Ptr> objects_;
+  bool ended_ = false;
+};
+
+}  // namespace psi_slam

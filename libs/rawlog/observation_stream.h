@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "frames/log_reader.h"
+#include "rawlog/object_source.h"
+
+namespace psi_slam {
+
+/// Reads observations of MRPT while sensors send them. The observations until `look_over_s` seconds after the
+/// first scan, by their time stamps, but at most 500 scans, decide which lasers are read, and whether there
+/// is odometry or a gyroscope. The function waits for them. Otherwise a stream gives the same frames as a
+/// rawlog of the same observations.
+///
+/// Skips invalid observations. Throws UserError as open_rawlog(); the reader does if only invalid ones come.
+std::unique_ptr<LogReader> open_observation_stream(std::unique_ptr<ObjectSource> stream,
+                                                   const LogOptions& options, double look_over_s);
+
+}  // namespace psi_slam

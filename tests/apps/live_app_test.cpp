@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tests whole runs of psi-slam live.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "../live/hokuyo_emulator.h"
+#include "../session/room_log.h"
+#include "app_run.h"
+#include "same_results.h"
+#include "sender.h"
+#include "temporary_folder.h"
+#include "trajectory/trajectory_file.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr std::size_t kScans = 40;
+
+std::string text_of(const std::vector<std::string>& lines, std::size_t begin, std::size_t end) {
+  std::string text;
+  for (std::size_t i = begin; i < end; ++i) text += lines[i] + '\n';
+  return text;
+}
+
+std::size_t lines_in(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// A log of a room, and the results of mapping it as a file.
+class LiveApp : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_lines(log_, lines_);
+    ASSERT_EQ(run_app({log_.string(), "-q", "-o", folder("whole").string()}).code, 0);
+  }
+
+  std::filesystem::path folder(const std::string& name) const { return folder_.path() / name; }
+
+  std::vector<std::string> live(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "live");
+    arguments.insert(arguments.end(), {"-o", folder("live").string()});
+    return arguments;
+  }
+
+  std::string out() const { return bytes_of(folder("stdout")); }
+  std::string err() const { return bytes_of(folder("stderr")); }
+
+  /// Expects the same map and path as those of the whole log.
+  void expect_same_map() const {
+    for (const char* name : {"map.pgm", "map.yaml", "trajectory.tum", "graph.g2o"})
+      EXPECT_EQ(bytes_of(folder("live") / name), bytes_of(folder("whole") / name)) << name;
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path log_ = folder("room.log");
+  std::vector<std::string> lines_ = room_log_lines(kScans, 35);
+};
+
+TEST_F(LiveApp, maps_standard_input_as_the_log) {
+  const AppProcess process(live({"--stdin", "-q"}), folder_.path(),
+                           [&] { ::dup2(::open(log_.c_str(), O_RDONLY), STDIN_FILENO); });
+  const AppRun run = process.finish();
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.out, "");
+  expect_same_results(folder("live"), folder("whole"));
+}
+
+TEST_F(LiveApp, maps_what_clients_send_until_it_is_interrupted) {
+  const AppProcess process(live({"--tcp", "0"}), folder_.path());
+  ASSERT_TRUE(soon([&] { return port_in(err()) != 0; })) << err();
+  {
+    const Descriptor first = connect_to(port_in(err()));
+    send_text(first.number(), text_of(lines_, 0, 30) + lines_[30].substr(0, 100));
+  }
+  ASSERT_TRUE(soon([&] { return err().find("disconnected") != std::string::npos; })) << err();
+  {
+    const Descriptor second = connect_to(port_in(err()));
+    send_text(second.number(), text_of(lines_, 30, kScans) + "garbage\nFLASER 180 1\n");
+  }
+  ASSERT_TRUE(soon([&] { return err().rfind("disconnected") != err().find("disconnected"); })) << err();
+  process.send(SIGINT);
+  const AppRun run = process.finish();
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("40 scans of TCP port"));
+  EXPECT_THAT(run.err, AllOf(HasSubstr("finishing the map"),
+                             HasSubstr("2 messages of the log are unusable and skipped, the first: TCP port"),
+                             Not(HasSubstr("damaged"))));
+  expect_same_map();
+}
+
+TEST_F(LiveApp, follows_a_log_and_prints_the_poses_of_its_scans) {
+  const auto growing = folder("growing.log");
+  write_file(growing, text_of(lines_, 0, 20) + lines_[20].substr(0, 50));
+  const AppProcess process(live({"--follow", growing.string(), "--poses", "tum", "--look-over-s", "1"}),
+                           folder_.path());
+  ASSERT_TRUE(soon([&] { return lines_in(out()) >= 20; })) << err();
+  std::ofstream recorder(growing, std::ios::app);
+  recorder << lines_[20].substr(50) << '\n' << std::flush;
+  ASSERT_TRUE(soon([&] { return lines_in(out()) == 21; })) << err();
+  recorder << text_of(lines_, 21, kScans) << std::flush;
+  ASSERT_TRUE(soon([&] { return lines_in(out()) == kScans; })) << err();
+  process.send(SIGINT);
+  const AppRun run = process.finish();
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(lines_in(run.out), kScans) << "nothing but poses";
+  EXPECT_EQ(run.out.substr(0, run.out.find('\n')),
+            "1000.000000 0.000000000 0.000000000 0 0 0 0.000000000000 1.000000000000");
+  EXPECT_THAT(run.err, HasSubstr("40 scans of growing.log"));
+  expect_same_map();
+}
+
+TEST_F(LiveApp, prints_poses_as_json) {
+  const AppRun run = run_app(live({"--follow", log_.string(), "--idle-s", "0", "--poses", "json"}));
+  ASSERT_EQ(run.code, 0) << run.err;
+  std::istringstream lines(run.out);
+  std::size_t scans = 0;
+  for (std::string line; std::getline(lines, line); ++scans) {
+    const auto pose = nlohmann::json::parse(line);
+    EXPECT_EQ(pose.at("frame"), scans);
+    EXPECT_EQ(pose.at("matched"), scans > 0);
+    EXPECT_NEAR(pose.at("time"), 1000 + 0.2 * static_cast<double>(scans), 1e-6);
+    for (const char* key : {"x", "y", "yaw"}) EXPECT_TRUE(pose.at(key).is_number());
+  }
+  EXPECT_EQ(scans, kScans);
+  expect_same_map();
+}
+
+TEST_F(LiveApp, finishes_the_map_if_nobody_reads_the_poses) {
+  const auto nowhere = [] {
+    std::array<int, 2> ends{};
+    if (::pipe(ends.data()) != 0) return;
+    ::close(ends[0]);
+    ::dup2(ends[1], STDOUT_FILENO);
+  };
+  const AppProcess process(live({"--follow", log_.string(), "--idle-s", "0", "--poses", "tum"}),
+                           folder_.path(), nowhere);
+  const AppRun run = process.finish();
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.err, HasSubstr("cannot write to standard output"));
+  expect_same_map();
+}
+
+TEST_F(LiveApp, one_thread_gives_the_same_map) {
+  ASSERT_EQ(run_app(live({"--follow", log_.string(), "--idle-s", "0", "-q", "--set", "run.threads=1"})).code,
+            0);
+  expect_same_results(folder("live"), folder("whole"));
+}
+
+TEST_F(LiveApp, a_stream_without_scans_is_an_error) {
+  const AppProcess process(live({"--tcp", "0"}), folder_.path());
+  ASSERT_TRUE(soon([&] { return port_in(err()) != 0; })) << err();
+  process.send(SIGINT);
+  const AppRun run = process.finish();
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("has no laser scans"));
+}
+
+TEST_F(LiveApp, says_what_is_wrong_with_the_arguments) {
+  const auto complaint = [&](const std::vector<std::string>& arguments) {
+    const AppRun run = run_app(arguments);
+    EXPECT_EQ(run.code, 2);
+    EXPECT_EQ(run.out, "");
+    return run.err;
+  };
+  EXPECT_THAT(complaint(live({})), HasSubstr("name a source: --stdin, --tcp PORT"));
+  EXPECT_THAT(complaint({"live", "--stdin"}), HasSubstr("name the folder for the results: -o DIR"));
+  EXPECT_THAT(complaint(live({"--stdin", "--tcp", "5000"})), HasSubstr("name only one source"));
+  EXPECT_THAT(complaint(live({"--stdin", "--bind", "0.0.0.0"})),
+              HasSubstr("--bind has no effect without --tcp"));
+  EXPECT_THAT(complaint(live({"--tcp", "x"})),
+              HasSubstr("--tcp x: expected the number of a port, 0 to 65535"));
+  EXPECT_THAT(complaint(live({"--tcp", "65536"})), HasSubstr("--tcp 65536: expected the number of a port"));
+  EXPECT_THAT(complaint(live({"--stdin", "--idle-s", "-1"})), HasSubstr("--idle-s -1: expected seconds"));
+  EXPECT_THAT(complaint(live({"--stdin", "--look-over-s", "a"})),
+              HasSubstr("--look-over-s a: expected seconds"));
+  EXPECT_THAT(complaint(live({"--stdin", "--poses", "xml"})), HasSubstr("--poses xml: expected tum or json"));
+  EXPECT_THAT(complaint(live({"--stdin", "--poses", "tum", "--json"})),
+              HasSubstr("--json contradicts --poses"));
+  EXPECT_THAT(complaint(live({"--follow", log_.string(), "--set", "log.calibrate=true"})),
+              HasSubstr("log.calibrate needs a complete log"));
+  EXPECT_THAT(complaint({"localize", "map.yaml", "--idle-s", "1"}), HasSubstr("need a source"));
+  EXPECT_THAT(complaint({"localize", "map.yaml", "my.log", "--stdin"}), HasSubstr("a log or a live source"));
+  EXPECT_FALSE(std::filesystem::exists(folder("live")));
+}
+
+TEST_F(LiveApp, maps_what_a_laser_measures) {
+  const auto port = folder("ttyLASER");
+  const auto settings = folder("sensors.ini");
+  write_file(settings,
+             "[LASER]\ndriver = CHokuyoURG\nsensorLabel = LASER\nprocess_rate = 500\ncomms_timeout_ms = 30\n"
+             "maxMissedScansToDeclareError = 300\ndisable_firmware_timestamp = true\nCOM_port_LIN = " +
+                 port.string() + '\n');
+  constexpr double kStep_rad = M_PI / 360;
+  const mrpt::math::TPose2D start = room_pose(0);
+  std::vector<HokuyoEmulator::Message> scans(kScans);
+  mrpt::math::TPose2D end;
+  for (std::size_t i = 0; i < kScans; ++i) {
+    const mrpt::math::TPose2D pose = room_pose(0.02 * static_cast<double>(i));
+    end = pose - start;
+    for (std::size_t beam = 0; beam < HokuyoEmulator::kBeams; ++beam)
+      scans[i].ranges_m.push_back(static_cast<float>(
+          room_range_m(pose.x, pose.y, pose.phi + kStep_rad * (static_cast<double>(beam) - 180))));
+  }
+  const HokuyoEmulator laser(port, scans);
+  const AppProcess process(live({"--sensors", settings.string(), "--poses", "tum", "--look-over-s", "0"}),
+                           folder_.path());
+  ASSERT_TRUE(soon([&] { return lines_in(out()) >= kScans; })) << err();
+  process.send(SIGINT);
+  const AppRun run = process.finish();
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("sensor [LASER] sends data"), HasSubstr("scans of sensors.ini")));
+  const Trajectory poses = read_trajectory(folder("live") / "trajectory.tum");
+  EXPECT_NEAR(poses.back().pose.x, end.x, 0.05);
+  EXPECT_NEAR(poses.back().pose.y, end.y, 0.05);
+  EXPECT_NEAR(poses.back().pose.phi, end.phi, 0.02);
+}
+
+TEST_F(LiveApp, localizes_while_the_robot_drives) {
+  const std::string map = (folder("whole") / "map.yaml").string();
+  const AppRun of_log = run_app({"localize", map, log_.string(), "--json"});
+  const AppRun of_stream = run_app({"localize", map, "--follow", log_.string(), "--idle-s", "0", "--json"});
+  EXPECT_EQ(of_stream.code, of_log.code) << of_stream.err;
+  EXPECT_EQ(of_stream.out, of_log.out);
+  const AppRun poses = run_app(
+      {"localize", map, "--follow", log_.string(), "--idle-s", "0", "--start", "0,0,0", "--poses", "tum"});
+  EXPECT_EQ(poses.code, of_log.code) << poses.err;
+  EXPECT_EQ(lines_in(poses.out), kScans);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A Hokuyo laser on a pseudo-terminal that speaks SCIP 2.0, as far as mrpt::hwdrivers::CHokuyoURG needs it.
+#pragma once
+
+#include <fcntl.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "live/descriptor.h"
+
+namespace psi_slam {
+
+/// The laser plays its messages in turn: scans as ranges in metres, or raw bytes. It is silent after the last
+/// one. It begins with the first one again when it is started anew, which the driver does twice in a row. The
+/// cable is plugged in while the object exists: `port` is then a symbolic link to the terminal.
+class HokuyoEmulator {
+ public:
+  static constexpr std::size_t kBeams = 361;  ///< one each half degree, counter-clockwise
+
+  struct Message {
+    std::vector<float> ranges_m;
+    std::string raw;  ///< sent as it is, unless it is empty
+  };
+
+  HokuyoEmulator(std::filesystem::path port, std::vector<Message> messages)
+      : port_(std::move(port)), messages_(std::move(messages)), master_(::posix_openpt(O_RDWR | O_NOCTTY)) {
+    if (!master_.is_open() || ::grantpt(master_.number()) != 0 || ::unlockpt(master_.number()) != 0)
+      throw std::runtime_error("no pseudo-terminal");
+    const std::string terminal = ::ptsname(master_.number());
+    held_open_ = Descriptor(::open(terminal.c_str(), O_RDWR | O_NOCTTY));
+    termios raw = {};
+    ::tcgetattr(held_open_.number(), &raw);
+    ::cfmakeraw(&raw);
+    ::tcsetattr(held_open_.number(), TCSANOW, &raw);
+    ::fcntl(master_.number(), F_SETFL, O_NONBLOCK);
+    std::filesystem::remove(port_);
+    std::filesystem::create_symlink(terminal, port_);
+    thread_ = std::thread([this] { run(); });
+  }
+  ~HokuyoEmulator() {
+    unplugged_ = true;
+    thread_.join();
+    std::filesystem::remove(port_);
+  }
+  HokuyoEmulator(const HokuyoEmulator&) = delete;
+  HokuyoEmulator& operator=(const HokuyoEmulator&) = delete;
+
+  /// Number of messages that were sent.
+  std::size_t played() const { return played_; }
+
+ private:
+  static std::string with_sum(const std::string& text) {
+    unsigned sum = 0;
+    for (const char c : text) sum += static_cast<unsigned char>(c);
+    return text + static_cast<char>((sum & 0x3FU) + 0x30U) + '\n';
+  }
+
+  static std::string encoded(std::uint32_t value, int characters) {
+    std::string text;
+    for (int i = characters - 1; i >= 0; --i) text += static_cast<char>(((value >> (6 * i)) & 0x3FU) + 0x30U);
+    return text;
+  }
+
+  std::string scan_reply(const std::vector<float>& ranges_m) const {
+    constexpr std::size_t kBlock = 64;
+    std::string data;
+    for (const float range_m : ranges_m)
+      data += encoded(static_cast<std::uint32_t>(std::lround(range_m * 1000)), 3);
+    std::string reply = streamed_ + with_sum("99") + with_sum(encoded(0, 4));
+    for (std::size_t at = 0; at < data.size(); at += kBlock) reply += with_sum(data.substr(at, kBlock));
+    return reply + '\n';
+  }
+
+  void send(const std::string& text) {
+    for (std::size_t sent = 0; sent < text.size() && !unplugged_;) {
+      pollfd waited{master_.number(), POLLOUT, 0};
+      if (::poll(&waited, 1, 10) <= 0) continue;
+      const ssize_t done = ::write(master_.number(), text.data() + sent, text.size() - sent);
+      if (done > 0) sent += static_cast<std::size_t>(done);
+    }
+  }
+
+  void answer(const std::string& command) {
+    std::string reply = command + with_sum("00");
+    if (command == "PP\n")
+      for (const char* fact : {"MODL:EMULATOR;", "DMIN:20;", "DMAX:30000;", "ARES:720;", "AMIN:0;",
+                               "AMAX:360;", "AFRT:180;", "SCAN:600;"})
+        reply += with_sum(fact);
+    if (command == "VV\n") reply += with_sum("VEND:psi-slam;");
+    if (command == "QT\n") streamed_.clear();
+    if (command.substr(0, 2) == "MD") {
+      streamed_ = command;
+      played_ = 0;
+    }
+    send(reply + '\n');
+  }
+
+  void run() {
+    std::string received;
+    while (!unplugged_) {
+      pollfd waited{master_.number(), POLLIN, 0};
+      char c = 0;
+      const bool is_playing = !streamed_.empty() && played_ < messages_.size();
+      if (::poll(&waited, 1, is_playing ? 0 : 5) > 0 && ::read(master_.number(), &c, 1) == 1) {
+        received += c;
+        if (c == '\n') answer(std::exchange(received, ""));
+      } else if (is_playing) {
+        const Message& message = messages_[played_];
+        send(message.raw.empty() ? scan_reply(message.ranges_m) : message.raw);
+        ++played_;
+      }
+    }
+  }
+
+  std::filesystem::path port_;
+  std::vector<Message> messages_;
+  Descriptor master_;
+  Descriptor held_open_;  // the driver's end, so that the terminal lives before the driver opens it
+  std::string streamed_;  // command whose scans are sent
+  std::atomic<std::size_t> played_ = 0;
+  std::atomic<bool> unplugged_ = false;
+  std::thread thread_;
+};
+
+}  // namespace psi_slam

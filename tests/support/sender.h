@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Test helpers that play a robot which sends data, and wait for what comes of it.
+#pragma once
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "live/descriptor.h"
+
+namespace psi_slam {
+
+/// Waits until a condition holds, at most a minute. Returns whether it holds.
+inline bool soon(const std::function<bool()>& holds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (!holds()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+/// Returns the port in "listening on ADDRESS:PORT"; 0 without such a text.
+inline int port_in(const std::string& text) {
+  const std::string before = "listening on ";
+  const std::size_t at = text.find(before);
+  return at == std::string::npos ? 0 : std::stoi(text.substr(text.find(':', at) + 1));
+}
+
+/// Notices of a live source, which come from its threads.
+class Notices {
+ public:
+  void add(const std::string& notice) {
+    const std::lock_guard lock(mutex_);
+    text_ += notice + '\n';
+  }
+  std::string text() {
+    const std::lock_guard lock(mutex_);
+    return text_;
+  }
+  int port() { return port_in(text()); }
+
+ private:
+  std::mutex mutex_;
+  std::string text_;
+};
+
+/// Sends all of a text to a socket, pipe or terminal.
+inline void send_text(int descriptor, const std::string& text) {
+  for (std::size_t sent = 0; sent < text.size();) {
+    const ssize_t done = ::write(descriptor, text.data() + sent, text.size() - sent);
+    if (done < 0) throw std::runtime_error("cannot send");
+    sent += static_cast<std::size_t>(done);
+  }
+}
+
+/// Connects to a port of this computer.
+inline Descriptor connect_to(int port) {
+  Descriptor connection(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  sockaddr_in place = {};
+  place.sin_family = AF_INET;
+  place.sin_port = htons(static_cast<std::uint16_t>(port));
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (::connect(connection.number(), reinterpret_cast<const sockaddr*>(&place), sizeof(place)) != 0)
+    throw std::runtime_error("cannot connect to port " + std::to_string(port));
+  return connection;
+}
+
+/// Lets a socket end with a reset instead of an orderly end.
+inline void reset_when_closed(int descriptor) {
+  const linger at_once{1, 0};
+  ::setsockopt(descriptor, SOL_SOCKET, SO_LINGER, &at_once, sizeof(at_once));
+}
+
+}  // namespace psi_slam

@@ -12,6 +12,7 @@
 #include "common/bench_command.h"
 #include "document_options.h"
 #include "false_loops/false_loop_benchmark.h"
+#include "live/live_benchmark.h"
 #include "match/exact_benchmark.h"
 #include "match/match_benchmark.h"
 #include "paper/paper_benchmark.h"
@@ -297,6 +298,57 @@ void add_psi_command(CLI::App& app, const Streams& streams) {
       });
 }
 
+void add_live_command(CLI::App& app, const Streams& streams) {
+  const auto arguments = std::make_shared<Arguments<LiveOptions>>();
+  LiveOptions& options = arguments->options;
+  CLI::App& command = *app.add_subcommand(
+      "live", "Replay logs as a robot would deliver them and measure the time to each pose");
+  add_data_options(command, *arguments);
+  command.get_option("--data")->required(false)->description(
+      "Folder of the logs NAME.clf.gz with NAME.relations, and of the folder sparse with more logs");
+  add_logs_option(command, *arguments);
+  command
+      .add_option(
+          "--speeds", options.speeds,
+          "Replay speeds as multiples of the recorded speed, separated by commas; 0 replays as fast as "
+          "possible")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  command
+      .add_option("--processors", options.processors,
+                  "Numbers of processors that a replay may use, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command
+      .add_option("--stretch-s", options.stretch_s,
+                  "Replay only the first seconds of each log, without errors over relations; 0: all")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      .add_option("--simulated-m", options.simulated_m,
+                  "Also replay simulated runs of these path lengths in metres, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::Range(20.0, 100'000.0));
+  command.add_option("--set", options.assignments, "Change one option for all replays. May be repeated")
+      ->type_name("SECTION.KEY=VALUE")
+      ->allow_extra_args(false);
+  run_on_logs(
+      command, arguments, streams,
+      [](const Arguments<LiveOptions>& given) {
+        benchmark_settings({}, given.options.assignments);
+        if (!given.data.empty()) return find_sparse_logs(given.data, ini_folder_of(given), given.names);
+        if (given.options.simulated_m.empty())
+          throw UserError(
+              "name the folder of the logs with --data DIR, or simulated runs with --simulated-m");
+        return SparseLogs();
+      },
+      [](const SparseLogs& logs, const LiveOptions& how, const ProgressObserver& progress) {
+        return live_report(run_live_benchmark(logs, how, progress), how, machine_text());
+      });
+}
+
 /// Returns the arguments in the order that CLI11 expects, last first. Replaces old names of options.
 std::vector<std::string> for_parser(const std::vector<std::string>& arguments) {
   constexpr std::string_view kOld = "--rival";
@@ -321,6 +373,7 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_sparse_command(app, streams);
     add_paper_command(app, streams);
     add_psi_command(app, streams);
+    add_live_command(app, streams);
     app.require_subcommand(1);
     app.set_version_flag("--version", "psi-slam-bench " PSI_SLAM_VERSION, "Print the version and exit");
     add_document_options(app);

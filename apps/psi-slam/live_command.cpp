@@ -31,6 +31,7 @@ LivePose last_pose(const Mapper& mapper) {
 int map_live(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
   load_settings(line, bound, streams);
+  bound.settings.mapper.back_end_thread = true;
   const LiveInput source = live_input(line.live).value();
   const std::optional<PoseFormat> poses = pose_format(line.live);
   // Only poses go to standard output if there are any.

@@ -59,8 +59,9 @@ std::vector<std::size_t> BackEnd::confirmed_by(std::size_t index, const Keyframe
       [&](std::size_t other) { return ledger_.loops()[other].verdict == LoopVerdict::kPending; });
 }
 
-double BackEnd::optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver) {
-  return schedule_.is_due(graph) ? optimize(graph, solver) : 0;
+std::optional<double> BackEnd::optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver) {
+  if (!schedule_.is_due(graph)) return std::nullopt;
+  return optimize(graph, solver);
 }
 
 double BackEnd::optimize(PoseGraph& graph, SparsePoseAdjustment& solver) {

@@ -93,8 +93,8 @@ class BackEnd {
   NodeLoops close(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph);
 
   /// Optimises the graph if new loops make it necessary, see OptimizationSchedule. Returns the time in
-  /// milliseconds; 0 without an optimisation.
-  double optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver);
+  /// milliseconds; nothing without an optimisation.
+  std::optional<double> optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver);
   double optimize(PoseGraph& graph, SparsePoseAdjustment& solver);
 
   /// Runs the final loop search after the last scan. Before the first pass and after each pass, optimises the

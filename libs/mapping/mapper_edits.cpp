@@ -13,6 +13,7 @@ using State = LoopEditOutcome::State;
 }  // namespace
 
 LoopEditOutcome Mapper::Implementation::edit(const LoopEdit& edit) {
+  wait();
   const auto same = [&](const LoopEdit& other) { return same_loop(edit, other); };
   const auto waited = std::remove_if(waiting_edits_.begin(), waiting_edits_.end(), same);
   const bool any_waited = waited != waiting_edits_.end();
@@ -33,41 +34,17 @@ LoopEditOutcome Mapper::Implementation::judge(const LoopEdit& edit,
   const std::optional<std::size_t> node = frames[edit.frame].node;
   if (!node)
     return {State::kImpossible, scan + " is not a node of the graph, because the robot had hardly moved"};
-  if (edit.local_map >= keyframes_.local_maps.size()) return {State::kWaits, map + " is not finished"};
-  const PlacedLocalMap& local_map = keyframes_.local_maps[edit.local_map];
+  if (edit.local_map >= keyframes().local_maps.size()) return {State::kWaits, map + " is not finished"};
+  const PlacedLocalMap& local_map = keyframes().local_maps[edit.local_map];
   if (*node >= local_map.first_node && *node <= local_map.last_node)
     return {State::kImpossible, scan + " is part of " + map};
   return {};
 }
 
 LoopEditOutcome Mapper::Implementation::carry_out(const LoopEdit& edit) {
-  const std::size_t node = *result_.frames[edit.frame].node;
-  const LoopPair pair{node, edit.local_map};
-  const std::size_t constraints_before = graph_.num_constraints();
-  LoopEditOutcome outcome;
-  switch (edit.kind) {
-    case LoopEdit::Kind::kDelete:
-      back_end_.ledger().remove(pair, graph_);
-      break;
-    case LoopEdit::Kind::kForce:
-      if (!back_end_.ledger().force(pair, edit.of_final_search, graph_))
-        outcome = {State::kWaits, edit.of_final_search
-                                      ? "the final search has to find its match again"
-                                      : "no match of this scan and local map has been found yet"};
-      break;
-    case LoopEdit::Kind::kMatch:
-      if (!back_end_.match_by_hand(edit, node, keyframes_, graph_))
-        outcome = {State::kImpossible, "the scan has no returns to match"};
-      break;
-    case LoopEdit::Kind::kRestore:
-      if (!back_end_.ledger().restore(pair, graph_))
-        outcome = {State::kImpossible, "this loop has no edit that could be undone"};
-      break;
-  }
-  if (outcome.state == State::kImpossible) return outcome;
-  place_joined_runs(constraints_before, edit.frame);
-  back_end_.optimize(graph_, solver_);
-  follow_graph();
+  auto [outcome, joined] = builder_.carry_out(edit, *result_.frames[edit.frame].node);
+  for (const std::size_t interruption : joined) result_.interruptions[interruption].found_frame = edit.frame;
+  catch_up();
   return outcome;
 }
 
@@ -84,17 +61,15 @@ std::vector<std::string> Mapper::Implementation::unmet_edits() const {
   std::vector<std::string> unmet = impossible_edits_;
   for (const LoopEdit& waiting : waiting_edits_)
     unmet.push_back(text_of(waiting) + ": " + judge(waiting, result_.frames).reason);
-  for (const auto& [node, local_map] : back_end_.ledger().forced_in_vain())
-    unmet.push_back(text_of({LoopEdit::Kind::kForce, keyframes_.nodes[node].frame, local_map}) +
+  for (const auto& [node, local_map] : builder_.back_end().ledger().forced_in_vain())
+    unmet.push_back(text_of({LoopEdit::Kind::kForce, keyframes().nodes[node].frame, local_map}) +
                     ": no match of this scan and local map was found");
   return unmet;
 }
 
 void Mapper::Implementation::reopen(MappingResult&& result) {
   Checkpoint& before = before_finish_.value();
-  graph_ = std::move(before.graph);
-  back_end_.ledger() = std::move(before.ledger);
-  solver_ = std::move(before.solver);
+  builder_.restore(std::move(before.state));
   result_ = std::move(result);
   result_.loops.clear();
   result_.loop_matchers = std::move(before.loop_matchers);

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "mapping/back_end_thread.h"
+#include "mapping/graph_builder.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
 
@@ -26,34 +28,44 @@ class Mapper::Implementation {
   void reopen(MappingResult&& result);
 
   mrpt::math::TPose2D map_T_robot() const;
-  const PoseGraph& graph() const { return graph_; }
+  const std::vector<mrpt::math::TPose2D>& map_T_node() const { return map_T_node_; }
+  std::size_t missed_deadlines() const { return missed_deadlines_; }
   const MappingResult& result() const { return result_; }
-  const std::vector<LoopRecord>& loops() const { return back_end_.loops(); }
-  const KeyframeStore& keyframes() const { return keyframes_; }
+  void wait();
+  // The state of the back end; call wait() first.
+  const PoseGraph& graph() const { return builder_.graph(); }
+  const std::vector<LoopRecord>& loops() const { return builder_.back_end().loops(); }
+  const KeyframeStore& keyframes() const { return builder_.keyframes(); }
   const std::vector<PlacedLocalMap>& active_local_maps() const { return front_end_.active(); }
 
  private:
   /// State that finish() changes and reopen() restores.
   struct Checkpoint {
-    PoseGraph graph;
-    LoopLedger ledger;
-    SparsePoseAdjustment solver;
+    GraphBuilder::Checkpoint state;
     std::map<MatcherKind, LoopMatcherRecord> loop_matchers;
     std::vector<Interruption> interruptions;
   };
 
-  void rebase_odometry(FrameRecord& record);
+  /// Correction of the map by the loops of one node. `map_T_node` is empty if only newer nodes move.
+  struct Correction {
+    std::size_t node = 0;
+    mrpt::math::TPose2D map_T_local;
+    std::vector<mrpt::math::TPose2D> map_T_node;
+  };
+
+  double follow_odometry(FrameRecord& record);
   void straighten_last_scan(const Frame& next, const FrontEndStep& step);
   void thin_standstill(const FrontEndStep& step);
-  void record_factor(FrameRecord& record, const FrontEndStep& step);
-  void add_node(const FrontEndStep& step, std::size_t frame);
-  void join_run();
+  void add_node(const FrontEndStep& step);
+  void record_local_map(const PlacedLocalMap& finished);
+  void take_due_results();
+  bool take_results(std::size_t end);
+  void complete_record(BackEndStep&& done);
+  void apply_corrections(std::size_t end_node);
+  void catch_up();
+  void begin_run();
   void begin_unplaced_run();
-  void place_joined_runs(std::size_t first_constraint, std::size_t frame);
   void lay_unjoined_runs_aside();
-  void follow_graph();
-  void remember(const PlacedLocalMap& finished);
-  void close_loops(std::size_t node, FrameRecord& record);
   LoopEditOutcome carry_out(const LoopEdit& edit);
   void serve_waiting_edits();
   std::vector<std::string> unmet_edits() const;
@@ -63,19 +75,19 @@ class Mapper::Implementation {
 
   MapperOptions options_;
   FrontEnd front_end_;
-  BackEnd back_end_;
-  SparsePoseAdjustment solver_;
-  PoseGraph graph_;
-  KeyframeStore keyframes_;
+  GraphBuilder builder_;
+  BackEndThread back_end_;
+  std::deque<Correction> corrections_;  ///< corrections by the back end that are not yet due
+  std::size_t missed_deadlines_ = 0;    ///< number of times that add() waited for a result that was due
   std::vector<LoopEdit> waiting_edits_;
   std::vector<std::string> impossible_edits_;  ///< one sentence for each waiting edit that became impossible
   std::optional<Checkpoint> before_finish_;
-  /// Whether the start of the next run is only provisional, see unplaced_runs.h.
-  bool is_start_provisional_ = false;
-  std::optional<RunStart> run_start_;  ///< start of a run that begins with the next frame; otherwise empty
+  /// Odometry pose at which a later run begins, until its first node; otherwise empty.
+  std::optional<mrpt::math::TPose2D> odom_T_start_;
   /// Odometry frame of a later run, in the odometry frame of the first run.
   std::optional<mrpt::math::TPose2D> odom_T_run_;
-  mrpt::math::TPose2D map_T_local_;   ///< pose of the front end's frame in the map, from the newest node
+  mrpt::math::TPose2D map_T_local_;              ///< pose of the front end's frame in the map
+  std::vector<mrpt::math::TPose2D> map_T_node_;  ///< poses of all nodes, see Mapper::node_poses()
   std::optional<Frame> bent_last_;    ///< last frame before the motion during its sweep was removed
   std::deque<std::size_t> repeated_;  ///< scans that lose their ranges if the robot stands a little longer
   MappingResult result_;

@@ -51,6 +51,7 @@ struct CMetricMapBuilderPsi::Implementation {
   explicit Implementation(const Options& options)
       : options_(options), mapper_options_(options.mapper ? *options.mapper : MapperOptions()) {
     check_log_options(options.log);
+    mapper_options_.latency_nodes = 0;  // the estimates of pose and map agree with the whole graph
     start(CPosePDFGaussian());
   }
 
@@ -183,7 +184,7 @@ struct CMetricMapBuilderPsi::Implementation {
   }
 
   const Options options_;
-  const MapperOptions mapper_options_;
+  MapperOptions mapper_options_;
   mutable std::mutex mutex_;  // protects all members below
 
   CPosePDFGaussian start_;

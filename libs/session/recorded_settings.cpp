@@ -51,7 +51,8 @@ std::map<std::string, std::string> kept_settings(const OptionTable& table) {
   std::map<std::string, std::string> kept;
   for (const OptionSection& section : table.sections())
     for (const Option& option : section.options)
-      if (section.name != "map" && section.name != "localization" && option.name() != "run.threads")
+      if (section.name != "map" && section.name != "localization" && section.name != "live" &&
+          option.name() != "run.threads")
         kept[option.name()] = option.text();
   return kept;
 }
@@ -80,7 +81,7 @@ void require_kept(const std::map<std::string, std::string>& kept, const OptionTa
   if (changed.empty()) return;
   const auto& [name, before, now] = changed.front();
   throw UserError(name + " is " + before + " in the session " + file.string() + " and cannot become " + now +
-                  ": a resumed session keeps all settings except [map], [localization] and run.threads. "
+                  ": a resumed session keeps all settings except [map], [localization], [live] and run.threads. "
                   "Remove this setting");
 }
 

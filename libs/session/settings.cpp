@@ -147,6 +147,13 @@ void describe_run(OptionTable& table, RunOptions& run) {
                "Number of threads. 0: one for each processor. The results do not depend on it.");
 }
 
+void describe_live(OptionTable& table, MapperOptions& mapper) {
+  table.section("live", "Mapping while the robot drives")
+      .integer("latency_nodes", mapper.latency_nodes, between(0, 1000), "nodes",
+               "The pose of the robot while it drives follows the loops of a node from this many nodes later "
+               "on. The finished map does not depend on it. Larger values leave more time to close loops.");
+}
+
 /// Name and value of an option.
 struct Named {
   const char* name;
@@ -176,6 +183,7 @@ void describe(OptionTable& table, Settings& settings) {
   describe_map(table, settings.map);
   describe_map_files(table, settings.map_files);
   describe_localization(table, settings.localization);
+  describe_live(table, settings.mapper);
   describe_run(table, settings.run);
   table.alias("last_pass", "final_search")
       .alias("log.odometry_topic", "log.odometry")
@@ -246,6 +254,7 @@ MapperOptions mapper_options(const Settings& settings) {
   MapperOptions options = settings.mapper;
   options.back_end.seed = settings.run.seed;
   options.back_end.threads = worker_threads(settings.run);
+  options.back_end_thread = options.back_end_thread || options.back_end.threads > 1;
   return options;
 }
 

@@ -67,6 +67,10 @@ class Mapper {
 
   /// Maps one frame and returns its record. Call it for all frames in the order of the log. finish()
   /// completes the record. The reference is valid until the next call of a non-const function.
+  ///
+  /// With MapperOptions::latency_nodes, the results of the back end for a node arrive that many nodes later:
+  /// Psi and the loops of its record, and their correction of the map. If they are not ready then, add()
+  /// waits for them. Everything that add() returns depends only on the frames and the options.
   const FrameRecord& add(Frame frame);
 
   /// Begins another run, whose first frame is near `start`. At least one frame must have been added. Loops
@@ -104,6 +108,14 @@ class Mapper {
 
   /// Pose of the robot in the map at the last frame; the zero pose before the first frame.
   mrpt::math::TPose2D map_T_robot() const;
+  /// Poses of all nodes in the map, as corrected by the results that have arrived. Does not wait for the back
+  /// end, unlike graph().
+  const std::vector<mrpt::math::TPose2D>& node_poses() const;
+  /// Number of calls of add() that waited for a result of the back end.
+  std::size_t missed_deadlines() const;
+  /// Waits until the back end has worked off all frames, and completes their records. graph(), loops() and
+  /// keyframes() wait likewise.
+  void wait() const;
   /// Pose graph so far.
   const PoseGraph& graph() const;
   /// All frames so far, in the order in which they were added.

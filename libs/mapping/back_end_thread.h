@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs the back end beside the front end: frames are handed over in their order, and their results are taken
+// in the same order. The results do not depend on whether there is a thread.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "mapping/graph_builder.h"
+
+namespace psi_slam {
+
+class BackEndThread {
+ public:
+  /// Without `own_thread`, hand_over() does the work itself. `builder` must outlive this object.
+  BackEndThread(GraphBuilder& builder, bool own_thread);
+  /// Ends the thread after the frame it works on. Frames behind it are dropped.
+  ~BackEndThread();
+  BackEndThread(const BackEndThread&) = delete;
+  BackEndThread& operator=(const BackEndThread&) = delete;
+
+  /// Adds a frame to those that wait. The builder may then only be used if in_work() is 0.
+  void hand_over(TrackedFrame tracked);
+
+  /// Number of frames that were handed over and whose results were not taken.
+  std::size_t in_work() const { return handed_over_ - taken_; }
+  /// Whether take() would not have to wait.
+  bool is_ready() const;
+  /// Returns the result of the oldest frame in work, and waits for it if necessary. Throws what the builder
+  /// threw. At least one frame must be in work.
+  BackEndStep take();
+
+ private:
+  void work();
+
+  GraphBuilder& builder_;
+  std::size_t handed_over_ = 0;
+  std::size_t taken_ = 0;
+
+  mutable std::mutex mutex_;  // guards the following members
+  std::condition_variable changed_;
+  std::deque<TrackedFrame> waiting_;
+  std::deque<BackEndStep> done_;
+  std::exception_ptr failure_;  ///< ends the thread
+  bool stop_ = false;
+
+  std::thread thread_;
+};
+
+}  // namespace psi_slam

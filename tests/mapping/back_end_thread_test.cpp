@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapping/back_end_thread.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "../local_maps/simulated_drive.h"
+#include "mapping/mapper_options.h"
+#include "psi_slam/mapper.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+// One and a half rounds of a corridor with poor odometry, so that loops move the map.
+const std::vector<Frame>& rounds() {
+  static const std::vector<Frame> frames = [] {
+    OdometryErrors errors;
+    errors.length_factor = 0.96;
+    errors.turn_factor = 1.05;
+    errors.drift_rad_per_m = 0.01;
+    return drive_along(office_floor(),
+                       path_along({{1.6, 1.6}, {18.3, 1.6}, {18.3, 12.4}, {1.6, 12.4}, {1.6, 1.6}, {14, 1.6}},
+                                  0.16, 0.12),
+                       errors, 11)
+        .frames;
+  }();
+  return frames;
+}
+
+struct LiveRun {
+  std::vector<TPose2D> map_T_robot;              ///< poses as add() returned them
+  std::vector<std::vector<TPose2D>> map_T_node;  ///< poses of the nodes after each frame
+  std::size_t missed_deadlines = 0;
+  MappingResult result;
+};
+
+LiveRun run(std::size_t latency_nodes, bool thread) {
+  MapperOptions options;
+  options.latency_nodes = latency_nodes;
+  options.back_end_thread = thread;
+  options.back_end.final_search.passes = 1;
+  options.back_end.joint_refinement.rounds = 0;
+  Mapper mapper(options);
+  LiveRun live;
+  for (const Frame& frame : rounds()) {
+    live.map_T_robot.push_back(mapper.add(frame).map_T_robot);
+    live.map_T_node.push_back(mapper.node_poses());
+  }
+  live.missed_deadlines = mapper.missed_deadlines();
+  live.result = mapper.finish();
+  return live;
+}
+
+const LiveRun& at_once() {
+  static const LiveRun live = run(0, false);
+  return live;
+}
+
+void expect_same_map(const MappingResult& a, const MappingResult& b) {
+  ASSERT_EQ(a.frames.size(), b.frames.size());
+  for (std::size_t i = 0; i < a.frames.size(); ++i) {
+    ASSERT_EQ(a.frames[i].map_T_robot, b.frames[i].map_T_robot) << "scan " << i;
+    ASSERT_EQ(a.frames[i].psi, b.frames[i].psi) << "scan " << i;
+    ASSERT_EQ(a.frames[i].evaluations, b.frames[i].evaluations) << "scan " << i;
+    ASSERT_EQ(a.frames[i].loops_accepted, b.frames[i].loops_accepted) << "scan " << i;
+    ASSERT_EQ(a.frames[i].matcher, b.frames[i].matcher) << "scan " << i;
+  }
+  ASSERT_EQ(a.loops.size(), b.loops.size());
+  for (std::size_t i = 0; i < a.loops.size(); ++i)
+    ASSERT_EQ(a.loops[i].anchor_T_node, b.loops[i].anchor_T_node) << "loop " << i;
+}
+
+TEST(BackEndThread, the_finished_map_depends_neither_on_the_thread_nor_on_the_latency) {
+  ASSERT_GT(at_once().result.loops.size(), 0U);
+  for (const std::size_t latency : {0U, 1U, 7U, 100'000U})
+    for (const bool thread : {false, true}) {
+      SCOPED_TRACE(latency);
+      expect_same_map(at_once().result, run(latency, thread).result);
+    }
+}
+
+TEST(BackEndThread, the_poses_while_mapping_do_not_depend_on_the_thread) {
+  const LiveRun without = run(4, false);
+  const LiveRun with = run(4, true);
+  EXPECT_EQ(without.map_T_robot, with.map_T_robot);
+  EXPECT_EQ(without.map_T_node, with.map_T_node);
+  EXPECT_EQ(without.missed_deadlines, 0U);
+}
+
+// Pose of the front end's frame in the map when the frame was added.
+TPose2D map_T_local(const LiveRun& live, std::size_t frame) {
+  const TPose2D& local_T_robot = live.result.frames[frame].front_end_T_robot;
+  return live.map_T_robot[frame] + (TPose2D(0, 0, 0) - local_T_robot);
+}
+
+TEST(BackEndThread, corrections_arrive_after_the_latency) {
+  constexpr std::size_t kLatency = 4;
+  const LiveRun late = run(kLatency, true);
+  const std::vector<std::size_t>& nodes = late.result.node_frames;
+  double largest_m = 0;
+  for (std::size_t node = kLatency; node < nodes.size(); ++node) {
+    const TPose2D now = map_T_local(late, nodes[node]);
+    const TPose2D before = map_T_local(at_once(), nodes[node - kLatency]);
+    ASSERT_NEAR(now.x, before.x, 1e-9) << "node " << node;
+    ASSERT_NEAR(now.y, before.y, 1e-9) << "node " << node;
+    ASSERT_NEAR(now.phi, before.phi, 1e-9) << "node " << node;
+    const TPose2D at_this_node = map_T_local(at_once(), nodes[node]);
+    largest_m = std::max(largest_m, std::hypot(now.x - at_this_node.x, now.y - at_this_node.y));
+  }
+  EXPECT_GT(largest_m, 0.01) << "no loop has moved the map, so nothing was tested";
+}
+
+TEST(BackEndThread, the_poses_of_the_nodes_follow_the_corrections) {
+  const LiveRun late = run(4, true);
+  for (std::size_t frame = 0; frame < late.map_T_node.size(); ++frame) {
+    const auto& nodes = late.result.node_frames;
+    const auto count = std::upper_bound(nodes.begin(), nodes.end(), frame) - nodes.begin();
+    ASSERT_EQ(late.map_T_node[frame].size(), static_cast<std::size_t>(count));
+    if (late.result.frames[frame].node) {
+      ASSERT_NEAR(late.map_T_node[frame].back().x, late.map_T_robot[frame].x, 1e-9);
+      ASSERT_NEAR(late.map_T_node[frame].back().y, late.map_T_robot[frame].y, 1e-9);
+    }
+  }
+  // The loops have moved nodes that were added long before.
+  const std::vector<TPose2D>& last = late.map_T_node.back();
+  const std::vector<TPose2D>& middle = late.map_T_node[late.map_T_node.size() / 2];
+  double largest_m = 0;
+  for (std::size_t node = 0; node < middle.size(); ++node)
+    largest_m = std::max(largest_m, std::hypot(last[node].x - middle[node].x, last[node].y - middle[node].y));
+  EXPECT_GT(largest_m, 0.01);
+}
+
+TEST(BackEndThread, waiting_completes_the_records) {
+  MapperOptions options;
+  options.latency_nodes = 1000;
+  options.back_end_thread = true;
+  Mapper mapper(options);
+  for (std::size_t i = 0; i < 40; ++i) mapper.add(rounds()[i]);
+  const auto is_complete = [&] { return mapper.frames()[39].eta > 0; };
+  EXPECT_FALSE(is_complete());
+  mapper.wait();
+  EXPECT_TRUE(is_complete());
+  EXPECT_EQ(mapper.graph().num_nodes(), mapper.node_poses().size());
+}
+
+// A step that no builder accepts: its node is in a local map whose anchor is not in the graph.
+TrackedFrame impossible_frame() {
+  TrackedFrame tracked;
+  tracked.step.node = 0;
+  tracked.step.points = std::make_shared<ScanPoints>();
+  FrontEndStep::Membership nowhere{};
+  nowhere.anchor = 17;
+  nowhere.covariance = Eigen::Matrix3d::Identity();
+  tracked.step.memberships.push_back(nowhere);
+  return tracked;
+}
+
+TEST(BackEndThread, passes_exceptions_on) {
+  GraphBuilder builder{MapperOptions()};
+  BackEndThread thread(builder, true);
+  thread.hand_over({});
+  thread.hand_over(impossible_frame());
+  thread.hand_over({});
+  EXPECT_EQ(thread.take().frame, 0U);
+  EXPECT_THROW(thread.take(), std::exception);
+  EXPECT_THROW(thread.take(), std::exception);
+}
+
+TEST(BackEndThread, may_be_destroyed_while_frames_wait) {
+  GraphBuilder builder{MapperOptions()};
+  BackEndThread thread(builder, true);
+  for (std::size_t frame = 0; frame < 1000; ++frame) {
+    TrackedFrame tracked;
+    tracked.frame = frame;
+    thread.hand_over(std::move(tracked));
+  }
+  EXPECT_EQ(thread.in_work(), 1000U);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -82,6 +82,7 @@ class SensorSet::Sensor {
       : driver_(make_driver(mrpt::config::CConfigFile(settings.string()), section)),
         is_laser_(dynamic_cast<const mrpt::hwdrivers::C2DRangeFinderAbstract*>(driver_.get()) != nullptr) {
     driver_->initialize();
+    last_object_ = Clock::now();  // some drivers take long to start
   }
 
   std::chrono::duration<double> period() const {
@@ -116,7 +117,7 @@ class SensorSet::Sensor {
 
   CGenericSensor::Ptr driver_;
   bool is_laser_;
-  Clock::time_point last_object_ = Clock::now();
+  Clock::time_point last_object_;
   std::optional<Clock::time_point> failing_since_;
 };
 
@@ -176,6 +177,7 @@ void SensorSet::start() {
     threads_.emplace_back([this, section] { keep_reading(section); });
 }
 
+/// Reads a sensor again and again, also after failures. Runs in a thread of its own.
 void SensorSet::keep_reading(const std::string& section) {
   // A driver that writes to a closed connection must not end the program.
   sigset_t pipe;
@@ -184,32 +186,35 @@ void SensorSet::keep_reading(const std::string& section) {
   pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
   std::string last_reason;
   while (!should_stop()) {
-    std::string reason;
+    bool works = false;
     try {
-      Sensor sensor(settings_, section);
-      bool works = false;
-      while (!should_stop()) {
-        const Clock::time_point began = Clock::now();
-        const auto objects = sensor.read();
-        if (!objects.empty() && !std::exchange(works, true)) {
-          control_.notify("sensor [" + section + "] sends data");
-          last_reason.clear();
-        }
-        {
-          const std::lock_guard lock(mutex_);
-          objects_.insert(objects_.end(), objects.begin(), objects.end());
-          while (objects_.size() > kMostWaiting) objects_.pop_front();
-        }
-        if (!objects.empty()) changed_.notify_all();
-        pause(began + sensor.period() - Clock::now());
-      }
+      read(section, works);
     } catch (const std::exception& error) {
-      reason = reason_of(error);
+      const std::string reason = reason_of(error);
+      if (works || reason != last_reason)
+        control_.notify("sensor [" + section + "] failed: " + reason + ". It is started again every second");
+      last_reason = reason;
     }
-    if (!reason.empty() && reason != last_reason && !should_stop())
-      control_.notify("sensor [" + section + "] failed: " + reason + ". It is started again every second");
-    last_reason = reason;
     pause(kBeforeRestart);
+  }
+}
+
+/// Starts a sensor and reads it until the end. Sets `works` at its first data. Throws std::exception if the
+/// sensor fails.
+void SensorSet::read(const std::string& section, bool& works) {
+  Sensor sensor(settings_, section);
+  while (!should_stop()) {
+    const Clock::time_point began = Clock::now();
+    const auto objects = sensor.read();
+    if (!objects.empty() && !std::exchange(works, true))
+      control_.notify("sensor [" + section + "] sends data");
+    {
+      const std::lock_guard lock(mutex_);
+      objects_.insert(objects_.end(), objects.begin(), objects.end());
+      while (objects_.size() > kMostWaiting) objects_.pop_front();
+    }
+    changed_.notify_all();
+    pause(began + sensor.period() - Clock::now());
   }
 }
 

@@ -20,7 +20,7 @@ namespace psi_slam {
 /// Reads the sensors of a settings file as rawlog-grabber and icp-slam-live do: each section with a key
 /// `driver` is a sensor, whose driver is a class of mrpt::hwdrivers, and is read in a thread of its own.
 /// Yields scans, odometry, robot actions and readings of IMUs in the order of their arrival; other
-/// observations are dropped.
+/// observations are dropped. At most 10,000 objects wait to be taken; older ones are dropped.
 ///
 /// A driver that fails, sends empty scans or, for a laser, sends nothing for five seconds, is started again
 /// every second until it works. Notices say so.
@@ -44,6 +44,7 @@ class SensorSet : public ObjectSource {
 
   void start();
   void keep_reading(const std::string& section);
+  void read(const std::string& section, bool& works);
   void pause(std::chrono::duration<double> time);
   bool should_stop() const;
 

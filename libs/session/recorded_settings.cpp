@@ -10,6 +10,13 @@
 namespace psi_slam {
 namespace {
 
+/// Whether an option changes neither poses nor loops, only files and speed.
+bool is_free(const Option& option) {
+  const std::string name = option.name();
+  return option.section == "map" || option.section == "localization" || name == "live.map_period_s" ||
+         name == "live.journal_period_s" || name == "run.threads";
+}
+
 struct ChangedSetting {
   std::string name;
   std::string before;
@@ -51,8 +58,7 @@ std::map<std::string, std::string> kept_settings(const OptionTable& table) {
   std::map<std::string, std::string> kept;
   for (const OptionSection& section : table.sections())
     for (const Option& option : section.options)
-      if (section.name != "map" && section.name != "localization" && option.name() != "run.threads")
-        kept[option.name()] = option.text();
+      if (!is_free(option)) kept[option.name()] = option.text();
   return kept;
 }
 
@@ -80,8 +86,8 @@ void require_kept(const std::map<std::string, std::string>& kept, const OptionTa
   if (changed.empty()) return;
   const auto& [name, before, now] = changed.front();
   throw UserError(name + " is " + before + " in the session " + file.string() + " and cannot become " + now +
-                  ": a resumed session keeps all settings except [map], [localization] and run.threads. "
-                  "Remove this setting");
+                  ": a resumed session keeps all settings except [map], [localization], run.threads and the "
+                  "periods of [live]. Remove this setting");
 }
 
 }  // namespace psi_slam

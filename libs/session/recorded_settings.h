@@ -24,7 +24,7 @@ std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts&
 std::optional<std::string> other_version_text(const std::filesystem::path& file, const SessionFacts& facts);
 
 /// Returns the values of the options that a resumed session cannot change, by name: all except [map],
-/// [localization] and run.threads.
+/// [localization], run.threads and the periods of [live].
 std::map<std::string, std::string> kept_settings(const OptionTable& table);
 
 /// Returns a warning if a session is mapped with other settings than its own: a sentence without full stop

@@ -140,6 +140,16 @@ void describe_map_files(OptionTable& table, MapFileOptions& files) {
                  "Direction of the map's x axis in map.tif, counter-clockwise from east.");
 }
 
+void describe_live(OptionTable& table, LiveOptions& live) {
+  table.section("live", "Results while the robot drives")
+      .number(
+          "map_period_s", live.map_period_s, between(0, 3600), "s",
+          "Time between two writings of map.yaml and map.pgm during a live run. 0: writes the map only at "
+          "the end.")
+      .number("journal_period_s", live.journal_period_s, between(0.05, 60), "s",
+              "Time between two writings of the journal. A crash loses the scans of this time at most.");
+}
+
 void describe_run(OptionTable& table, RunOptions& run) {
   table.section("run", "How the program runs")
       .integer("seed", run.seed, any_number(), "", "Seed of all random numbers. Equal seeds give equal maps.")
@@ -176,6 +186,7 @@ void describe(OptionTable& table, Settings& settings) {
   describe_map(table, settings.map);
   describe_map_files(table, settings.map_files);
   describe_localization(table, settings.localization);
+  describe_live(table, settings.live);
   describe_run(table, settings.run);
   table.alias("last_pass", "final_search")
       .alias("log.odometry_topic", "log.odometry")

@@ -299,8 +299,8 @@ void add_psi_command(CLI::App& app, const Streams& streams) {
 }
 
 void add_live_command(CLI::App& app, const Streams& streams) {
-  const auto arguments = std::make_shared<Arguments<LiveOptions>>();
-  LiveOptions& options = arguments->options;
+  const auto arguments = std::make_shared<Arguments<LiveBenchmarkOptions>>();
+  LiveBenchmarkOptions& options = arguments->options;
   CLI::App& command = *app.add_subcommand(
       "live", "Replay logs as a robot would deliver them and measure the time to each pose");
   add_data_options(command, *arguments);
@@ -336,7 +336,7 @@ void add_live_command(CLI::App& app, const Streams& streams) {
       ->allow_extra_args(false);
   run_on_logs(
       command, arguments, streams,
-      [](const Arguments<LiveOptions>& given) {
+      [](const Arguments<LiveBenchmarkOptions>& given) {
         benchmark_settings({}, given.options.assignments);
         if (!given.data.empty()) return find_sparse_logs(given.data, ini_folder_of(given), given.names);
         if (given.options.simulated_m.empty())
@@ -344,7 +344,7 @@ void add_live_command(CLI::App& app, const Streams& streams) {
               "name the folder of the logs with --data DIR, or simulated runs with --simulated-m");
         return SparseLogs();
       },
-      [](const SparseLogs& logs, const LiveOptions& how, const ProgressObserver& progress) {
+      [](const SparseLogs& logs, const LiveBenchmarkOptions& how, const ProgressObserver& progress) {
         return live_report(run_live_benchmark(logs, how, progress), how, machine_text());
       });
 }

@@ -190,16 +190,18 @@ void MainFrame::open_log(const Path& log, std::optional<EditJournal> edits,
     }
     const int edits_before = replay_ ? replay_->edits_asked() : 0;
     messages_->note("Reading " + log.string());
-    session_reader_.begin([log] { return SessionInput::of_file(log); },
-                          [=](const SessionInput& input) {
-                            const auto open_session = [=] {
-                              open_input(input, take_settings_of(input.recording()->facts, log, overrule));
-                            };
-                            if (!replay_ || replay_->edits_asked() == edits_before) return open_session();
-                            messages_->warn(
-                                "Loops were edited while " + log.string() + " was read. Open it anyway?",
-                                {{"Open it", [=] { attempt(open_session); }}});
-                          });
+    session_reader_.begin(
+        [log] { return SessionInput::of_file(log); },
+        [=](const SessionInput& input) {
+          const auto open_session = [=] {
+            std::vector<std::string> remarks = take_settings_of(input.recording()->facts, log, overrule);
+            if (const auto& lost = input.recording()->lost_end) remarks.push_back(*lost);
+            open_input(input, remarks);
+          };
+          if (!replay_ || replay_->edits_asked() == edits_before) return open_session();
+          messages_->warn("Loops were edited while " + log.string() + " was read. Open it anyway?",
+                          {{"Open it", [=] { attempt(open_session); }}});
+        });
   });
 }
 

@@ -153,6 +153,7 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
          "-o has no effect on this command, because nothing is written. Leave -o out");
   refuse(!maps && !line.edits.empty(), "--edits is only for mapping a log");
   refuse(!maps && !line.resume.empty(), "--resume is only for mapping a log");
+  refuse(!maps && !line.journal.empty(), "--journal is only for mapping a log");
   refuse(!maps && !merges && !line.save_session.empty(),
          "--save-session is only for mapping and merging logs");
   if (!maps && !log_to_map.empty()) throw UserError(unexpected_argument_text(log_to_map, "psi-slam"));
@@ -221,9 +222,14 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   add_value(app, "--edits", line.edits, "File with edits of loops, as psi-slam-gui saves it", "FILE");
   add_value(app, "--save-session", line.save_session,
             "Save the run to this file, even if it is interrupted, for --resume", "FILE");
-  add_value(app, "--resume", line.resume,
-            "Resume a saved run: with the rest of its LOG, with a LOG that continues it, or without LOG",
+  add_value(app, "--journal", line.journal,
+            "Record the run in this file while it is mapped, for --resume after a crash; deleted at the end",
             "FILE");
+  add_value(
+      app, "--resume", line.resume,
+      "Resume a saved or crashed run: with the rest of its LOG, with a LOG that continues it, or without "
+      "LOG",
+      "FILE");
   add_value(app, "--seed", line.seed, "Short for --set run.seed=N", "N");
   add_value(app, "--threads", line.threads, "Short for --set run.threads=N", "N");
   app.add_flag("-v,--verbose", line.verbose, "Also print the changed settings and the times of all stages");

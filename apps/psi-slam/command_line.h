@@ -30,6 +30,7 @@ struct CommandLine {
   std::string edits;                  ///< file of loop edits; empty: no edits
   std::string resume;                 ///< session file to resume; empty: maps from the first scan
   std::string save_session;           ///< session file to write; empty: not written
+  std::string journal;                ///< journal to write while mapping; empty: not written
   std::string config;                 ///< settings file; empty: the defaults
   std::vector<std::string> settings;  ///< "section.key=value", in the order given
   std::optional<std::string> seed;

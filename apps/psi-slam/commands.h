@@ -36,9 +36,12 @@ int check_log(const CommandLine& line, const Streams& streams);
 
 // Steps that several commands share.
 
-/// Throws UserError if the file of --save-session cannot be written, or if it exists without --force. A
-/// session that is resumed may be overwritten.
-void check_session_to_save(const CommandLine& line);
+/// Throws UserError if the file of --save-session or --journal cannot be written, or if it exists without
+/// --force. A session that is resumed may be overwritten.
+void check_sessions_to_write(const CommandLine& line);
+
+/// Warns of a journal whose last chunk is incomplete.
+void warn_of_lost_end(const SessionRecording& recording, const Streams& streams);
 
 /// Loads the settings of a recorded session into `bound`. Prints a warning for each obsolete option. Also
 /// warns, unless --quiet is given, if another version of the program recorded the session.
@@ -55,8 +58,8 @@ void calibrate(SessionInput& input, const Settings& settings, const CommandLine&
 void watch(MappingSession& session, const InterruptSignals& signals, const CommandLine& line,
            const Streams& streams, std::optional<ProgressLine>& progress_line);
 
-/// Saves the finished session if --save-session is given, writes its results, and prints the summary and all
-/// warnings. Returns the exit code. If the session cannot be saved, the results are written before the
+/// Saves the finished session if --save-session is given, writes its results, deletes the journal, and prints
+/// the summary and all warnings. Returns the exit code. If the session cannot be saved, the results are written before the
 /// exception is thrown.
 int save_and_export(MappingSession& session, const OutputFolder& folder, const CommandLine& line,
                     const Streams& streams, std::optional<ProgressLine>& progress_line);

@@ -39,6 +39,7 @@ SessionInput input_of(const CommandLine& line, BoundSettings& bound, const Strea
     return SessionInput(line.log);
   }
   const auto recording = std::make_shared<const SessionRecording>(read_session_file(line.resume));
+  warn_of_lost_end(*recording, streams);
   load_recorded_settings(line, line.resume, recording->facts, bound, streams);
   const auto kept = kept_settings(bound.table);
   load_settings(line, bound, streams);
@@ -67,21 +68,32 @@ LogDiagnosis diagnosis_of(const std::filesystem::path& log, const LogOptions& op
   }
 }
 
-}  // namespace
-
-void check_session_to_save(const CommandLine& line) {
+/// Throws UserError if the session or journal `file` cannot be written. An empty `file` is not written.
+void require_writable(const std::string& option, const std::filesystem::path& file,
+                      const std::string& if_exists, const CommandLine& line) {
   namespace fs = std::filesystem;
-  if (line.save_session.empty()) return;
-  const fs::path file = line.save_session;
+  if (file.empty()) return;
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  const std::string where = "--save-session " + file.string() + ": ";
+  const std::string where = option + ' ' + file.string() + ": ";
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) throw UserError(where + "is a folder, expected a file");
   if (!fs::is_directory(folder, ignored))
     throw UserError(where + "the folder " + folder.string() + " does not exist: create it first");
   const bool resumed = !line.resume.empty() && fs::equivalent(file, line.resume, ignored);
   if (fs::exists(file, ignored) && !line.force && !resumed)
-    throw UserError(where + "the file exists. Replace it with --force");
+    throw UserError(where + "the file exists. " + if_exists);
+}
+
+}  // namespace
+
+void check_sessions_to_write(const CommandLine& line) {
+  require_writable("--save-session", line.save_session, "Replace it with --force", line);
+  require_writable("--journal", line.journal,
+                   "Resume it with psi-slam --resume " + line.journal + ", or replace it with --force", line);
+}
+
+void warn_of_lost_end(const SessionRecording& recording, const Streams& streams) {
+  if (recording.lost_end) streams.err << "psi-slam: " << *recording.lost_end << '\n';
 }
 
 void load_recorded_settings(const CommandLine& line, const std::string& file, const SessionFacts& facts,
@@ -143,7 +155,9 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   for (const std::string& interruption : interruption_texts(session.result())) warn(interruption);
   for (const std::string& warning : session.warnings_of_logs_before()) warn(warning);
   if (session.broken_off()) warn(broken_off_text(*session.broken_off(), session.result().frames.size()));
+  if (const auto why = session.journal_failure()) warn("the journal is incomplete: " + *why);
   if (failure) std::rethrow_exception(failure);
+  session.remove_journal();
   return session.breaks_off() ? kExitWrongUsageOrInput : kExitDone;
 }
 
@@ -155,10 +169,11 @@ int map_log(const CommandLine& line, const Streams& streams) {
   EditJournal edits;
   if (!line.edits.empty()) edits = EditJournal::read(line.edits);
   OutputFolder::check(line.output, line.force);
-  check_session_to_save(line);
+  check_sessions_to_write(line);
   calibrate(input, bound.settings, line, signals, streams);
   MappingSession session(input, bound.settings);
   if (!line.edits.empty()) session.add_edits(edits);
+  if (!line.journal.empty()) session.start_journal(line.journal);
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
   std::optional<ProgressLine> progress_line;
   watch(session, signals, line, streams, progress_line);

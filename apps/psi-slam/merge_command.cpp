@@ -18,6 +18,7 @@ std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bo
   for (const std::string& name : line.inputs) {
     inputs.push_back(SessionInput::of_file(name));
     const auto& recording = inputs.back().recording();
+    if (recording) warn_of_lost_end(*recording, streams);
     if (recording && !recorded) load_recorded_settings(line, name, recording->facts, bound, streams);
     recorded = recorded || recording;
   }
@@ -68,7 +69,7 @@ int merge_runs(const CommandLine& line, const Streams& streams) {
   std::vector<SessionInput> inputs = open_inputs(line, bound, streams);
   if (!line.start.empty()) parse_start(line.start);
   OutputFolder::check(line.output, line.force);
-  check_session_to_save(line);
+  check_sessions_to_write(line);
   const InterruptSignals signals;
   for (SessionInput& input : inputs) calibrate(input, bound.settings, line, signals, streams);
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);

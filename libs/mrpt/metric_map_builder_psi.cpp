@@ -20,6 +20,8 @@
 #include "pose_graph/marginal_covariance.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/user_error.h"
+#include "rendering/live_grid_map.h"
+#include "rendering/live_poses.h"
 #include "rendering/map_image.h"
 
 namespace psi_slam {
@@ -67,7 +69,12 @@ struct CMetricMapBuilderPsi::Implementation {
     node_observations_.clear();
     marginals_ = {};
     newest_marginal_.reset();
+    LiveGridOptions live;
+    live.map = options_.map;
+    live_map_.emplace(live);
+    live_poses_ = {};
     drawn_grid_.reset();
+    drawn_ = {};
     finished_ = false;
   }
 
@@ -146,39 +153,53 @@ struct CMetricMapBuilderPsi::Implementation {
     return estimate;
   }
 
-  // Returns the robot's pose at each scan. After finish(), this is the pose in the result. Before finish(),
-  // it is the pose of the newest node at that scan, plus the front end's motion since that node.
-  std::vector<TPose2D> poses() const {
+  // Returns the robot's pose at each scan in the result of finish().
+  std::vector<TPose2D> final_poses() const {
     std::vector<TPose2D> poses;
-    std::size_t node = 0;
-    for (std::size_t i = 0; i < frames().size(); ++i) {
-      while (node + 1 < node_frames_.size() && node_frames_[node + 1] <= i) ++node;
-      const TPose2D start_T_robot =
-          finished_ ? frames()[i].map_T_robot
-                    : graph().pose(node) +
-                          (frames()[i].front_end_T_robot - frames()[node_frames_[node]].front_end_T_robot);
-      poses.push_back(start_.mean.asTPose() + start_T_robot);
-    }
+    for (const FrameRecord& frame : frames_) poses.push_back(start_.mean.asTPose() + frame.map_T_robot);
     return poses;
   }
 
-  // Returns the grid of all scans. Draws a new object after a change, because callers may read the old one.
-  COccupancyGridMap2D::Ptr up_to_date_grid() const {
-    const bool drawn = drawn_grid_ && drawn_scans_ == log().size() && drawn_finished_ == finished_;
-    if (!drawn) {
-      drawn_grid_ = draw_grid_map(log(), poses(), options_.map);
-      drawn_scans_ = log().size();
-      drawn_finished_ = finished_;
-    }
+  // Returns the grid of all scans. Before finish(), draws only what has changed since the last call. Changes
+  // the object of an earlier call if only the metric map holds it and `may_change_metric_map` is true.
+  COccupancyGridMap2D::Ptr up_to_date_grid(bool may_change_metric_map) const {
+    if (!finished_) return live_grid(may_change_metric_map);
+    if (!drawn_finished_) drawn_grid_ = draw_grid_map(log_, final_poses(), options_.map);
+    drawn_finished_ = true;
     return drawn_grid_;
+  }
+
+  COccupancyGridMap2D::Ptr live_grid(bool may_change_metric_map) const {
+    drawn_finished_ = false;
+    const std::size_t work = live_map_->work();
+    live_poses_.take(frames());
+    const auto pose = [&](std::size_t i) {
+      return start_.mean.asTPose() + live_poses_.map_T_robot(i, frames(), graph());
+    };
+    do live_map_->update(log(), pose);
+    while (!live_map_->is_complete());
+    if (drawn_grid_ && live_map_->work() == work) return drawn_grid_;
+    GridSnapshot now = live_map_->snapshot();
+    const bool is_ours =
+        may_change_metric_map && holds_drawn_grid() && !drawn_grid_is_out_ && drawn_grid_.use_count() == 2;
+    if (!is_ours || !update_grid(drawn_, now, *drawn_grid_)) {
+      drawn_grid_ = grid_of(now);
+      drawn_grid_is_out_ = false;
+    }
+    drawn_ = std::move(now);
+    return drawn_grid_;
+  }
+
+  bool holds_drawn_grid() const {
+    return drawn_grid_ && metric_map_.maps.size() == 1 && metric_map_.maps.front() == drawn_grid_;
   }
 
   const mrpt::maps::CMultiMetricMap& metric_map() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const COccupancyGridMap2D::Ptr grid = up_to_date_grid();
-    if (metric_map_.maps.size() != 1 || metric_map_.maps.front() != grid) {
+    up_to_date_grid(true);
+    if (!holds_drawn_grid()) {
       metric_map_.maps.clear();
-      metric_map_.maps.push_back(grid);
+      metric_map_.maps.push_back(drawn_grid_);
     }
     return metric_map_;
   }
@@ -204,9 +225,13 @@ struct CMetricMapBuilderPsi::Implementation {
   mutable std::optional<Eigen::Matrix3d> newest_marginal_;
   // Numbers of nodes and constraints when newest_marginal_ was computed.
   mutable std::pair<std::size_t, std::size_t> marginal_state_;
+  mutable std::optional<LiveGridMap> live_map_;
+  mutable LivePoses live_poses_;
   mutable COccupancyGridMap2D::Ptr drawn_grid_;
-  mutable std::size_t drawn_scans_ = 0;
+  mutable GridSnapshot drawn_;  // content of drawn_grid_ before finish()
   mutable bool drawn_finished_ = false;
+  mutable bool drawn_grid_is_out_ =
+      false;  // whether grid() has returned drawn_grid_, which never changes then
   mutable mrpt::maps::CMultiMetricMap metric_map_;
 };
 
@@ -289,7 +314,9 @@ const mrpt::maps::CMultiMetricMap* CMetricMapBuilderPsi::getCurrentlyBuiltMetric
 
 COccupancyGridMap2D::ConstPtr CMetricMapBuilderPsi::grid() const {
   const std::lock_guard<std::mutex> lock(implementation_->mutex_);
-  return implementation_->up_to_date_grid();
+  const COccupancyGridMap2D::Ptr grid = implementation_->up_to_date_grid(false);
+  implementation_->drawn_grid_is_out_ = true;
+  return grid;
 }
 
 #if MRPT_VERSION >= 0x030000

@@ -53,6 +53,7 @@ MappingSession::MappingSession(const SessionInput& input, const Settings& settin
   m_->log_path = input.log();
   m_->logs = input.logs();
   m_->settings = settings;
+  m_->settings_text = settings_file_text(settings);
   m_->settings_warnings = std::move(settings_warnings);
   m_->read_from(open_input(input, settings));
   m_->mapper = std::make_unique<Mapper>(mapper_options(settings));
@@ -82,8 +83,12 @@ bool MappingSession::step() {
     frame->index = m_->scans;
     m_->begin_recorded_run();
     m_->keep_bent(*frame);
+    const bool is_recorded = m_->recording && m_->scans < m_->recording->frames.size();
+    std::optional<Frame> to_journal;
+    if (m_->journal && !is_recorded) to_journal = *frame;
     m_->mapper->add(*std::move(frame));
     m_->make_due_edits({EditTime::Kind::kAfterScan, m_->scans++});
+    if (to_journal) m_->journal->add(*std::move(to_journal), m_->facts());
   }
   m_->report(m_->source->progress());
   return true;
@@ -151,6 +156,7 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
     scans_left = scans_left || m.read().has_value();
     if (m.state == Members::State::kReading) m.enter(Members::State::kRead);
   }
+  m.update_journal();
   m.mapper->end_log();
   m.make_due_edits({EditTime::Kind::kEnd, 0});
   const auto progress = [&](double share) {
@@ -196,6 +202,7 @@ void MappingSession::reopen() {
 void MappingSession::add_edits(const EditJournal& edits) {
   m_->edits.add(edits);
   m_->make_due_edits({});
+  m_->update_journal();
 }
 
 void MappingSession::Members::make_due_edits(EditTime now) {
@@ -218,14 +225,17 @@ LoopEditOutcome MappingSession::edit(const LoopEdit& edit) {
   if (at_end) m_->mapper->end_log();
   const bool changes_later = m_->edits.forget_later(edit);
   LoopEditOutcome outcome = m_->mapper->edit(edit);
-  if (outcome.state == LoopEditOutcome::State::kImpossible)
+  if (outcome.state == LoopEditOutcome::State::kImpossible) {
+    m_->update_journal();
     return changes_later ? LoopEditOutcome{} : outcome;
+  }
   EditTime now{EditTime::Kind::kBegin, 0};
   if (at_end)
     now.kind = EditTime::Kind::kEnd;
   else if (m_->scans > 0)
     now = {EditTime::Kind::kAfterScan, m_->scans - 1};
   m_->edits.enter({edit, now});
+  m_->update_journal();
   return outcome;
 }
 
@@ -238,6 +248,7 @@ void MappingSession::plan(const std::vector<TimedEdit>& edits) {
     else
       m_->edits.add(later);
   }
+  m_->update_journal();
 }
 
 const EditJournal& MappingSession::edits() const {

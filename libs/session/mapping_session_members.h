@@ -16,6 +16,7 @@
 #include "psi_slam/mapping_session.h"
 #include "session/edit_journal.h"
 #include "session/session_input.h"
+#include "session/session_journal.h"
 #include "session/session_recording.h"
 #include "session/settings.h"
 
@@ -40,6 +41,7 @@ struct MappingSession::Members {
   void make_due_edits(EditTime now);
   void begin_recorded_run();
   SessionFacts facts() const;
+  void update_journal() const;
   const std::vector<Frame>& mapped_log() const {
     return state == State::kFinished ? result.log : mapper->log();
   }
@@ -56,6 +58,7 @@ struct MappingSession::Members {
   std::vector<RecordedLog> logs;
   std::vector<RecordedRun> later_runs;
   Settings settings;
+  std::string settings_text;  ///< text of a settings file with all of `settings`
   std::vector<std::string> settings_warnings;
   std::unique_ptr<FrameSource> source;
   /// Frames without odometry as the log states them, by their numbers. The mapper removes the motion during
@@ -69,6 +72,7 @@ struct MappingSession::Members {
   Observer observer;
   State state = State::kReading;
   MappingResult result;
+  std::unique_ptr<SessionJournal> journal;  ///< null if the session is not recorded continuously
   std::optional<std::string> broken_off;
   std::vector<std::string> faults;  ///< see faults_of_log()
   std::size_t scans_checked = 0;    ///< number of scans for which `faults` was determined

@@ -106,13 +106,33 @@ SavedSession MappingSession::save(const fs::path& file) const {
   return saved;
 }
 
+void MappingSession::start_journal(const fs::path& file) {
+  static const std::vector<Frame> no_frames;
+  m_->journal =
+      std::make_unique<SessionJournal>(file, m_->facts(), m_->recording ? m_->recording->frames : no_frames,
+                                       m_->settings.live.journal_period_s);
+}
+
+void MappingSession::remove_journal() {
+  if (m_->journal) m_->journal->remove();
+  m_->journal.reset();
+}
+
+std::optional<std::string> MappingSession::journal_failure() const {
+  return m_->journal ? m_->journal->failure() : std::nullopt;
+}
+
+void MappingSession::Members::update_journal() const {
+  if (journal) journal->update(facts());
+}
+
 SessionFacts MappingSession::Members::facts() const {
   SessionFacts facts;
   const bool is_replaying = recording && scans < recording->frames.size();
   facts.program_version = PSI_SLAM_VERSION;
   facts.logs = is_replaying ? recording->facts.logs : logs;
   facts.runs = later_runs;
-  facts.settings = settings_file_text(settings);
+  facts.settings = settings_text;
   facts.edits = edits;
   if (is_replaying) return facts;
   keep_first(scans, facts);
@@ -127,6 +147,8 @@ SessionFacts MappingSession::Members::facts() const {
 
 std::string MappingSession::Members::checksum_of_log() const {
   if (!log_sha256.empty()) return log_sha256;
+  std::error_code ignored;
+  if (!fs::is_regular_file(log_path, ignored) && !fs::is_directory(log_path, ignored)) return "";
   try {
     log_sha256 = sha256_of_log(log_path);
   } catch (const UserError&) {

@@ -10,6 +10,12 @@
 namespace psi_slam {
 namespace {
 
+/// Whether an option changes neither poses nor loops, only files and speed.
+bool is_free(const Option& option) {
+  return option.section == "map" || option.section == "localization" || option.section == "live" ||
+         option.name() == "run.threads";
+}
+
 struct ChangedSetting {
   std::string name;
   std::string before;
@@ -51,9 +57,7 @@ std::map<std::string, std::string> kept_settings(const OptionTable& table) {
   std::map<std::string, std::string> kept;
   for (const OptionSection& section : table.sections())
     for (const Option& option : section.options)
-      if (section.name != "map" && section.name != "localization" && section.name != "live" &&
-          option.name() != "run.threads")
-        kept[option.name()] = option.text();
+      if (!is_free(option)) kept[option.name()] = option.text();
   return kept;
 }
 

@@ -1,29 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Session files; share/doc/sessions.md describes the format. In every version the first 20 bytes are the
-// magic word and the version, and the last 64 bytes are the checksum of all bytes before them. If Frame gets
-// a new member, session_file.cpp must write and read it, with a new kSessionVersion.
+// magic word and the version, and the last 64 bytes are the checksum of all bytes before them. A journal (see
+// session_journal.h) is read like a session.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <vector>
 
+#include "session/session_content.h"
 #include "session/session_recording.h"
 
 namespace psi_slam {
 
-/// Version of the files that are written. Files of this and all older versions can be read.
-inline constexpr std::uint32_t kSessionVersion = 4;
-
-/// Whether the file begins with the magic word of sessions. False if the file is unreadable.
+/// Whether the file begins with the magic word of sessions or of journals. False if the file is unreadable.
 bool is_session_file(const std::filesystem::path& path);
 
 /// Writes the file whole or not at all. Throws SystemFailure if it cannot be written.
 void write_session_file(const std::filesystem::path& path, const SessionFacts& facts,
                         const std::vector<Frame>& frames);
 
-/// Reads a session file. Throws UserError, naming the file, if it is not a session, is damaged, or has a
-/// newer version.
+/// Reads a session or a journal. Throws UserError, naming the file, if it is neither, is damaged, or has a
+/// newer version. A journal may end with an incomplete chunk, see SessionRecording::lost_end.
 SessionRecording read_session_file(const std::filesystem::path& path);
 
 }  // namespace psi_slam

@@ -44,6 +44,8 @@ struct SessionFacts {
 struct SessionRecording {
   SessionFacts facts;
   std::vector<Frame> frames;
+  /// What is missing at the end of a journal, a sentence without full stop; empty if nothing is.
+  std::optional<std::string> lost_end{};
 };
 
 }  // namespace psi_slam

@@ -140,18 +140,24 @@ void describe_map_files(OptionTable& table, MapFileOptions& files) {
                  "Direction of the map's x axis in map.tif, counter-clockwise from east.");
 }
 
+void describe_live(OptionTable& table, Settings& settings) {
+  table.section("live", "Mapping while the robot drives")
+      .integer("latency_nodes", settings.mapper.latency_nodes, between(0, 1000), "nodes",
+               "The pose of the robot while it drives follows the loops of a node from this many nodes later "
+               "on. The finished map does not depend on it. Larger values leave more time to close loops.")
+      .number(
+          "map_period_s", settings.live.map_period_s, between(0, 3600), "s",
+          "Time between two writings of map.yaml and map.pgm during a live run. 0: writes the map only at "
+          "the end.")
+      .number("journal_period_s", settings.live.journal_period_s, between(0.05, 60), "s",
+              "Time between two writings of the journal. A crash loses the scans of this time at most.");
+}
+
 void describe_run(OptionTable& table, RunOptions& run) {
   table.section("run", "How the program runs")
       .integer("seed", run.seed, any_number(), "", "Seed of all random numbers. Equal seeds give equal maps.")
       .integer("threads", run.threads, between(0, 1024), "threads",
                "Number of threads. 0: one for each processor. The results do not depend on it.");
-}
-
-void describe_live(OptionTable& table, MapperOptions& mapper) {
-  table.section("live", "Mapping while the robot drives")
-      .integer("latency_nodes", mapper.latency_nodes, between(0, 1000), "nodes",
-               "The pose of the robot while it drives follows the loops of a node from this many nodes later "
-               "on. The finished map does not depend on it. Larger values leave more time to close loops.");
 }
 
 /// Name and value of an option.
@@ -183,7 +189,7 @@ void describe(OptionTable& table, Settings& settings) {
   describe_map(table, settings.map);
   describe_map_files(table, settings.map_files);
   describe_localization(table, settings.localization);
-  describe_live(table, settings.mapper);
+  describe_live(table, settings);
   describe_run(table, settings.run);
   table.alias("last_pass", "final_search")
       .alias("log.odometry_topic", "log.odometry")

@@ -30,6 +30,12 @@ struct RunOptions {
   int threads = 0;         ///< number of threads; 0: one for each processor. Results do not depend on it.
 };
 
+/// Results while the robot drives.
+struct LiveOptions {
+  double map_period_s = 5;        ///< time between two writings of the map; 0: only at the end
+  double journal_period_s = 0.5;  ///< time between two chunks of the journal
+};
+
 struct Settings {
   LogOptions log;  ///< without robot_T_laser: log_options() takes it from `laser_mount`
   LaserMount laser_mount;
@@ -38,6 +44,7 @@ struct Settings {
   MapFileOptions map_files;
   /// Without the options that localizer_options() takes from `mapper` and `run`.
   LocalizerOptions localization;
+  LiveOptions live;
   RunOptions run;
 };
 

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -326,6 +327,78 @@ TEST(MetricMapBuilderPsi, its_metric_map_is_one_grid_drawn_when_asked_for) {
     const TPose2D& pose = drive.map_T_robot[i];
     EXPECT_GT(last->getPos(static_cast<float>(pose.x), static_cast<float>(pose.y)), 0.6F);
   }
+}
+
+using mrpt::maps::COccupancyGridMap2D;
+
+COccupancyGridMap2D::Ptr metric_grid(const CMetricMapBuilderPsi& builder) {
+  return builder.getCurrentlyBuiltMetricMap()->mapByClass<COccupancyGridMap2D>();
+}
+
+// Maps scan by scan. Calls `ask` after each scan.
+void process_and_ask(CMetricMapBuilderPsi& builder, const SimulatedDrive& drive,
+                     const std::function<void()>& ask) {
+  TPose2D last;
+  for (const Frame& frame : drive.frames) {
+    const auto actions = movement(CPose2D(frame.odom_T_robot - last));
+    const auto observations = sensory_frame({range_observation(frame)});
+    builder.processActionObservation(*actions, *observations);
+    last = frame.odom_T_robot;
+    ask();
+  }
+}
+
+TEST(MetricMapBuilderPsi, the_map_is_the_same_however_often_it_was_asked_for) {
+  const SimulatedDrive drive = observed_drive(60);
+  CMetricMapBuilderPsi asked_always;
+  std::set<const void*> objects;
+  process_and_ask(asked_always, drive, [&] { objects.insert(metric_grid(asked_always).get()); });
+  EXPECT_LT(objects.size(), 40U) << "a map of the same extent is changed, not copied";
+  CMetricMapBuilderPsi asked_once;
+  process_as_actions(asked_once, drive);
+  EXPECT_EQ(metric_grid(asked_always)->getRawMap(), metric_grid(asked_once)->getRawMap());
+  EXPECT_EQ(asked_once.grid()->getRawMap(), metric_grid(asked_once)->getRawMap());
+}
+
+TEST(MetricMapBuilderPsi, a_grid_never_changes) {
+  CMetricMapBuilderPsi builder;
+  COccupancyGridMap2D::ConstPtr early;
+  std::vector<COccupancyGridMap2D::cellType> cells;
+  process_and_ask(builder, observed_drive(60), [&] {
+    if (!early) cells = (early = builder.grid())->getRawMap();
+    builder.getCurrentlyBuiltMetricMap();
+  });
+  EXPECT_EQ(early->getRawMap(), cells);
+}
+
+TEST(MetricMapBuilderPsi, the_map_follows_closed_loops) {
+  const SimulatedDrive drive = observed_drive(round_the_office().size());
+  CMetricMapBuilderPsi asked_always;
+  process_and_ask(asked_always, drive, [&] { asked_always.getCurrentlyBuiltMetricMap(); });
+  for (int i = 0; i < 400; ++i) asked_always.getCurrentlyBuiltMetricMap();
+  CMetricMapBuilderPsi asked_once;
+  process_as_actions(asked_once, drive);
+  const auto followed = metric_grid(asked_always);
+  const auto expected = metric_grid(asked_once);
+  // Scans that moved by less than half a cell stay where they were.
+  std::size_t walls = 0;
+  std::size_t missed = 0;
+  const auto is_wall = [](const COccupancyGridMap2D& grid, double x, double y) {
+    return grid.getPos(static_cast<float>(x), static_cast<float>(y)) < 0.35F;
+  };
+  for (unsigned y = 0; y < expected->getSizeY(); ++y)
+    for (unsigned x = 0; x < expected->getSizeX(); ++x) {
+      const auto cell_x = static_cast<double>(expected->idx2x(x));
+      const auto cell_y = static_cast<double>(expected->idx2y(y));
+      if (!is_wall(*expected, cell_x, cell_y)) continue;
+      ++walls;
+      bool any = false;
+      for (const double dx : {-0.05, 0.0, 0.05})
+        for (const double dy : {-0.05, 0.0, 0.05}) any = any || is_wall(*followed, cell_x + dx, cell_y + dy);
+      missed += any ? 0 : 1;
+    }
+  EXPECT_GT(walls, 1000U);
+  EXPECT_LT(missed, walls / 100);
 }
 
 TEST(MetricMapBuilderPsi, nodes_of_two_lasers_keep_the_observations_of_both) {

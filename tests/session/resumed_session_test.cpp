@@ -2,6 +2,7 @@
 // Tests that a run that is interrupted, saved and resumed gives the same results as one without interruption.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "exports/run_summary.h"
@@ -195,6 +196,109 @@ TEST_F(ResumedSession, an_interruption_while_replaying_loses_nothing) {
   MappingSession again(resumed(path), settings_);
   again.run(go_on_);
   expect_same_results(whole, export_of(again, "again"));
+}
+
+/// Maps a part of a log with a journal, and ends as a crash does: without finishing or saving.
+class ResumedJournal : public ResumedSession {
+ protected:
+  void crash_after(std::size_t scans, const SessionInput& input, const EditJournal& edits = {}) {
+    MappingSession session(input, settings_);
+    session.add_edits(edits);
+    session.start_journal(saved_);
+    for (std::size_t i = 0; i < scans; ++i) session.step();
+  }
+
+  void expect_resumed(const fs::path& whole, const fs::path& log) {
+    MappingSession session(resumed(log), settings_);
+    session.run(go_on_);
+    expect_same_results(whole, export_of(session, "resumed" + std::to_string(++resumed_)));
+  }
+
+  int resumed_ = 0;
+};
+
+TEST_F(ResumedJournal, gives_the_bytes_of_an_uninterrupted_run) {
+  const auto path = log("room.log", room_log_lines());
+  const fs::path whole = uninterrupted(path);
+  for (const std::size_t scans : {0U, 1U, 70U, 150U}) {
+    crash_after(scans, SessionInput(path));
+    EXPECT_EQ(read_session_file(saved_).frames.size(), scans);
+    expect_resumed(whole, path);
+  }
+}
+
+TEST_F(ResumedJournal, without_a_log_it_gives_the_map_of_the_recorded_scans) {
+  const auto path = log("room.log", room_log_lines());
+  MappingSession part(path, settings_);
+  for (int i = 0; i < 90; ++i) part.step();
+  part.finish();
+  const fs::path expected = export_of(part, "part");
+  crash_after(90, SessionInput(path));
+  fs::remove(path);
+  expect_resumed(expected, {});
+}
+
+TEST_F(ResumedJournal, survives_a_crash_after_a_crash) {
+  const auto path = log("room.log", room_log_lines());
+  const fs::path whole = uninterrupted(path);
+  crash_after(60, SessionInput(path));
+  crash_after(20, resumed(path));
+  EXPECT_EQ(read_session_file(saved_).frames.size(), 60U) << "scans that are mapped again are not lost";
+  crash_after(110, resumed(path));
+  EXPECT_EQ(read_session_file(saved_).frames.size(), 110U);
+  expect_resumed(whole, path);
+}
+
+TEST_F(ResumedJournal, continues_in_a_second_log) {
+  const auto lines = room_log_lines();
+  const auto first = log("first.log", {lines.begin(), lines.begin() + 80});
+  const auto second = log("second.log", {lines.begin() + 80, lines.end()});
+  const fs::path whole = uninterrupted(log("room.log", lines));
+  saved_after(80, first);
+  crash_after(120, resumed(second));
+  const SessionRecording recording = read_session_file(saved_);
+  ASSERT_EQ(recording.facts.logs.size(), 2U);
+  EXPECT_EQ(recording.facts.logs[1].scans, 40U);
+  MappingSession session(resumed(second), settings_);
+  session.run(go_on_);
+  expect_same_results(whole, export_of(session, "resumed"));
+}
+
+TEST_F(ResumedJournal, keeps_scans_as_the_log_states_them) {
+  settings_.log.sweep_time_s = 0.15;
+  const auto path = log("room.log", standing_log_lines(20, 250, 30));
+  for (const char* odometry : {"auto", "none"}) {
+    settings_.log.odometry = odometry;
+    MappingSession uninterrupted(path, settings_);
+    uninterrupted.run(go_on_);
+    const fs::path whole = export_of(uninterrupted, odometry);
+    crash_after(290, SessionInput(path));
+    const std::vector<Frame> frames = read_session_file(saved_).frames;
+    EXPECT_TRUE(std::all_of(frames.begin(), frames.end(), has_ranges)) << "before ranges are discarded";
+    expect_resumed(whole, path);
+  }
+}
+
+TEST_F(ResumedJournal, keeps_edits_made_while_mapping) {
+  const auto path = log("room.log", room_log_lines());
+  MappingSession whole(path, settings_);
+  {
+    MappingSession crashed(path, settings_);
+    crashed.start_journal(saved_);
+    for (MappingSession* session : {&whole, &crashed}) {
+      for (int i = 0; i < 148; ++i) session->step();
+      const std::vector<LoopRecord> loops = session->mapper().loops();
+      const auto loop = std::find_if(loops.begin(), loops.end(), [](const LoopRecord& any) {
+        return any.verdict == LoopVerdict::kAccepted;
+      });
+      ASSERT_NE(loop, loops.end());
+      session->edit({LoopEdit::Kind::kDelete, loop->frame, loop->local_map});
+    }
+  }
+  EXPECT_FALSE(whole.edits().empty());
+  EXPECT_EQ(read_session_file(saved_).facts.edits.text(), whole.edits().text());
+  whole.run(go_on_);
+  expect_resumed(export_of(whole, "whole"), path);
 }
 
 TEST_F(ResumedSession, reports_damage_and_skipped_lines_again) {

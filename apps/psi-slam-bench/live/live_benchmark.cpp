@@ -55,7 +55,7 @@ std::vector<Frame> frames_of(FrameSource& source, double stretch_s) {
   return frames;
 }
 
-Task task_of_log(const BenchmarkLog& log, const LiveOptions& options) {
+Task task_of_log(const BenchmarkLog& log, const LiveBenchmarkOptions& options) {
   Task task;
   task.name = log.name;
   task.settings = benchmark_settings(log.ini, options.assignments);
@@ -66,7 +66,7 @@ Task task_of_log(const BenchmarkLog& log, const LiveOptions& options) {
   return task;
 }
 
-Task simulated_task(double path_m, const LiveOptions& options) {
+Task simulated_task(double path_m, const LiveBenchmarkOptions& options) {
   constexpr std::uint64_t kSeed = 1;
   SimulateOptions simulate;
   simulate.seed = kSeed;
@@ -169,7 +169,7 @@ Replayed replay(std::vector<Frame> frames, const Settings& settings, double spee
   return replayed;
 }
 
-LiveBenchmark run_live_benchmark(const SparseLogs& logs, const LiveOptions& options,
+LiveBenchmark run_live_benchmark(const SparseLogs& logs, const LiveBenchmarkOptions& options,
                                  const ProgressObserver& observer) {
   LiveBenchmark benchmark;
   std::vector<Task> tasks;

@@ -18,7 +18,7 @@
 
 namespace psi_slam {
 
-struct LiveOptions {
+struct LiveBenchmarkOptions {
   /// Replay speeds as multiples of the recorded speed; 0: as fast as possible.
   std::vector<double> speeds = {5, 0};
   std::vector<int> processors = {1, 2};  ///< numbers of processors that a run may use
@@ -30,7 +30,7 @@ struct LiveOptions {
 /// Replay of one log.
 struct LiveRow {
   std::string log;
-  double speed = 0;  ///< see LiveOptions::speeds
+  double speed = 0;  ///< see LiveBenchmarkOptions::speeds
   int processors = 1;
   std::size_t scans = 0;
   std::size_t nodes = 0;
@@ -73,11 +73,11 @@ Replayed replay(std::vector<Frame> frames, const Settings& settings, double spee
 
 /// Replays all logs and simulated runs, each in a process of its own that uses the first `processors`
 /// processors of the machine. Throws UserError as open_log() and read_relations().
-LiveBenchmark run_live_benchmark(const SparseLogs& logs, const LiveOptions& options,
+LiveBenchmark run_live_benchmark(const SparseLogs& logs, const LiveBenchmarkOptions& options,
                                  const ProgressObserver& observer);
 
 /// The report of the command `live`.
-BenchReport live_report(const LiveBenchmark& benchmark, const LiveOptions& options,
+BenchReport live_report(const LiveBenchmark& benchmark, const LiveBenchmarkOptions& options,
                         const std::string& machine);
 
 }  // namespace psi_slam

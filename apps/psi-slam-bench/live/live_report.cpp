@@ -44,7 +44,7 @@ ReportTable rows_table(const std::vector<LiveRow>& rows) {
 
 }  // namespace
 
-BenchReport live_report(const LiveBenchmark& benchmark, const LiveOptions& options,
+BenchReport live_report(const LiveBenchmark& benchmark, const LiveBenchmarkOptions& options,
                         const std::string& machine) {
   const ReportTable rows = rows_table(benchmark.rows);
   const std::string text =

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The content that sessions and journals share: facts in JSON, followed by frames, compressed.
+// share/doc/sessions.md describes the format.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "session/frame_bytes.h"
+#include "session/session_recording.h"
+
+namespace psi_slam {
+
+/// Version of the files that are written. Files of this and all older versions can be read.
+inline constexpr std::uint32_t kSessionVersion = 4;
+
+/// Advice that ends the messages about damaged files.
+inline constexpr const char* kUseACopy = "Use a copy of it, or map the log again.";
+
+/// Throws UserError if this program does not know the version of the file `path`.
+void require_known_version(std::uint32_t version, const std::filesystem::path& path);
+
+/// Throws MalformedBytes if facts and frames of a recording contradict each other.
+void require_consistent(const SessionRecording& recording);
+
+/// Returns the facts as a JSON text.
+std::string facts_text(const SessionFacts& facts);
+
+/// Packs the content of a file, at once or part by part.
+class SessionContentWriter {
+ public:
+  /// Returns facts_text() and frames, compressed with this level of Zstandard, after the compressed size and
+  /// the size, both u64. Empty facts stand for those of the part before.
+  std::string packed(const std::string& facts, const std::vector<Frame>& frames, int level);
+
+ private:
+  FrameWriter frames_;
+};
+
+/// Unpacks what a SessionContentWriter packed, in the same order.
+class SessionContentReader {
+ public:
+  /// Reads content of this version of the format. `path` is for error messages.
+  SessionContentReader(std::uint32_t version, std::filesystem::path path)
+      : frames_(version), version_(version), path_(std::move(path)) {}
+
+  /// Replaces the facts of the recording, unless the part has none, and appends its frames. Throws
+  /// MalformedBytes, or UserError for malformed edits, if the bytes are damaged.
+  void add(ByteCursor& packed, SessionRecording& recording);
+
+ private:
+  FrameReader frames_;
+  std::uint32_t version_;
+  std::filesystem::path path_;
+};
+
+}  // namespace psi_slam

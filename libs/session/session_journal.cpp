@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session/session_journal.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "base/atomic_file.h"
+#include "psi_slam/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMode = 0666;  // the umask applies
+
+SystemFailure cannot_write(const fs::path& path) {
+  return SystemFailure("cannot write " + path.string() + ": " + std::strerror(errno));
+}
+
+/// Makes the name of a new file durable. Ignores errors: some file systems cannot do this.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+OpenFile::~OpenFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+bool OpenFile::create(const fs::path& path) {
+  descriptor_ = ::open(path.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, kMode);
+  return descriptor_ >= 0;
+}
+
+SessionJournal::SessionJournal(fs::path path, const SessionFacts& facts, const std::vector<Frame>& frames,
+                               double period_s)
+    : path_(std::move(path)), period_(period_s) {
+  write_atomically(path_, [&](const fs::path& temporary) {
+    if (file_.create(temporary)) write(chunks_.next(facts, frames));
+  });
+  sync_folder(path_.parent_path());
+  thread_ = std::thread([this] { work(); });
+}
+
+SessionJournal::~SessionJournal() {
+  end();
+}
+
+void SessionJournal::add(Frame frame, SessionFacts facts) {
+  const std::lock_guard lock(mutex_);
+  if (failure_) return;
+  frames_.push_back(std::move(frame));
+  facts_ = std::move(facts);
+  changed_.notify_all();
+}
+
+void SessionJournal::update(SessionFacts facts) {
+  const std::lock_guard lock(mutex_);
+  if (failure_) return;
+  facts_ = std::move(facts);
+  changed_.notify_all();
+}
+
+void SessionJournal::remove() {
+  end();
+  struct stat mine {};
+  struct stat named {};
+  const bool is_mine = ::fstat(file_.descriptor(), &mine) == 0 && ::stat(path_.c_str(), &named) == 0 &&
+                       mine.st_dev == named.st_dev && mine.st_ino == named.st_ino;
+  if (is_mine && ::unlink(path_.c_str()) != 0)
+    throw SystemFailure("cannot delete " + path_.string() + ": " + std::strerror(errno));
+}
+
+std::optional<std::string> SessionJournal::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+void SessionJournal::end() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void SessionJournal::work() {
+  std::unique_lock lock(mutex_);
+  auto next = Clock::now();
+  while (true) {
+    changed_.wait(lock, [this] { return stop_ || facts_.has_value(); });
+    if (!facts_) return;
+    changed_.wait_until(lock, next, [this] { return stop_; });
+    next = Clock::now() + std::chrono::duration_cast<Clock::duration>(period_);
+    const std::vector<Frame> frames = std::exchange(frames_, {});
+    SessionFacts facts = *std::exchange(facts_, std::nullopt);
+    lock.unlock();
+    std::optional<std::string> failure;
+    try {
+      write(chunks_.next(std::move(facts), frames));
+    } catch (const std::exception& error) {
+      failure = error.what();
+    }
+    lock.lock();
+    if (!failure) continue;
+    failure_ = failure;
+    return;
+  }
+}
+
+void SessionJournal::write(const std::string& bytes) {
+  for (std::size_t written = 0; written < bytes.size();) {
+    const ssize_t count = ::write(file_.descriptor(), bytes.data() + written, bytes.size() - written);
+    if (count < 0 && errno != EINTR) throw cannot_write(path_);
+    if (count > 0) written += static_cast<std::size_t>(count);
+  }
+  if (::fdatasync(file_.descriptor()) != 0 && errno != EINVAL) throw cannot_write(path_);
+}
+
+}  // namespace psi_slam

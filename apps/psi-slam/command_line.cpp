@@ -65,6 +65,7 @@ CLI::App* add_live(CLI::App& app, CommandLine& line) {
       "Map while the robot drives: from a stream of CARMEN lines, a growing log or sensors, until Ctrl-C");
   add_live_options(*live, line.live);
   add_value(*live, "-o,--output", line.output, kFolderHelp, "DIR");
+  add_value(*live, "--save-session", line.save_session, "Save the run to this file, for --resume", "FILE");
   add_run_options(*live, line);
   return live;
 }
@@ -154,7 +155,7 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
   refuse(!maps && !line.edits.empty(), "--edits is only for mapping a log");
   refuse(!maps && !line.resume.empty(), "--resume is only for mapping a log");
   refuse(!maps && !line.journal.empty(), "--journal is only for mapping a log");
-  refuse(!maps && !merges && !line.save_session.empty(),
+  refuse(!maps && !merges && !is_live && !line.save_session.empty(),
          "--save-session is only for mapping and merging logs");
   if (!maps && !log_to_map.empty()) throw UserError(unexpected_argument_text(log_to_map, "psi-slam"));
 }

@@ -2,7 +2,9 @@
 #include <ostream>
 
 #include "commands.h"
+#include "exports/live_map_writer.h"
 #include "live_run.h"
+#include "psi_slam/user_error.h"
 #include "session/session_input.h"
 
 namespace psi_slam {
@@ -26,6 +28,29 @@ LivePose last_pose(const Mapper& mapper) {
           record.match == ScanMatch::kMatched};
 }
 
+/// Returns the journal of a live run, which lies in the folder of its results. Throws UserError if the folder
+/// has a journal of a run that was not finished.
+std::filesystem::path journal_in(const std::filesystem::path& folder) {
+  const std::filesystem::path journal = folder / "session.journal";
+  if (std::filesystem::exists(journal))
+    throw UserError(journal.string() +
+                    " holds a run that was not finished. Finish it with psi-slam --resume " +
+                    journal.string() + " -o ANOTHER_FOLDER, or delete it");
+  return journal;
+}
+
+/// Maps until the source ends. Returns why the map could not be written the last time; empty if it was.
+std::optional<std::string> map_to_the_end(MappingSession& session, const OutputFolder& folder,
+                                          const Settings& settings,
+                                          const std::function<void(const Mapper&)>& after_scan) {
+  LiveMapWriter map(folder.path(), settings.map, settings.live.map_period_s);
+  while (session.step()) {
+    after_scan(session.mapper());
+    map.update(session.mapper());
+  }
+  return map.failure();
+}
+
 }  // namespace
 
 int map_live(const CommandLine& line, const Streams& streams) {
@@ -36,7 +61,9 @@ int map_live(const CommandLine& line, const Streams& streams) {
   const std::optional<PoseFormat> poses = pose_format(line.live);
   // Only poses go to standard output if there are any.
   const Streams texts{poses ? streams.err : streams.out, streams.err, streams.err_is_terminal};
+  const std::filesystem::path journal = journal_in(line.output);
   OutputFolder::check(line.output, line.force);
+  check_sessions_to_write(line);
   LiveRun run(texts, streams.err_is_terminal && !line.quiet);
   MappingSession session(
       SessionInput(name_of(source),
@@ -46,11 +73,12 @@ int map_live(const CommandLine& line, const Streams& streams) {
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
   session.set_observer([&](const SessionProgress& progress) { run.show(progress); });
 
-  while (session.step()) {
-    // Here, after each scan, is the place for what follows the robot while it drives.
-    if (poses) print_pose(streams.out, last_pose(session.mapper()), *poses);
-  }
-
+  session.start_journal(journal);
+  const std::optional<std::string> unwritten =
+      map_to_the_end(session, folder, bound.settings, [&](const Mapper& mapper) {
+        if (poses) print_pose(streams.out, last_pose(mapper), *poses);
+      });
+  if (unwritten) streams.err << "psi-slam: the map was not written while mapping: " << *unwritten << '\n';
   if (run.end())
     streams.err << "psi-slam: finishing the map. Interrupt again to finish it without more loops\n";
   session.finish(run.interrupted());

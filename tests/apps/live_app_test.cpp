@@ -13,6 +13,7 @@
 #include "app_run.h"
 #include "same_results.h"
 #include "sender.h"
+#include "session/session_file.h"
 #include "temporary_folder.h"
 #include "trajectory/trajectory_file.h"
 
@@ -95,6 +96,44 @@ TEST_F(LiveApp, maps_what_clients_send_until_it_is_interrupted) {
                              HasSubstr("2 messages of the log are unusable and skipped, the first: TCP port"),
                              Not(HasSubstr("damaged"))));
   expect_same_map();
+}
+
+TEST_F(LiveApp, writes_the_map_and_a_journal_while_it_maps_and_can_be_resumed_after_a_crash) {
+  const auto journal = folder("live") / "session.journal";
+  const auto growing = folder("growing.log");
+  write_file(growing, text_of(lines_, 0, kScans));
+  {
+    const AppProcess process(live({"--follow", growing.string(), "--look-over-s", "1", "--set",
+                                   "live.map_period_s=0.05", "--set", "live.journal_period_s=0.05"}),
+                             folder_.path());
+    const auto is_recorded = [&] {
+      return std::filesystem::exists(journal) && read_session_file(journal).frames.size() == kScans;
+    };
+    EXPECT_TRUE(soon(is_recorded)) << err();
+    EXPECT_TRUE(soon([&] { return std::filesystem::exists(folder("live") / "map.yaml"); })) << err();
+    EXPECT_TRUE(std::filesystem::exists(folder("live") / "map.pgm"));
+    process.send(SIGKILL);
+    EXPECT_NE(process.finish().code, 0);
+  }
+  const AppRun again = run_app(live({"--stdin", "--force"}));
+  EXPECT_EQ(again.code, 2);
+  EXPECT_THAT(again.err,
+              AllOf(HasSubstr("session.journal holds a run that was not finished"), HasSubstr("--resume")));
+  const AppRun resumed = run_app({"--resume", journal.string(), "-q", "-o", folder("resumed").string()});
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  for (const char* name : {"map.pgm", "map.yaml", "trajectory.tum", "graph.g2o"})
+    EXPECT_EQ(bytes_of(folder("resumed") / name), bytes_of(folder("whole") / name)) << name;
+}
+
+TEST_F(LiveApp, saves_the_session_and_leaves_no_journal) {
+  const auto saved = folder("run.session");
+  const AppProcess process(live({"--stdin", "-q", "--save-session", saved.string()}), folder_.path(),
+                           [&] { ::dup2(::open(log_.c_str(), O_RDONLY), STDIN_FILENO); });
+  EXPECT_EQ(process.finish().code, 0) << err();
+  EXPECT_FALSE(std::filesystem::exists(folder("live") / "session.journal"));
+  EXPECT_EQ(read_session_file(saved).frames.size(), kScans);
+  ASSERT_EQ(run_app({"--resume", saved.string(), "-q", "-o", folder("resumed").string()}).code, 0);
+  EXPECT_EQ(bytes_of(folder("resumed") / "map.pgm"), bytes_of(folder("whole") / "map.pgm"));
 }
 
 TEST_F(LiveApp, follows_a_log_and_prints_the_poses_of_its_scans) {

@@ -60,12 +60,16 @@ std::vector<std::size_t> BackEnd::confirmed_by(std::size_t index, const Keyframe
 }
 
 double BackEnd::optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver) {
-  return schedule_.is_due(graph) ? optimize(graph, solver) : 0;
+  if (!schedule_.is_due(graph)) return 0;
+  return graph_clock_.time([&] {
+    adjustment_.optimize(graph, solver);
+    schedule_.optimized(graph);
+  });
 }
 
 double BackEnd::optimize(PoseGraph& graph, SparsePoseAdjustment& solver) {
   return graph_clock_.time([&] {
-    solver.optimize(graph);
+    adjustment_.optimize_completely(graph, solver);
     schedule_.optimized(graph);
   });
 }

@@ -43,7 +43,7 @@ class IncrementalPoseAdjustment {
   /// equal results to the last bit. Throws unreachable_node(), a UserError, if a node is not linked to the
   /// root.
   ///
-  /// Solves completely if the graph has grown by a tenth since the last complete solution, or if anything but
+  /// Solves completely if the graph has grown by a quarter since the last complete solution, or if anything but
   /// new nodes and constraints has changed: poses, the root, or constraints switched on or off.
   IncrementalReport optimize(PoseGraph& graph, SparsePoseAdjustment& solver);
 

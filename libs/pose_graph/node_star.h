@@ -60,12 +60,12 @@ class NodeStar {
   struct End {
     std::uint32_t constraint = 0;
     std::uint32_t node = 0;  // at the other end of the constraint
-    // The linearised constraint:
+    // The linearised constraint. What is needed to place the centre comes first.
     double weight = 1;                                   // by the kernel
     Eigen::Vector3d at = Eigen::Vector3d::Zero();        // pose (x, y, theta) of `node`
+    Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();     // block (centre, node) of H, see reduced_gradient_
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  // entry `node` of g
     Eigen::Matrix3d own = Eigen::Matrix3d::Zero();       // block (node, node) of H
-    Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();     // block (centre, node) of H, see reduced_gradient_
   };
 
   Eigen::Vector3d reduced_gradient(const std::vector<RotatedPose>& poses) const;

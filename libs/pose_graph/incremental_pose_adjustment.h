@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Optimises a growing pose graph at a cost that depends on what new constraints change, not on the size of
-// the graph. Between complete solutions by SparsePoseAdjustment, it takes Gauss-Newton steps of the same
-// robust error sum, in which most terms remain from earlier steps:
+// Optimises a growing pose graph at a cost that depends mainly on what new constraints change. Only the
+// factorisation for the core nodes grows with the graph. Between complete solutions by SparsePoseAdjustment,
+// it takes Gauss-Newton steps of the same robust error sum, in which most terms remain from earlier steps:
 //
 // - Most nodes are leaves: their constraints lead only to core nodes, such as the anchors of local maps. The
 //   poses of leaves are eliminated, and only the core nodes remain in the equations that are factorised.
@@ -11,6 +11,8 @@
 // - Leaves are placed anew only if a core node that they depend on has moved noticeably.
 //
 // Complete solutions follow at intervals, and whenever the steps do not lower the error sum as predicted.
+// Between them the error sum exceeds its minimum by less than 0.1 % in all measurements, and nodes are a few
+// millimetres off, at worst 2 cm in a building of 5 km of path (share/doc/scale.md).
 #pragma once
 
 #include <cstddef>
@@ -37,14 +39,15 @@ struct IncrementalReport {
 
 class IncrementalPoseAdjustment {
  public:
-  /// Moves the poses of the graph close to a minimum of the robust error sum. After a complete solution the
-  /// poses are those of `solver`; after other solutions a pose differs by some 0.1 mm from the minimum
-  /// nearby. Headings are in (-pi, pi]. The kernels are those of `solver`. Equal sequences of calls give
-  /// equal results to the last bit. Throws unreachable_node(), a UserError, if a node is not linked to the
-  /// root.
+  /// Moves the poses of the graph close to a minimum of the robust error sum. A complete solution is that of
+  /// `solver`. Other solutions end when the second-order terms of no constraint exceed 0.002 standard
+  /// deviations and the weights by the kernels are accurate to 0.02, or earlier if a step lowers the error
+  /// sum by less than 1e-4 of it; the next call then goes on. Leaves follow core nodes to 0.5 mm and 5e-5
+  /// rad. Headings are in (-pi, pi]. The kernels are those of `solver`. Equal sequences of calls give equal
+  /// results to the last bit. Throws unreachable_node(), a UserError, if a node is not linked to the root.
   ///
-  /// Solves completely if the graph has grown by a quarter since the last complete solution, or if anything but
-  /// new nodes and constraints has changed: poses, the root, or constraints switched on or off.
+  /// Solves completely if the graph has grown by a quarter since the last complete solution, or if anything
+  /// but new nodes and constraints has changed: poses, the root, or constraints switched on or off.
   IncrementalReport optimize(PoseGraph& graph, SparsePoseAdjustment& solver);
 
   /// Solves the whole graph with `solver`.

@@ -36,8 +36,7 @@ namespace {
 constexpr int kRefresh_ms = 50;
 constexpr const char* kUnsaved =
     "Some scans or edits have not been exported or saved. Close the window anyway?";
-constexpr int kStatusFields = 2;  // hints and notices; figures of a live source
-constexpr int kLiveField = 1;
+constexpr int kLiveField = 1;  // field of the status bar for the figures of a live source
 constexpr int kLiveFieldWidth = 480;
 constexpr int kUsualPort = 5000;
 constexpr double kLoopDistance_m = 20;  // distance from the camera to a selected loop
@@ -79,11 +78,6 @@ AskForFile ask_in_dialogs(wxWindow& parent) {
   };
 }
 
-void set_live_field(wxFrame& frame, int width) {
-  const std::array<int, kStatusFields> widths{-1, width};
-  frame.SetStatusWidths(kStatusFields, widths.data());
-}
-
 AskForPort ask_port_in_dialog(wxWindow& parent) {
   return [&parent]() -> std::optional<std::uint16_t> {
     const long port = wxGetNumberFromUser("A program on this computer sends CARMEN lines to this TCP port.",
@@ -122,8 +116,7 @@ void MainFrame::build() {
   recent_.UseMenu(recent);
   recent_.Load(*wxConfigBase::Get());
   SetMenuBar(make_menu_bar(recent));
-  CreateStatusBar(kStatusFields);
-  set_live_field(*this, 0);
+  CreateStatusBar();
   show_status(hint_text());
   build_toolbar();
   panes_.SetManagedWindow(this);
@@ -205,11 +198,14 @@ void MainFrame::refresh() {
 /// Shows the figures and new notices of a live source in the status bar.
 void MainFrame::show_live_figures() {
   const std::optional<LiveFigures> figures = replay_ ? replay_->live_figures() : std::nullopt;
-  const int width = figures ? FromDIP(kLiveFieldWidth) : 0;
-  if (GetStatusBar()->GetStatusWidth(kLiveField) != width) set_live_field(*this, width);
-  const wxString text = figures ? text_of(live_status(*figures)) : wxString();
-  if (GetStatusBar()->GetStatusText(kLiveField) != text) SetStatusText(text, kLiveField);
-  if (!figures || figures->notices == run_.notices) return;
+  wxStatusBar& bar = *GetStatusBar();
+  const int fields = figures ? kLiveField + 1 : kLiveField;
+  const std::array<int, kLiveField + 1> widths{-1, FromDIP(kLiveFieldWidth)};
+  if (bar.GetFieldsCount() != fields) bar.SetFieldsCount(fields, widths.data());
+  if (!figures) return;
+  const wxString text = text_of(live_status(*figures));
+  if (bar.GetStatusText(kLiveField) != text) bar.SetStatusText(text, kLiveField);
+  if (figures->notices == run_.notices) return;
   run_.notices = figures->notices;
   std::string notice = figures->notice;
   notice.front() = static_cast<char>(std::toupper(notice.front()));

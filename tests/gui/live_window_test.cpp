@@ -100,7 +100,7 @@ TEST_F(LiveWindow, follows_the_log_of_the_command_line_and_asks_before_the_map_i
       })
       .when_phase(ReplayPhase::kPaused)
       .then([](MainFrame& frame) {
-        EXPECT_EQ(status(frame, 1), "");
+        EXPECT_EQ(frame.GetStatusBar()->GetFieldsCount(), 1);
         EXPECT_TRUE(frame.GetMenuBar()->IsEnabled(kPlayOrPause));
       });
   EXPECT_EQ(gui_.run({"--follow", log, "--idle-s", "0.2"}), 0);

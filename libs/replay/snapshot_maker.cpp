@@ -47,6 +47,7 @@ void SnapshotMaker::note_export(WriteOutcome outcome) {
 }
 
 void SnapshotMaker::follow(const Mapper& mapper, ActiveMaps active) {
+  mapper.wait();  // completes the records, which are copied once
   follow_log(mapper.log());
   append_new(frames_, mapper.frames());
   now.later_run_frames = mapper.later_run_frames();

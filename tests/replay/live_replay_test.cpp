@@ -58,7 +58,7 @@ TEST_F(LiveReplay, maps_scans_as_they_come_to_the_map_of_the_log) {
   EXPECT_EQ(paused->phase, ReplayPhase::kPlaying);
   EXPECT_FALSE(paused->nodes.empty());
   record(150);
-  wait_for_scans(replay, 150);
+  const SnapshotPtr live = wait_for_scans(replay, 150);
   const LiveFigures figures = replay.live_figures().value();
   EXPECT_GT(figures.delay_s, 0);
   EXPECT_GE(figures.largest_delay_s, figures.delay_s);
@@ -67,6 +67,8 @@ TEST_F(LiveReplay, maps_scans_as_they_come_to_the_map_of_the_log) {
   const SnapshotPtr finished = wait_for(replay, ReplayPhase::kFinished);
   EXPECT_FALSE(finished->interrupted);
   EXPECT_FALSE(finished->loops->empty());
+  for (std::size_t i = 0; i < 150; ++i)
+    EXPECT_EQ(live->frames[i].loops_tried, finished->frames[i].loops_tried) << "scan " << i;
   replay.export_to(out("live"), false);
   EXPECT_EQ(wait_for_export(replay, 1)->exported->failure, "");
 

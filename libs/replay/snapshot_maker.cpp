@@ -30,8 +30,9 @@ mrpt::math::TPose2D map_T_frame(const ReplaySnapshot& snapshot, std::size_t fram
   return (*snapshot.map_T_node)[node] + node_T_frame;
 }
 
-SnapshotMaker::SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits) {
+SnapshotMaker::SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits, bool live) {
   now.psi = psi;
+  now.live = live;
   now.edits = std::make_shared<std::vector<TimedEdit>>(edits);
 }
 

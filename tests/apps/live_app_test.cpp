@@ -228,7 +228,8 @@ TEST_F(LiveApp, says_what_is_wrong_with_the_arguments) {
               HasSubstr("--json contradicts --poses"));
   EXPECT_THAT(complaint(live({"--follow", log_.string(), "--set", "log.calibrate=true"})),
               HasSubstr("log.calibrate needs a complete log"));
-  EXPECT_THAT(complaint({"localize", "map.yaml", "--idle-s", "1"}), HasSubstr("need a source"));
+  EXPECT_THAT(complaint({"localize", "map.yaml", "--idle-s", "1"}),
+              HasSubstr("--idle-s needs a live source"));
   EXPECT_THAT(complaint({"localize", "map.yaml", "my.log", "--stdin"}), HasSubstr("a log or a live source"));
   EXPECT_FALSE(std::filesystem::exists(folder("live")));
 }

@@ -19,7 +19,7 @@ class BackEndThread {
   /// Without `own_thread`, or if no thread can be started, hand_over() does the work itself. A thread that
   /// `yields` has a lower priority than the others. `builder` must outlive this object.
   BackEndThread(GraphBuilder& builder, bool own_thread, bool yields = false);
-  /// Ends the thread after the frame it works on. Frames behind it are dropped.
+  /// Ends the thread after the frame it works on. Later frames are dropped.
   ~BackEndThread();
   BackEndThread(const BackEndThread&) = delete;
   BackEndThread& operator=(const BackEndThread&) = delete;

@@ -14,7 +14,7 @@ using mrpt::math::TPose2D;
 constexpr std::uint32_t kNoVariable = NodeStar::kNoVariable;
 // The whole graph is solved when it has grown by this share of its nodes since the last complete solution.
 constexpr double kGrowthBetweenCompleteSolutions = 0.2;
-// Leaves are placed anew when a core node has moved by more than this.
+// Leaves are moved when a core node has moved by more than this.
 constexpr double kPlacing_m = 5e-4;
 constexpr double kPlacing_rad = 5e-5;
 

@@ -8,7 +8,7 @@
 // - Constraints are linearised again only if they are new, or if their nodes have moved so far that the
 //   linearisation or the weight by the kernel no longer holds (fluid relinearisation of Kaess et al.,
 //   "iSAM2", IJRR 2012).
-// - Leaves are placed anew only if a core node that they depend on has moved noticeably.
+// - Leaves are moved only if a core node that they depend on has moved noticeably.
 //
 // Complete solutions follow at intervals, and whenever the steps do not lower the error sum as predicted.
 // Between them the error sum exceeds its minimum by less than 0.1 % in all measurements, and nodes are a few

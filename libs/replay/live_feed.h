@@ -18,7 +18,7 @@ namespace psi_slam {
 
 /// A live source that is opened later.
 struct LiveStream {
-  std::string name;  ///< stands for the log in reports
+  std::string name;  ///< names the log in reports
   /// Opens the source, as open_live() does.
   std::function<std::unique_ptr<FrameSource>(const LogOptions&, const LiveControl&)> open;
 };

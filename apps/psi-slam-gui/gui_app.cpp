@@ -18,6 +18,7 @@
 #include "base/exit_code.h"
 #include "command_line.h"
 #include "document_options.h"
+#include "live_arguments.h"
 #include "main_frame.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
@@ -31,10 +32,11 @@ struct Arguments {
   std::string edits;                  ///< file of loop edits; empty: no edits
   std::string config;                 ///< settings file; empty: the defaults
   std::vector<std::string> settings;  ///< "section.key=value", in the order given
+  LiveArguments live;
 };
 
 /// Parses the arguments with `app`. Throws CLI::ParseError for --help, --version and syntax errors, and
-/// UserError for unknown arguments and for --edits without a log.
+/// UserError for unknown arguments, for --edits without a log and for a wrong live source.
 Arguments parse(const std::vector<std::string>& arguments, CLI::App& app) {
   Arguments line;
   app.add_option("LOG", line.log,
@@ -42,6 +44,7 @@ Arguments parse(const std::vector<std::string>& arguments, CLI::App& app) {
       ->type_name("");
   app.add_option("--edits", line.edits, "File of loop edits, as saved with Edit > Save loop edits")
       ->type_name("FILE");
+  add_source_options(app, line.live);
   add_settings_options(app, line.config, line.settings);
   app.set_version_flag("--version", "psi-slam-gui " PSI_SLAM_VERSION, "Print the version and exit");
   add_document_options(app, default_settings());
@@ -52,6 +55,7 @@ Arguments parse(const std::vector<std::string>& arguments, CLI::App& app) {
     throw UserError(unknown_argument_text(unknown.front(), app, "psi-slam-gui"));
   if (!line.edits.empty() && line.log.empty())
     throw UserError("--edits needs a log: name the log that the edits belong to");
+  if (live_input(line.live) && !line.log.empty()) throw UserError("name a log or a live source, not both");
   return line;
 }
 
@@ -70,6 +74,7 @@ class GuiApp : public wxApp {
     auto* frame = new MainFrame();  // wxWidgets deletes the frame when it is closed
     frame->Show();
     frame->start(line_.log, line_.config, line_.settings, line_.edits);
+    if (const auto source = live_input(line_.live)) frame->connect(*source);
     if (when_shown_) frame->CallAfter([this, frame] { when_shown_(*frame); });
     return true;
   }

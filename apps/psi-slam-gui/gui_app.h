@@ -2,6 +2,7 @@
 // psi-slam-gui: replays a log in a window and shows how the map is built.
 //
 //     psi-slam-gui [LOG [--edits FILE]] [-c INI] [--set SECTION.KEY=VALUE]...
+//     psi-slam-gui --tcp PORT | --follow FILE | --sensors INI [-c INI] [--set SECTION.KEY=VALUE]...
 #pragma once
 
 #include <functional>

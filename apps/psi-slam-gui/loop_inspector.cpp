@@ -231,6 +231,7 @@ void LoopInspector::refresh_rows() {
   const long top = list_->GetTopItem();
   const bool visible = before >= top && before < top + list_->GetCountPerPage();
   list_->SetItemCount(static_cast<long>(list_->table.rows()));
+  list_->OnInternalIdle();  // arranges the rows now, because a window that draws a live map is seldom idle
   const auto row = selected_ ? list_->table.row_of(*selected_) : std::nullopt;
   const bool still_listed = before >= 0 && before < list_->GetItemCount();
   if (still_listed && (!row || before != static_cast<long>(*row)))

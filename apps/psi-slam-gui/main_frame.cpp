@@ -5,14 +5,20 @@
 #include <wx/config.h>
 #include <wx/dirdlg.h>
 #include <wx/filedlg.h>
+#include <wx/numdlg.h>
 #include <wx/settings.h>
 #include <wx/simplebook.h>
 #include <wx/sizer.h>
 #include <wx/statbmp.h>
 #include <wx/stattext.h>
+#include <wx/statusbr.h>
 #include <wx/toolbar.h>
 
+#include <cctype>
+#include <limits>
+
 #include "icons.h"
+#include "live_status.h"
 #include "loop_inspector.h"
 #include "main_menu.h"
 #include "map_canvas.h"
@@ -30,6 +36,9 @@ namespace {
 constexpr int kRefresh_ms = 50;
 constexpr const char* kUnsaved =
     "Some scans or edits have not been exported or saved. Close the window anyway?";
+constexpr int kLiveField = 1;  // field of the status bar for the figures of a live source
+constexpr int kLiveFieldWidth = 480;
+constexpr int kUsualPort = 5000;
 constexpr double kLoopDistance_m = 20;  // distance from the camera to a selected loop
 
 /// The page shown in place of the map until a log is open.
@@ -69,6 +78,16 @@ AskForFile ask_in_dialogs(wxWindow& parent) {
   };
 }
 
+AskForPort ask_port_in_dialog(wxWindow& parent) {
+  return [&parent]() -> std::optional<std::uint16_t> {
+    const long port = wxGetNumberFromUser("A program on this computer sends CARMEN lines to this TCP port.",
+                                          "Port:", "Receive CARMEN lines", kUsualPort, 1,
+                                          std::numeric_limits<std::uint16_t>::max(), &parent);
+    if (port < 0) return std::nullopt;
+    return static_cast<std::uint16_t>(port);
+  };
+}
+
 }  // namespace
 
 MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "psi-slam"), recent_(9), timer_(this) {
@@ -79,6 +98,7 @@ MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "psi-slam"), recent_(9), tim
   bind_commands();
   enable_commands();
   ask_for_file_ = ask_in_dialogs(*this);
+  ask_for_port_ = ask_port_in_dialog(*this);
   default_panes_ = panes_.SavePerspective();
   restore_layout(*wxConfigBase::Get(), *this, panes_, canvas_->map_scene());
   check_choices();
@@ -172,6 +192,24 @@ void MainFrame::refresh() {
   transport_->show(*snapshot, replay_->stamps_us(), run_.frame);
   canvas_->show(snapshot, replay_->drawn_map(), run_.frame);
   plots_->show(snapshot, run_.frame);
+  show_live_figures();
+}
+
+/// Shows the figures and new notices of a live source in the status bar.
+void MainFrame::show_live_figures() {
+  const std::optional<LiveFigures> figures = replay_ ? replay_->live_figures() : std::nullopt;
+  wxStatusBar& bar = *GetStatusBar();
+  const int fields = figures ? kLiveField + 1 : kLiveField;
+  const std::array<int, kLiveField + 1> widths{-1, FromDIP(kLiveFieldWidth)};
+  if (bar.GetFieldsCount() != fields) bar.SetFieldsCount(fields, widths.data());
+  if (!figures) return;
+  const wxString text = text_of(live_status(*figures));
+  if (bar.GetStatusText(kLiveField) != text) bar.SetStatusText(text, kLiveField);
+  if (figures->notices == run_.notices) return;
+  run_.notices = figures->notices;
+  std::string notice = figures->notice;
+  notice.front() = static_cast<char>(std::toupper(notice.front()));
+  show_status(notice);
 }
 
 /// Shows warnings, failures and outcomes of saves, exports and edits that `before` does not have.
@@ -180,7 +218,8 @@ void MainFrame::report_changes(const ReplaySnapshot& snapshot, const ReplaySnaps
   const bool exported = is_new(snapshot.exported, before.exported);
   const bool failed = snapshot.phase == ReplayPhase::kFailed;
   report_warnings(snapshot.warnings);
-  if (before.phase == ReplayPhase::kOpening && snapshot.phase != ReplayPhase::kOpening && !failed)
+  if (before.phase == ReplayPhase::kOpening && snapshot.phase != ReplayPhase::kOpening && !failed &&
+      !snapshot.live)
     add_to_recent_logs();
   if (saved) report_save(*snapshot.saved);
   if (exported) report_export(*snapshot.exported);
@@ -221,17 +260,22 @@ void MainFrame::enable_commands() {
   const bool searching = phase == ReplayPhase::kFinalSearch;
   const bool finished = phase == ReplayPhase::kFinished;
   const bool has_scans = open && !run_.snapshot->frames.empty();
+  const bool live = open && run_.snapshot->live;
+  const bool connected = is_connected();
   wxMenuBar& menu = *GetMenuBar();
-  menu.Enable(kPlayOrPause, mapping || searching);
-  menu.Enable(kStep, mapping);
-  menu.Enable(kFinish, has_scans && (mapping || searching));
-  menu.Enable(kRestart, open);
+  for (const int command : {kConnectTcp, kConnectLog, kConnectSensors}) menu.Enable(command, !connected);
+  menu.Enable(kDisconnect, connected);
+  menu.Enable(kPlayOrPause, (mapping && !live) || searching);
+  menu.Enable(kStep, mapping && !live);
+  menu.Enable(kFinish, connected || (has_scans && (mapping || searching)));
+  menu.Enable(kRestart, open && !live);
+  for (int i = 0; i < static_cast<int>(kSpeeds.size()); ++i) menu.Enable(kSpeed + i, !live);
   menu.Enable(kExport, finished);
   menu.Enable(kResumeWithLog, replay_ && replay_->input().recording() != nullptr);
   menu.Enable(kSaveSession, has_scans && (mapping || finished));
   menu.Enable(kSavePicture, open);
   enable_edit_commands();
-  GetToolBar()->EnableTool(kRestart, open);
+  GetToolBar()->EnableTool(kRestart, open && !live);
   GetToolBar()->EnableTool(kExport, finished);
 }
 
@@ -262,9 +306,9 @@ void MainFrame::go_to(std::size_t scan) {
   run_.frame.reset();
   if (scan + 1 < mapped)
     run_.frame = scan;
-  else if (scan + 1 > mapped && mapping)
+  else if (scan + 1 > mapped && mapping && !is_live())
     replay_->hurry_to(scan + 1);
-  else if (scan + 1 > mapped)
+  else if (scan + 1 > mapped && !is_live())
     show_status("The run was finished after " + std::to_string(mapped) +
                 " scans. Press Restart to map later scans.");
   refresh();
@@ -296,6 +340,21 @@ bool MainFrame::edits_are_pending() const {
 
 bool MainFrame::has_unsaved_edits() const {
   return replay_ && (edits_are_pending() || unsaved_.any_edits(*replay_->snapshot()));
+}
+
+bool MainFrame::is_connected() const {
+  if (!run_.snapshot || !run_.snapshot->live) return false;
+  return run_.snapshot->phase == ReplayPhase::kOpening || run_.snapshot->phase == ReplayPhase::kPlaying;
+}
+
+void MainFrame::ask_before_loss(const std::string& question, const std::string& answer,
+                                const std::function<void()>& action) {
+  const bool loses_map = is_live() && has_unsaved_work();
+  if (!loses_map && !has_unsaved_edits()) return action();
+  messages_->warn(
+      (loses_map ? "The live map has not been exported or saved. " : "Loop edits have not been saved. ") +
+          question,
+      {{answer, action}});
 }
 
 bool MainFrame::has_unsaved_work() const {

@@ -7,6 +7,7 @@
 #include <wx/timer.h>
 
 #include <array>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -17,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "live/live_source.h"
 #include "replay_slot.h"
 #include "session/settings.h"
 #include "session_reader.h"
@@ -45,6 +47,9 @@ struct FileQuestion {
 /// exists, the user has agreed to replace it.
 using AskForFile = std::function<std::optional<std::filesystem::path>(const FileQuestion&)>;
 
+/// Asks the user for the number of a TCP port. Returns nothing if the user cancels.
+using AskForPort = std::function<std::optional<std::uint16_t>()>;
+
 /// The window. The map is in the middle, with the transport bar and the loops below it, and settings and
 /// plots on its right. The window reads the state of the run 20 times a second and never waits for the run.
 class MainFrame : public wxFrame {
@@ -59,8 +64,12 @@ class MainFrame : public wxFrame {
   /// session's edits. `overrule` may change settings that do not shape the map of the session.
   void open_log(const std::filesystem::path& log, std::optional<EditJournal> edits = {},
                 const std::function<void(BoundSettings&)>& overrule = {});
-  /// Calls open_log(), but asks first if edits would be lost.
+  /// Calls open_log(), but asks first if edits or a live map would be lost.
   void open_other_log(const std::filesystem::path& log);
+  /// Maps what a live source sends.
+  void connect(const LiveInput& source);
+  /// Calls connect(), but asks first if edits or another live map would be lost.
+  void connect_other(const LiveInput& source);
   /// Opens a file that was dropped on the window: settings, loop edits, a log or a session.
   void open_dropped(const std::filesystem::path& file);
   void open_settings(const std::filesystem::path& file);
@@ -81,6 +90,7 @@ class MainFrame : public wxFrame {
 
   // Access for tests.
   void set_ask_for_file(AskForFile ask) { ask_for_file_ = std::move(ask); }
+  void set_ask_for_port(AskForPort ask) { ask_for_port_ = std::move(ask); }
   wxAuiManager& panes() { return panes_; }
   const ReplaySlot& replay() const { return replay_; }
   BoundSettings& settings() { return settings_; }
@@ -98,6 +108,7 @@ class MainFrame : public wxFrame {
     std::vector<std::string> reported_warnings;
     bool may_close_unsaved = false;
     bool close_when_written = false;
+    std::size_t notices = 0;  ///< number of notices of the live source that were shown
   };
 
   void build();
@@ -116,6 +127,7 @@ class MainFrame : public wxFrame {
   void press_key(wxKeyEvent& event);
 
   void refresh();
+  void show_live_figures();
   void report_changes(const ReplaySnapshot& snapshot, const ReplaySnapshot& before);
   void report_warnings(const std::vector<std::string>& warnings);
   void report_save(const WriteOutcome& outcome);
@@ -126,6 +138,13 @@ class MainFrame : public wxFrame {
   void close(wxCloseEvent& event);
   bool has_unsaved_work() const;
   bool has_unsaved_edits() const;
+  bool is_live() const { return replay_ && replay_->snapshot()->live; }
+  /// True while scans of a live source are mapped.
+  bool is_connected() const;
+  /// Calls `action`, but asks first if unsaved edits or an unsaved live map would be lost. `question` and
+  /// `answer` name the action.
+  void ask_before_loss(const std::string& question, const std::string& answer,
+                       const std::function<void()>& action);
   /// True while the run has not processed an edit that the user made. Snapshots lack such an edit.
   bool edits_are_pending() const;
 
@@ -134,6 +153,10 @@ class MainFrame : public wxFrame {
   enum class Edits { kOfFile, kMadeSoFar };
   /// Opens a run. Throws UserError if the run resumes a session and settings that shape the map have changed.
   void open(SessionInput input, Edits edits);
+  /// Clears what the window shows of a run, before another run is opened.
+  void clear_run();
+  /// Shows the run that was opened.
+  void show_run();
   /// Calls `action` and shows its exception, if any, in the message bar.
   void attempt(const std::function<void()>& action);
   /// Sets the check marks of the menus to the visible layers, loops and panes.
@@ -167,6 +190,7 @@ class MainFrame : public wxFrame {
   std::optional<mrpt::math::TPoint2D> first_place_;      ///< first of the two clicks that add a loop
 
   AskForFile ask_for_file_;
+  AskForPort ask_for_port_;
   wxAuiManager panes_;
   wxString default_panes_;
   wxFileHistory recent_;

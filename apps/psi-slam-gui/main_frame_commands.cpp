@@ -29,6 +29,7 @@ using Path = std::filesystem::path;
 
 const char* const kLogFiles =
     "Logs and sessions|*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz;*.zst;*.zstd;*.session|All files|*";
+const char* const kGrowingFiles = "CARMEN logs|*.log;*.clf|All files|*";
 const char* const kSettingsFiles = "Settings (*.ini)|*.ini|All files|*";
 
 }  // namespace
@@ -79,6 +80,27 @@ void MainFrame::press_key(wxKeyEvent& event) {
 void MainFrame::bind_file_commands() {
   on_file(kOpenLog, {Ask::kOpen, "Open a log or a session", kLogFiles, ""}, &MainFrame::open_other_log);
   on_file(kOpenFolder, {Ask::kFolder, "Open the folder of a ROS 2 bag", "", ""}, &MainFrame::open_other_log);
+  on(kConnectTcp, [this] {
+    LiveInput source;
+    source.kind = LiveInput::Kind::kTcp;
+    const std::optional<std::uint16_t> port = ask_for_port_();
+    source.port = port.value_or(0);
+    if (port) connect_other(source);
+  });
+  const auto connect_to = [](LiveInput::Kind kind) {
+    return [kind](MainFrame& frame, const Path& file) {
+      LiveInput source;
+      source.kind = kind;
+      source.file = file.string();
+      frame.connect_other(source);
+    };
+  };
+  on_file(kConnectLog, {Ask::kOpen, "Follow a CARMEN log that is being recorded", kGrowingFiles, ""},
+          connect_to(LiveInput::Kind::kFollow));
+  on_file(kConnectSensors,
+          {Ask::kOpen, "Open the settings of the sensors, as for rawlog-grabber", kSettingsFiles, ""},
+          connect_to(LiveInput::Kind::kSensors));
+  on(kDisconnect, [this] { finish(); });
   on_file(kSaveSession, {Ask::kSave, "Save the session", "Sessions (*.session)|*.session", "my.session"},
           &MainFrame::save_session);
   on_file(kResumeWithLog,
@@ -251,6 +273,29 @@ void MainFrame::report_failure(const std::exception_ptr& failure) {
 
 void MainFrame::open(SessionInput input, Edits edits) {
   if (input.recording()) require_kept(session_settings_, settings_.table, opened_);
+  clear_run();
+  edits == Edits::kOfFile ? unsaved_.open(input) : unsaved_.restart(input);
+  replay_.open(std::move(input), settings_.settings);
+  show_run();
+}
+
+void MainFrame::connect(const LiveInput& source) {
+  attempt([&] {
+    LiveStream stream = live_stream(source);
+    opened_ = stream.name;
+    session_settings_.clear();
+    clear_run();
+    unsaved_ = {};
+    replay_.open(std::move(stream), settings_.settings);
+    show_run();
+  });
+}
+
+void MainFrame::connect_other(const LiveInput& source) {
+  ask_before_loss("Connect anyway?", "Connect", [this, source] { connect(source); });
+}
+
+void MainFrame::clear_run() {
   session_reader_.give_up();  // a session that is being read belongs to the previous run
   messages_->dismiss();
   run_ = {};
@@ -259,8 +304,9 @@ void MainFrame::open(SessionInput input, Edits edits) {
   plots_->show(std::make_shared<ReplaySnapshot>(), {});
   run_.settings = settings_file_text(settings_.table);
   settings_panel_->show_pending(false);
-  edits == Edits::kOfFile ? unsaved_.open(input) : unsaved_.restart(input);
-  replay_.open(std::move(input), settings_.settings);
+}
+
+void MainFrame::show_run() {
   replay_->set_speed(speed_);
   middle_->SetSelection(kMapPage);
   canvas_->show_all();
@@ -269,9 +315,7 @@ void MainFrame::open(SessionInput input, Edits edits) {
 }
 
 void MainFrame::open_other_log(const Path& log) {
-  if (!has_unsaved_edits()) return open_log(log);
-  messages_->warn("Loop edits have not been saved. Open another log anyway?",
-                  {{"Open it", [this, log] { open_log(log); }}});
+  ask_before_loss("Open another log anyway?", "Open it", [this, log] { open_log(log); });
 }
 
 void MainFrame::open_dropped(const Path& file) {
@@ -281,11 +325,13 @@ void MainFrame::open_dropped(const Path& file) {
 }
 
 void MainFrame::show_pending_settings() {
-  if (replay_) settings_panel_->show_pending(settings_file_text(settings_.table) != run_.settings);
+  if (replay_ && !is_live())
+    settings_panel_->show_pending(settings_file_text(settings_.table) != run_.settings);
 }
 
 void MainFrame::restart() {
-  if (replay_) attempt([this] { open(replay_->input().with_edits(edits()), Edits::kMadeSoFar); });
+  if (replay_ && !is_live())
+    attempt([this] { open(replay_->input().with_edits(edits()), Edits::kMadeSoFar); });
 }
 
 void MainFrame::save_session(const Path& file) {

@@ -128,7 +128,7 @@ void MainFrame::enable_edit_commands() {
   enable(kAddLoop, open && !snapshot->map_T_node->empty());
   enable(kUndo, open && !snapshot->undo_text.empty());
   enable(kRedo, open && !snapshot->redo_text.empty());
-  enable(kOpenEdits, snapshot != nullptr);
+  enable(kOpenEdits, snapshot != nullptr && !snapshot->live);
   // Edits can also be saved after a failure of the run.
   enable(kSaveEdits, snapshot != nullptr && !snapshot->edits->empty());
   const auto title = [&](int command, const char* name, const char* key, const std::string& what) {
@@ -148,6 +148,10 @@ EditJournal MainFrame::edits() const {
 
 void MainFrame::open_edits(const std::filesystem::path& file) {
   if (!replay_) return;
+  if (is_live())
+    return messages_->fail(
+        "A live source cannot be mapped again with other edits. Save the session, open it, and open the "
+        "edits then.");
   if (!has_unsaved_edits()) return map_again_with(file);
   messages_->warn("Loop edits have not been saved. Open other edits anyway?",
                   {{"Open other edits", [this, file] { map_again_with(file); }}});

@@ -34,7 +34,13 @@ wxMenu* file_menu(wxMenu* recent) {
   wxMenu* const menu = append(new wxMenu, {{kOpenLog, "&Open log or session…\tCtrl+O"},
                                            {kOpenFolder, "Open &folder of a ROS 2 bag…"}});
   menu->AppendSubMenu(recent, "&Recent logs");
-  return append(menu, {{},
+  menu->AppendSeparator();
+  menu->AppendSubMenu(append(new wxMenu, {{kConnectTcp, "Receive CARMEN lines on a TCP &port…"},
+                                          {kConnectLog, "Follow a &growing CARMEN log…"},
+                                          {kConnectSensors, "Read &sensors of a settings file…"}}),
+                      "&Connect");
+  return append(menu, {{kDisconnect, "&Disconnect and finish map"},
+                       {},
                        {kResumeWithLog, "Resume session with its lo&g…"},
                        {kSaveSession, "Save sessio&n…\tCtrl+S"},
                        {},

@@ -18,7 +18,9 @@ class ReplaySlot {
   Replay* operator->() const { return replay_.get(); }
   explicit operator bool() const { return replay_ != nullptr; }
 
-  void open(SessionInput input, const Settings& settings) {
+  /// Opens a run of a SessionInput or a LiveStream.
+  template <class Input>
+  void open(Input input, const Settings& settings) {
     if (replay_) {
       const auto closed_at = replay_->snapshot();
       replay_->close();

@@ -33,7 +33,8 @@ TransportBar::TransportBar(wxWindow* parent, const std::function<void(std::size_
   play_ = button(this, Icon::kPlay, "Play or pause (Space)", kPlayOrPause);
   play_->SetName("play");
   step_ = button(this, Icon::kStep, "Map one more scan (.)", kStep);
-  finish_ = button(this, Icon::kFinish, "Stop reading the log and finish the map (Ctrl+Return)", kFinish);
+  finish_ = button(this, Icon::kFinish,
+                   "Stop reading the log or the live source, and finish the map (Ctrl+Return)", kFinish);
   speed_ = new wxChoice(this, wxID_ANY);
   speed_->SetToolTip("Speed of the replay, as a multiple of the recorded speed");
   for (const double speed : kSpeeds) speed_->Append(speed_text(speed));
@@ -67,11 +68,13 @@ void TransportBar::show(const ReplaySnapshot& snapshot,
                         const std::shared_ptr<const std::vector<TimeUs>>& stamps_us,
                         std::optional<std::size_t> shown) {
   const bool mapping = snapshot.phase == ReplayPhase::kPaused || snapshot.phase == ReplayPhase::kPlaying;
+  const bool replays = !snapshot.live && (mapping || snapshot.phase == ReplayPhase::kOpening);
   const bool final_search = snapshot.phase == ReplayPhase::kFinalSearch;
-  play_->Enable(mapping || final_search || snapshot.phase == ReplayPhase::kOpening);
-  step_->Enable(mapping);
-  finish_->Enable((mapping && !snapshot.frames.empty()) || final_search);
-  slider_->Enable(mapping || !snapshot.frames.empty());
+  play_->Enable(replays || final_search);
+  step_->Enable(replays && mapping);
+  finish_->Enable((mapping && (snapshot.live || !snapshot.frames.empty())) || final_search);
+  speed_->Enable(!snapshot.live);
+  slider_->Enable((replays && mapping) || !snapshot.frames.empty());
   if (const bool plays = can_pause(snapshot); plays != std::exchange(plays_, plays))
     play_->SetBitmap(
         icon_of(plays ? Icon::kPause : Icon::kPlay, wxSystemSettings::GetColour(wxSYS_COLOUR_BTNTEXT)));
@@ -120,10 +123,11 @@ std::string progress_words(const ReplaySnapshot& snapshot, double waiting_left_s
       std::to_string(snapshot.frames.size()) + " scans" + (all_matched ? "" : ", " + unmatched);
   switch (snapshot.phase) {
     case ReplayPhase::kOpening:
-      return "Opening the log";
+      return snapshot.live ? "Connecting" : "Opening the log";
     case ReplayPhase::kPaused:
       return snapshot.frames.empty() ? "Ready. Press play." : "Paused after " + scans;
     case ReplayPhase::kPlaying: {
+      if (snapshot.live) return snapshot.frames.empty() ? "Waiting for scans" : "Mapping live: " + scans;
       SessionProgress progress = snapshot.progress;
       if (waiting_left_s > 0)
         progress.remaining_s = std::max(waiting_left_s, progress.remaining_s.value_or(0));

@@ -59,8 +59,8 @@ void watch(MappingSession& session, const InterruptSignals& signals, const Comma
            const Streams& streams, std::optional<ProgressLine>& progress_line);
 
 /// Saves the finished session if --save-session is given, writes its results, deletes the journal, and prints
-/// the summary and all warnings. Returns the exit code. If the session cannot be saved, the results are written before the
-/// exception is thrown.
+/// the summary and all warnings. Returns the exit code. If the session cannot be saved, the results are
+/// written before the exception is thrown.
 int save_and_export(MappingSession& session, const OutputFolder& folder, const CommandLine& line,
                     const Streams& streams, std::optional<ProgressLine>& progress_line);
 

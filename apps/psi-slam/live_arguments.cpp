@@ -28,8 +28,7 @@ std::uint16_t port_of(const std::string& text) {
 
 }  // namespace
 
-void add_live_options(CLI::App& command, LiveArguments& arguments) {
-  command.add_flag("--stdin", arguments.standard_input, "Read CARMEN lines from standard input");
+void add_source_options(CLI::App& command, LiveArguments& arguments) {
   add_value(command, "--tcp", arguments.tcp, "Read CARMEN lines that a client sends to this TCP port",
             "PORT");
   add_value(command, "--bind", arguments.address,
@@ -47,6 +46,11 @@ void add_live_options(CLI::App& command, LiveArguments& arguments) {
       command, "--look-over-s", arguments.look_over_s,
       "Choose lasers, odometry and the mask of the robot's body by the first seconds of scans. Default: 5",
       "SECONDS");
+}
+
+void add_live_options(CLI::App& command, LiveArguments& arguments) {
+  command.add_flag("--stdin", arguments.standard_input, "Read CARMEN lines from standard input");
+  add_source_options(command, arguments);
   add_value(command, "--poses", arguments.poses,
             "Print the pose of each scan to standard output, one line each: tum or json", "FORMAT");
 }
@@ -54,14 +58,17 @@ void add_live_options(CLI::App& command, LiveArguments& arguments) {
 std::optional<LiveInput> live_input(const LiveArguments& arguments) {
   const int sources = (arguments.standard_input ? 1 : 0) + (arguments.tcp.empty() ? 0 : 1) +
                       (arguments.follow.empty() ? 0 : 1) + (arguments.sensors.empty() ? 0 : 1);
-  if (sources > 1) throw UserError("name only one source: --stdin, --tcp, --follow or --sensors");
+  if (sources > 1) throw UserError("name only one source, such as --tcp PORT or --follow FILE");
   if (!arguments.address.empty() && arguments.tcp.empty())
     throw UserError("--bind has no effect without --tcp PORT");
   if (sources == 0) {
-    if (!arguments.idle_s.empty() || !arguments.look_over_s.empty() || !arguments.poses.empty())
-      throw UserError(
-          "--idle-s, --look-over-s and --poses need a source: --stdin, --tcp PORT, --follow FILE or "
-          "--sensors INI");
+    const auto refuse = [](const char* option, const std::string& value) {
+      if (!value.empty())
+        throw UserError(std::string(option) + " needs a live source, such as --tcp PORT or --follow FILE");
+    };
+    refuse("--idle-s", arguments.idle_s);
+    refuse("--look-over-s", arguments.look_over_s);
+    refuse("--poses", arguments.poses);
     return std::nullopt;
   }
   LiveInput input;

@@ -23,7 +23,10 @@ struct LiveArguments {
   std::string poses;        ///< "tum" or "json"
 };
 
-/// Adds the options that fill `arguments`.
+/// Adds the options of a source that fill `arguments`, except standard input.
+void add_source_options(CLI::App& command, LiveArguments& arguments);
+
+/// Adds all options that fill `arguments`.
 void add_live_options(CLI::App& command, LiveArguments& arguments);
 
 /// Returns the source that the options name; empty if they name none. Throws UserError if they name several

@@ -37,7 +37,8 @@ void LiveMapWriter::update(const Mapper& mapper) {
   if (period_.count() == 0) return;
   const std::vector<FrameRecord>& frames = mapper.frames();
   poses_.take(frames);
-  map_.update(mapper.log(), [&](std::size_t i) { return poses_.map_T_robot(i, frames, mapper.graph()); });
+  map_.update(mapper.log(),
+              [&](std::size_t i) { return poses_.map_T_robot(i, frames, mapper.node_poses()); });
   if (Clock::now() - last_ >= period_ && map_.work() != handed_work_ && map_.is_complete()) hand_over();
 }
 

@@ -61,12 +61,15 @@ std::vector<std::size_t> BackEnd::confirmed_by(std::size_t index, const Keyframe
 
 std::optional<double> BackEnd::optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver) {
   if (!schedule_.is_due(graph)) return std::nullopt;
-  return optimize(graph, solver);
+  return graph_clock_.time([&] {
+    adjustment_.optimize(graph, solver);
+    schedule_.optimized(graph);
+  });
 }
 
 double BackEnd::optimize(PoseGraph& graph, SparsePoseAdjustment& solver) {
   return graph_clock_.time([&] {
-    solver.optimize(graph);
+    adjustment_.optimize_completely(graph, solver);
     schedule_.optimized(graph);
   });
 }

@@ -23,6 +23,7 @@
 #include "mapping/joint_refinement.h"
 #include "mapping/optimization_schedule.h"
 #include "mapping/stage_clock.h"
+#include "pose_graph/incremental_pose_adjustment.h"
 #include "pose_graph/sparse_pose_adjustment.h"
 
 namespace psi_slam {
@@ -92,9 +93,10 @@ class BackEnd {
   /// nodes that are now confirmed. Call it for every node in order.
   NodeLoops close(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph);
 
-  /// Optimises the graph if new loops make it necessary, see OptimizationSchedule. Returns the time in
-  /// milliseconds; nothing without an optimisation.
+  /// Optimises the graph incrementally if new loops make it necessary, see OptimizationSchedule and
+  /// IncrementalPoseAdjustment. Returns the time in milliseconds; nothing without an optimisation.
   std::optional<double> optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver);
+  /// Solves the whole graph. Returns the time in milliseconds.
   double optimize(PoseGraph& graph, SparsePoseAdjustment& solver);
 
   /// Runs the final loop search after the last scan. Before the first pass and after each pass, optimises the
@@ -133,6 +135,7 @@ class BackEnd {
   LoopLedger ledger_;
   WorkerPool pool_;
   OptimizationSchedule schedule_;
+  IncrementalPoseAdjustment adjustment_;
   StageClock loop_clock_{"close loops"};
   StageClock graph_clock_{"optimise pose graph"};
   StageClock final_search_clock_{"final loop search"};

@@ -4,12 +4,18 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <system_error>
 #include <utility>
 
 namespace psi_slam {
 
-BackEndThread::BackEndThread(GraphBuilder& builder, bool own_thread) : builder_(builder) {
-  if (own_thread) thread_ = std::thread([this] { work(); });
+BackEndThread::BackEndThread(GraphBuilder& builder, bool own_thread, bool yields) : builder_(builder) {
+  if (!own_thread) return;
+  try {
+    thread_ = std::thread([this, yields] { work(yields); });
+  } catch (const std::system_error&) {
+    // The results are the same without the thread.
+  }
 }
 
 BackEndThread::~BackEndThread() {
@@ -24,13 +30,10 @@ BackEndThread::~BackEndThread() {
 
 void BackEndThread::hand_over(TrackedFrame tracked) {
   ++handed_over_;
-  if (!thread_.joinable()) {
-    done_.push_back(builder_.add(tracked));
-    return;
-  }
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    std::unique_lock<std::mutex> lock(mutex_);
     waiting_.push_back(std::move(tracked));
+    if (!thread_.joinable() && !failure_) work_off(lock);
   }
   changed_.notify_all();
 }
@@ -50,29 +53,34 @@ BackEndStep BackEndThread::take() {
   return step;
 }
 
-void BackEndThread::work() {
-  constexpr int kNiceness = 10;  // the front end answers first if both share a processor
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);  // on Linux, affects one thread only
+void BackEndThread::work(bool yields) {
+  constexpr int kNiceness = 10;
+  // On Linux, this affects one thread only. The threads that match loops keep their priority.
+  if (yields) setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
   std::unique_lock<std::mutex> lock(mutex_);
-  while (true) {
+  while (!failure_) {
     changed_.wait(lock, [&] { return stop_ || !waiting_.empty(); });
     if (stop_) return;
-    const TrackedFrame tracked = std::move(waiting_.front());
-    waiting_.pop_front();
-    lock.unlock();
-    BackEndStep step;
-    std::exception_ptr failure;
-    try {
-      step = builder_.add(tracked);
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    lock.lock();
-    failure_ = failure;
-    if (!failure) done_.push_back(std::move(step));
+    work_off(lock);
     changed_.notify_all();
-    if (failure) return;
   }
+}
+
+// Works off the oldest frame that waits. `lock` is released meanwhile.
+void BackEndThread::work_off(std::unique_lock<std::mutex>& lock) {
+  const TrackedFrame tracked = std::move(waiting_.front());
+  waiting_.pop_front();
+  lock.unlock();
+  BackEndStep step;
+  std::exception_ptr failure;
+  try {
+    step = builder_.add(tracked);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  lock.lock();
+  failure_ = failure;
+  if (!failure) done_.push_back(std::move(step));
 }
 
 }  // namespace psi_slam

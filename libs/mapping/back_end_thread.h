@@ -16,9 +16,10 @@ namespace psi_slam {
 
 class BackEndThread {
  public:
-  /// Without `own_thread`, hand_over() does the work itself. `builder` must outlive this object.
-  BackEndThread(GraphBuilder& builder, bool own_thread);
-  /// Ends the thread after the frame it works on. Frames behind it are dropped.
+  /// Without `own_thread`, or if no thread can be started, hand_over() does the work itself. A thread that
+  /// `yields` has a lower priority than the others. `builder` must outlive this object.
+  BackEndThread(GraphBuilder& builder, bool own_thread, bool yields = false);
+  /// Ends the thread after the frame it works on. Later frames are dropped.
   ~BackEndThread();
   BackEndThread(const BackEndThread&) = delete;
   BackEndThread& operator=(const BackEndThread&) = delete;
@@ -35,7 +36,8 @@ class BackEndThread {
   BackEndStep take();
 
  private:
-  void work();
+  void work(bool yields);
+  void work_off(std::unique_lock<std::mutex>& lock);
 
   GraphBuilder& builder_;
   std::size_t handed_over_ = 0;
@@ -45,7 +47,7 @@ class BackEndThread {
   std::condition_variable changed_;
   std::deque<TrackedFrame> waiting_;
   std::deque<BackEndStep> done_;
-  std::exception_ptr failure_;  ///< ends the thread
+  std::exception_ptr failure_;  ///< what the builder threw; no further frame is worked off
   bool stop_ = false;
 
   std::thread thread_;

@@ -55,15 +55,14 @@ class GraphBuilder {
   void begin_run(const RunStart& start);
   void begin_unplaced_run(std::size_t interruption);
 
-  /// Carries out an edit of a loop whose node and local map exist, and optimises the graph. Returns the
-  /// interruptions whose runs the edit joined to the map.
   struct Edited {
     LoopEditOutcome outcome;
-    std::vector<std::size_t> joined;
+    std::vector<std::size_t> joined;  ///< interruptions whose runs the edit joined to the map
   };
+  /// Carries out an edit of a loop whose node and local map exist, and optimises the graph.
   Edited carry_out(const LoopEdit& edit, std::size_t node);
 
-  /// Returns the final loop search, see BackEnd::finish_loops().
+  /// Runs the final loop search, see BackEnd::finish_loops().
   std::pair<MatcherKind, LoopEffort> finish_loops(FinalProgress& progress) {
     return back_end_.finish_loops(keyframes_, graph_, solver_, progress);
   }

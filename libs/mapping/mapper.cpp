@@ -27,11 +27,12 @@ Mapper::Implementation::Implementation(const MapperOptions& options)
     : options_(options),
       front_end_(options.front_end),
       builder_(options),
-      back_end_(builder_, options.back_end_thread) {
+      back_end_(builder_, options.back_end_thread, options.back_end_yields) {
   result_.psi = {options.back_end.psi.psi_1, options.back_end.psi.psi_2};
 }
 
 const FrameRecord& Mapper::Implementation::add(Frame frame) {
+  waited_ = false;
   FrameRecord record;
   record.time_us = frame.time_us;
 
@@ -67,6 +68,7 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
     wait();
     serve_waiting_edits();
   }
+  if (waited_) ++missed_deadlines_;
   return added;
 }
 
@@ -83,20 +85,20 @@ void Mapper::Implementation::add_node(const FrontEndStep& step) {
 void Mapper::Implementation::take_due_results() {
   const std::vector<std::size_t>& nodes = result_.node_frames;
   const std::size_t latency = options_.latency_nodes;
+  // Results that came early complete the records of earlier frames at once, so that they do not pile up.
+  while (latency > 0 && back_end_.in_work() > 1 && back_end_.is_ready()) complete_record(back_end_.take());
   if (latency > 0 && (!result_.frames.back().node || nodes.size() <= latency)) return;
   const std::size_t due_nodes = nodes.size() - latency;
-  if (take_results(latency == 0 ? result_.frames.size() : nodes[due_nodes - 1] + 1)) ++missed_deadlines_;
+  take_results(latency == 0 ? result_.frames.size() : nodes[due_nodes - 1] + 1);
   apply_corrections(due_nodes);
 }
 
-// Completes the records of the frames before `end`. Returns whether it had to wait.
-bool Mapper::Implementation::take_results(std::size_t end) {
-  bool waited = false;
+// Completes the records of the frames before `end`, and waits for their results if necessary.
+void Mapper::Implementation::take_results(std::size_t end) {
   while (result_.frames.size() - back_end_.in_work() < end) {
-    waited = waited || !back_end_.is_ready();
+    waited_ = waited_ || !back_end_.is_ready();
     complete_record(back_end_.take());
   }
-  return waited;
 }
 
 void Mapper::Implementation::complete_record(BackEndStep&& done) {

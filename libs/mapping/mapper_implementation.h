@@ -59,7 +59,7 @@ class Mapper::Implementation {
   void add_node(const FrontEndStep& step);
   void record_local_map(const PlacedLocalMap& finished);
   void take_due_results();
-  bool take_results(std::size_t end);
+  void take_results(std::size_t end);
   void complete_record(BackEndStep&& done);
   void apply_corrections(std::size_t end_node);
   void catch_up();
@@ -78,7 +78,8 @@ class Mapper::Implementation {
   GraphBuilder builder_;
   BackEndThread back_end_;
   std::deque<Correction> corrections_;  ///< corrections by the back end that are not yet due
-  std::size_t missed_deadlines_ = 0;    ///< number of times that add() waited for a result that was due
+  bool waited_ = false;                 ///< whether add() has waited for the back end
+  std::size_t missed_deadlines_ = 0;    ///< number of calls of add() that waited for the back end
   std::vector<LoopEdit> waiting_edits_;
   std::vector<std::string> impossible_edits_;  ///< one sentence for each waiting edit that became impossible
   std::optional<Checkpoint> before_finish_;

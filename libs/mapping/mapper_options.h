@@ -18,11 +18,13 @@ struct MapperOptions {
   double local_map_sigma_m = 0.015;
   double local_map_sigma_rad = radians_from_degrees(0.25L);
 
-  /// The poses of frames while mapping follow the loops of a node from this many nodes later on. The finished
-  /// map does not depend on it.
+  /// Loops found for a node correct the poses while mapping this many nodes later. The finished map does not
+  /// depend on it.
   std::size_t latency_nodes = 5;
   /// Whether loops are closed in a thread of their own, beside the front end. Has no effect on the results.
   bool back_end_thread = false;
+  /// Whether that thread has a lower priority, so that the front end answers first if both share a processor.
+  bool back_end_yields = false;
 };
 
 }  // namespace psi_slam

@@ -47,13 +47,19 @@ CSensoryFrame::Ptr with_all_scans(const CSensoryFrame::Ptr& kept, const Frame& f
   return all;
 }
 
+// The estimates of pose and map agree with the whole graph.
+MapperOptions without_latency(const CMetricMapBuilderPsi::Options& options) {
+  MapperOptions mapper = options.mapper ? *options.mapper : MapperOptions();
+  mapper.latency_nodes = 0;
+  return mapper;
+}
+
 }  // namespace
 
 struct CMetricMapBuilderPsi::Implementation {
   explicit Implementation(const Options& options)
-      : options_(options), mapper_options_(options.mapper ? *options.mapper : MapperOptions()) {
+      : options_(options), mapper_options_(without_latency(options)) {
     check_log_options(options.log);
-    mapper_options_.latency_nodes = 0;  // the estimates of pose and map agree with the whole graph
     start(CPosePDFGaussian());
   }
 
@@ -174,7 +180,7 @@ struct CMetricMapBuilderPsi::Implementation {
     const std::size_t work = live_map_->work();
     live_poses_.take(frames());
     const auto pose = [&](std::size_t i) {
-      return start_.mean.asTPose() + live_poses_.map_T_robot(i, frames(), graph());
+      return start_.mean.asTPose() + live_poses_.map_T_robot(i, frames(), graph().poses());
     };
     do live_map_->update(log(), pose);
     while (!live_map_->is_complete());
@@ -205,7 +211,7 @@ struct CMetricMapBuilderPsi::Implementation {
   }
 
   const Options options_;
-  MapperOptions mapper_options_;
+  const MapperOptions mapper_options_;
   mutable std::mutex mutex_;  // protects all members below
 
   CPosePDFGaussian start_;

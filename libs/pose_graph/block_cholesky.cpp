@@ -22,10 +22,9 @@ inline void subtract_product(const double* l, const double* x, double* y) {
   }
 }
 
-// Computes the inverse of the Cholesky factor of the symmetric 3x3 matrix `a`. Reads only the lower triangle.
-// Returns false if `a` is not positive definite. A pivot must exceed the rounding error of the original
-// diagonal.
-inline bool invert_factor(const Matrix3d& a, const Eigen::Vector3d& original_diagonal, Matrix3d& inverse) {
+}  // namespace
+
+bool invert_cholesky_factor(const Matrix3d& a, const Eigen::Vector3d& original_diagonal, Matrix3d& inverse) {
   constexpr double kRounding = 1e-15;
   const auto is_pivot = [&](double pivot, int i) { return pivot > kRounding * original_diagonal[i]; };
   const double p0 = a(0, 0);
@@ -48,8 +47,6 @@ inline bool invert_factor(const Matrix3d& a, const Eigen::Vector3d& original_dia
       -(l20 * i00 + l21 * i10) * i22, -l21 * i11 * i22, i22;
   return true;
 }
-
-}  // namespace
 
 std::vector<std::uint32_t> fill_reducing_order(
     std::size_t num_variables, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& links) {
@@ -135,7 +132,7 @@ bool BlockCholesky::factorize(const SymmetricBlockMatrix& matrix, double lambda)
       rows_[p] = k;
       blocks_[p] = x.transpose();
     }
-    if (!invert_factor(diagonal, matrix.diagonal[k].diagonal(), inverse_diagonal_[k])) return false;
+    if (!invert_cholesky_factor(diagonal, matrix.diagonal[k].diagonal(), inverse_diagonal_[k])) return false;
   }
   return true;
 }

@@ -32,6 +32,12 @@ struct SymmetricBlockMatrix {
 std::vector<std::uint32_t> fill_reducing_order(
     std::size_t num_variables, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& links);
 
+/// Computes the inverse of the Cholesky factor of the symmetric 3x3 matrix `a`. Reads only the lower
+/// triangle. Returns false if `a` is not positive definite. A pivot must exceed the rounding error of the
+/// original diagonal, from which other terms were subtracted.
+bool invert_cholesky_factor(const Eigen::Matrix3d& a, const Eigen::Vector3d& original_diagonal,
+                            Eigen::Matrix3d& inverse);
+
 class BlockCholesky {
  public:
   /// Symbolic factorisation: computes everything that depends only on `column_begin` and `rows`.

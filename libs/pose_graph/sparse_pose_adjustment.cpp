@@ -25,18 +25,18 @@ constexpr double kPoorPrediction = 10;
 
 }  // namespace
 
-const RobustKernel& SparsePoseAdjustment::kernel_of(const Constraint& constraint) const {
+const RobustKernel& kernel_of(const Constraint& constraint, const PoseAdjustmentOptions& options) {
   if (constraint.kernel) return *constraint.kernel;
   switch (constraint.kind) {
     case Constraint::Kind::kOdometry:
-      return options_.odometry_kernel;
+      return options.odometry_kernel;
     case Constraint::Kind::kRunStart:
     case Constraint::Kind::kLocalMap:
-      return options_.local_map_kernel;
+      return options.local_map_kernel;
     case Constraint::Kind::kLoop:
       break;
   }
-  return options_.loop_kernel;
+  return options.loop_kernel;
 }
 
 void SparsePoseAdjustment::evaluate(const PoseGraph& graph, State& state) const {
@@ -53,7 +53,7 @@ void SparsePoseAdjustment::evaluate(const PoseGraph& graph, State& state) const 
     state.chi2[i] = std::max(0.0, error.dot(constraint.information * error));
     if (!graph.enabled(i)) continue;
     state.sum += state.chi2[i];
-    state.robust_sum += kernel_of(constraint).cost(state.chi2[i]);
+    state.robust_sum += kernel_of(constraint, options_).cost(state.chi2[i]);
   }
 }
 
@@ -92,7 +92,7 @@ void SparsePoseAdjustment::begin(const PoseGraph& graph) {
 void SparsePoseAdjustment::linearize(const PoseGraph& graph, PoseAdjustmentReport& report) {
   weights_.resize(graph.num_constraints());
   for (std::size_t i = 0; i < weights_.size(); ++i)
-    weights_[i] = graph.enabled(i) ? kernel_of(graph.constraints()[i]).weight(current_.chi2[i]) : 0;
+    weights_[i] = graph.enabled(i) ? kernel_of(graph.constraints()[i], options_).weight(current_.chi2[i]) : 0;
   equations_.linearize(graph, current_.poses, current_.errors, weights_);
   if (uphill_steps_ == 0) report.max_gradient = equations_.max_gradient();
   linearized_ = true;
@@ -196,7 +196,8 @@ PoseAdjustmentReport SparsePoseAdjustment::optimize(PoseGraph& graph) {
   report.final_robust_chi2 = current_.robust_sum;
   report.fits.reserve(graph.num_constraints());
   for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
-    const double weight = graph.enabled(i) ? kernel_of(graph.constraints()[i]).weight(current_.chi2[i]) : 0;
+    const double weight =
+        graph.enabled(i) ? kernel_of(graph.constraints()[i], options_).weight(current_.chi2[i]) : 0;
     report.fits.push_back({current_.chi2[i], weight});
   }
   report.milliseconds =

@@ -31,6 +31,9 @@ struct PoseAdjustmentOptions {
   RobustKernel loop_kernel{RobustKernel::Type::kHuber, 3};
 };
 
+/// Kernel of a constraint: its own, or else that of its kind.
+const RobustKernel& kernel_of(const Constraint& constraint, const PoseAdjustmentOptions& options);
+
 /// Error and weight of one constraint at the solution.
 struct ConstraintFit {
   double chi2 = 0;    ///< e^T Omega e, also for disabled constraints
@@ -84,7 +87,6 @@ class SparsePoseAdjustment {
     bool from_current = false;  // trial_ solves the damped system, not headings and positions separately
   };
 
-  const RobustKernel& kernel_of(const Constraint& constraint) const;
   void evaluate(const PoseGraph& graph, State& state) const;
   void move(const PoseGraph& graph, const State& from, const Eigen::VectorXd& step, State& to) const;
   void begin(const PoseGraph& graph);

@@ -1,100 +1,78 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rendering/frame_cells.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 namespace psi_slam {
-namespace {
 
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
-
-/// Steps along the longer axis of the line and computes the position across it at the middle of each step.
-/// Fixed-point arithmetic makes all machines choose the same cells.
-template <class Visit>
-void walk(double along0, double across0, double along1, double across1, std::int64_t along_stride,
-          std::int64_t across_stride, Visit visit) {
-  constexpr int kFractionBits = 32;
-  constexpr double kOne = 4294967296.0;
-  const auto first = static_cast<std::int64_t>(along0);
-  const auto last = static_cast<std::int64_t>(along1);
-  const std::int64_t step = last < first ? -1 : 1;
-  const double slope = along1 == along0 ? 0 : (across1 - across0) / (along1 - along0);
-  const std::int64_t across_step = std::llround(slope * static_cast<double>(step) * kOne);
-  std::int64_t across = std::llround((across0 + (static_cast<double>(first) + 0.5 - along0) * slope) * kOne);
-  std::int64_t index = first * along_stride;
-  for (std::int64_t i = std::abs(last - first); i > 0; --i) {
-    visit(index + (across >> kFractionBits) * across_stride);
-    index += step * along_stride;
-    across += across_step;
-  }
-}
-
-}  // namespace
 
 const FrameCells& FrameCellFinder::find(const Frame& frame, const TPose2D& map_T_robot) {
   const std::vector<const Fan*>& fans = rays_.fans(frame, map_T_robot);
   begin(bounds_of(fans));
   for (const Fan* fan : fans)
-    for (const Ray& ray : fan->rays) {
-      if (!ray.hit) continue;
-      const TPoint2D end = in_cells(ray.end);
-      mark(static_cast<std::int64_t>(end.y) * width_ + static_cast<std::int64_t>(end.x), kHit);
-    }
+    for (const Ray& ray : fan->rays)
+      if (ray.hit) mark_end(box_.in_cells(ray.end));
   for (const Fan* fan : fans)
     for (const Ray& ray : fan->rays)
-      pass(in_cells(fan->start), in_cells(ray.end), [&](std::int64_t index) {
-        if (!ray.returned)
-          mark(index, kCleared);
-        else if ((marks_[static_cast<std::size_t>(index)] & kHit) == 0)
-          mark(index, kPassed);
-      });
-  for (const std::size_t index : touched_) {
-    const auto width = static_cast<std::size_t>(width_);
-    found_.cells.push_back({static_cast<std::int32_t>(index % width),
-                            static_cast<std::int32_t>(index / width),
-                            std::exchange(marks_[index], std::uint8_t{0})});
+      mark_line(box_.in_cells(fan->start), box_.in_cells(ray.end), ray.returned ? kPassed : kCleared);
+  const std::size_t stride = std::size_t{1} << stride_bits_;
+  for (std::size_t i = 0; i < num_touched_; ++i) {
+    const std::size_t index = touched_[i];
+    const std::uint8_t marks = std::exchange(marks_[index], std::uint8_t{0});
+    const bool is_hit = (marks & kHit) != 0;
+    found_.cells.push_back({static_cast<std::int32_t>(index & (stride - 1)),
+                            static_cast<std::int32_t>(index >> stride_bits_),
+                            static_cast<std::uint8_t>(is_hit ? marks & ~kPassed : marks)});
   }
   return found_;
 }
 
 /// Begins a frame with these bounds of its rays.
 void FrameCellFinder::begin(const mrpt::math::TBoundingBox& bounds) {
-  constexpr std::int64_t kMargin = 2;  // the digital line of a ray may end one cell beside the end point
-  const auto cell = [this](double metres) { return std::llround(std::floor(metres / resolution_m_)); };
+  box_ = cell_box(bounds, resolution_m_);
   found_.bounds = bounds;
-  found_.x_min = cell(bounds.min.x) - kMargin;
-  found_.y_min = cell(bounds.min.y) - kMargin;
+  found_.x_min = box_.x_min;
+  found_.y_min = box_.y_min;
   found_.cells.clear();
-  touched_.clear();
-  width_ = cell(bounds.max.x) + kMargin + 1 - found_.x_min;
-  const std::int64_t height = cell(bounds.max.y) + kMargin + 1 - found_.y_min;
-  const auto size = static_cast<std::size_t>(width_ * height);
+  num_touched_ = 0;
+  stride_bits_ = 0;
+  while (std::int64_t{1} << stride_bits_ < box_.width) ++stride_bits_;
+  const auto size = static_cast<std::size_t>(box_.height << stride_bits_);
   if (marks_.size() < size) marks_.resize(size);
 }
 
-void FrameCellFinder::mark(std::int64_t index, std::uint8_t mark) {
-  std::uint8_t& marks = marks_[static_cast<std::size_t>(index)];
-  if (marks == 0) touched_.push_back(static_cast<std::size_t>(index));
-  marks |= mark;
+void FrameCellFinder::mark_end(const TPoint2D& end) {
+  const auto index = (static_cast<std::size_t>(end.y) << stride_bits_) + static_cast<std::size_t>(end.x);
+  make_room(1);
+  if (marks_[index] == 0) touched_[num_touched_++] = index;
+  marks_[index] |= kHit;
 }
 
-/// Returns a point in cells, relative to the corner of the box.
-TPoint2D FrameCellFinder::in_cells(const TPoint2D& point) const {
-  return {point.x / resolution_m_ - static_cast<double>(found_.x_min),
-          point.y / resolution_m_ - static_cast<double>(found_.y_min)};
+/// Marks each cell of the digital line from `start` to `end`, except the cell of `end`. Both points are in
+/// cells.
+void FrameCellFinder::mark_line(const TPoint2D& start, const TPoint2D& end, std::uint8_t mark) {
+  const double length = std::max(std::abs(end.x - start.x), std::abs(end.y - start.y));
+  make_room(static_cast<std::size_t>(length) + 2);
+  // Local copies, because a write of a mark could change any member as far as the compiler knows.
+  std::uint8_t* const marks = marks_.data();
+  std::size_t* const touched = touched_.data();
+  std::size_t num_touched = num_touched_;
+  const auto visit = [&](std::int64_t index) {
+    touched[num_touched] = static_cast<std::size_t>(index);
+    num_touched += marks[index] == 0 ? 1 : 0;
+    marks[index] |= mark;
+  };
+  walk_line(start, end, std::int64_t{1} << stride_bits_, visit);
+  num_touched_ = num_touched;
 }
 
-/// Calls `visit` with the index of each cell of the digital line from `start` to `end`, except the cell of
-/// `end`. Both points are in cells.
-template <class Visit>
-void FrameCellFinder::pass(const TPoint2D& start, const TPoint2D& end, Visit visit) const {
-  if (std::abs(end.x - start.x) >= std::abs(end.y - start.y))
-    walk(start.x, start.y, end.x, end.y, 1, width_, visit);
-  else
-    walk(start.y, start.x, end.y, end.x, width_, 1, visit);
+/// Makes room for this number of further touched cells.
+void FrameCellFinder::make_room(std::size_t cells) {
+  if (touched_.size() < num_touched_ + cells) touched_.resize(2 * (num_touched_ + cells));
 }
 
 }  // namespace psi_slam

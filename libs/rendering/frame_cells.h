@@ -13,6 +13,7 @@
 
 #include "psi_slam/frame.h"
 #include "psi_slam/grid_map.h"
+#include "rendering/digital_line.h"
 #include "rendering/scan_rays.h"
 
 namespace psi_slam {
@@ -50,16 +51,17 @@ class FrameCellFinder {
 
  private:
   void begin(const mrpt::math::TBoundingBox& bounds);
-  void mark(std::int64_t index, std::uint8_t mark);
-  mrpt::math::TPoint2D in_cells(const mrpt::math::TPoint2D& point) const;
-  template <class Visit>
-  void pass(const mrpt::math::TPoint2D& start, const mrpt::math::TPoint2D& end, Visit visit) const;
+  void mark_end(const mrpt::math::TPoint2D& end);
+  void mark_line(const mrpt::math::TPoint2D& start, const mrpt::math::TPoint2D& end, std::uint8_t mark);
+  void make_room(std::size_t cells);
 
   RayMaker rays_;
   double resolution_m_;
-  std::int64_t width_ = 0;            ///< of the box around the rays, in cells
+  CellBox box_;
+  int stride_bits_ = 0;  ///< 2 to this number is the smallest power of two that is not less than box_.width
   std::vector<std::uint8_t> marks_;   ///< of the cells of the box; all 0 between calls
-  std::vector<std::size_t> touched_;  ///< indices of the marked cells
+  std::vector<std::size_t> touched_;  ///< indices of the marked cells, then room for more
+  std::size_t num_touched_ = 0;
   FrameCells found_;
 };
 

@@ -3,12 +3,15 @@
 
 #include <mrpt/math/TBoundingBox.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "rendering/frame_cells.h"
+#include "rendering/digital_line.h"
 #include "rendering/grid_layout.h"
+#include "rendering/scan_rays.h"
 #include "rendering/standing_views.h"
 
 namespace psi_slam {
@@ -16,7 +19,10 @@ namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TBoundingBox;
+using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
+
+constexpr int kMaxEvidence = 30'000;
 
 TBoundingBox bounds_of_log(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
                            const GridMapOptions& options) {
@@ -37,23 +43,31 @@ class Evidence {
  public:
   Evidence(const GridLayout& layout, const GridMapOptions& options)
       : layout_(layout),
-        finder_(options, layout.resolution_m),
-        evidence_(static_cast<std::size_t>(layout.width * layout.height)),
-        counted_(evidence_.size()),
-        cleared_(evidence_.size()) {}
+        maker_(options),
+        cells_(static_cast<std::size_t>(layout.width * layout.height)),
+        cleared_(cells_.size()) {}
 
   /// Adds the evidence of one frame. All lasers of the frame together count once per cell. Hits take
   /// precedence over passes.
   void add(const Frame& frame, const TPose2D& map_T_robot) {
-    const FrameCells& found = finder_.find(frame, map_T_robot);
-    for (const TouchedCell& cell : found.cells) {
-      const auto index = static_cast<std::size_t>((found.y_min - layout_.y_min + cell.y) * layout_.width +
-                                                  found.x_min - layout_.x_min + cell.x);
-      if ((cell.marks & kCleared) != 0) cleared_[index] = true;
-      if ((cell.marks & (kHit | kPassed)) == 0) continue;
-      counted_[index] = true;
-      evidence_[index] += (cell.marks & kHit) != 0 ? kHitEvidence : kPassEvidence;
-    }
+    const std::vector<const Fan*>& fans = maker_.fans(frame, map_T_robot);
+    const CellBox box = cell_box(bounds_of(fans), layout_.resolution_m);
+    const std::int64_t corner = (box.y_min - layout_.y_min) * layout_.width + box.x_min - layout_.x_min;
+    next_scan();
+    for (const Fan* fan : fans)
+      for (const Ray& ray : fan->rays) {
+        const TPoint2D end = box.in_cells(ray.end);
+        const std::int64_t row = static_cast<std::int64_t>(end.y) * layout_.width;
+        if (ray.hit) count(corner + row + static_cast<std::int64_t>(end.x), kHitEvidence);
+      }
+    for (const Fan* fan : fans)
+      for (const Ray& ray : fan->rays)
+        walk_line(box.in_cells(fan->start), box.in_cells(ray.end), layout_.width, [&](std::int64_t index) {
+          if (ray.returned)
+            count(corner + index, kPassEvidence);
+          else
+            cleared_[static_cast<std::size_t>(corner + index)] = true;
+        });
   }
 
   COccupancyGridMap2D::Ptr grid() const {
@@ -62,18 +76,41 @@ class Evidence {
       auto* row = grid->getRow(static_cast<int>(y));
       for (std::int64_t x = 0; x < layout_.width; ++x) {
         const auto index = static_cast<std::size_t>(y * layout_.width + x);
-        row[x] = cell_value(!counted_[index] && cleared_[index] ? kPassEvidence : evidence_[index]);
+        int evidence = cells_[index].evidence;
+        if (cells_[index].last_scan == 0 && cleared_[index]) evidence = kPassEvidence;
+        row[x] = cell_value(evidence);
       }
     }
     return grid;
   }
 
  private:
+  struct Cell {
+    std::int16_t evidence = 0;
+    std::uint16_t last_scan = 0;  ///< number of the last frame that counted in this cell; 0 if none did
+  };
+
+  void next_scan() {
+    if (scan_ == std::numeric_limits<std::uint16_t>::max()) {
+      for (Cell& cell : cells_) cell.last_scan = cell.last_scan == 0 ? 0 : 1;
+      scan_ = 1;
+    }
+    ++scan_;
+  }
+
+  void count(std::int64_t index, int evidence) {
+    Cell& cell = cells_[static_cast<std::size_t>(index)];
+    if (cell.last_scan == scan_) return;
+    cell.last_scan = scan_;
+    cell.evidence =
+        static_cast<std::int16_t>(std::clamp(cell.evidence + evidence, -kMaxEvidence, kMaxEvidence));
+  }
+
   GridLayout layout_;
-  FrameCellFinder finder_;
-  std::vector<std::int32_t> evidence_;
-  std::vector<bool> counted_;  // whether a frame has evidence of the cell, which may sum up to 0
+  RayMaker maker_;
+  std::vector<Cell> cells_;
   std::vector<bool> cleared_;  // whether a beam without return passed the cell
+  std::uint16_t scan_ = 0;
 };
 
 }  // namespace

@@ -4,7 +4,8 @@
 // besides the new scans, so a correction of the whole map is worked off over several calls.
 //
 // The map equals that of draw_grid_map() for the poses at which the scans are drawn, if the robot never
-// stands still for ten seconds. Here every scan that has ranges counts once, also in a standstill.
+// stands still for ten seconds and no cell counts 10,000 scans. Here every scan that has ranges counts once,
+// also in a standstill, and counts never saturate.
 #pragma once
 
 #include <mrpt/math/TBoundingBox.h>
@@ -13,7 +14,6 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "frames/pose_tolerance.h"

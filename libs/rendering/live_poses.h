@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "psi_slam/mapping_result.h"
-#include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
 
@@ -24,10 +23,10 @@ class LivePoses {
   /// Pose of the robot in the map at a frame that was taken: the pose of the newest node at that frame, plus
   /// the motion since that node by the front end.
   mrpt::math::TPose2D map_T_robot(std::size_t frame, const std::vector<FrameRecord>& frames,
-                                  const PoseGraph& graph) const {
+                                  const std::vector<mrpt::math::TPose2D>& map_T_node) const {
     const FrameRecord& of_node = frames[node_frames_[frame]];
-    if (!of_node.node || *of_node.node >= graph.num_nodes()) return frames[frame].map_T_robot;
-    return graph.pose(*of_node.node) + (frames[frame].front_end_T_robot - of_node.front_end_T_robot);
+    if (!of_node.node || *of_node.node >= map_T_node.size()) return frames[frame].map_T_robot;
+    return map_T_node[*of_node.node] + (frames[frame].front_end_T_robot - of_node.front_end_T_robot);
   }
 
  private:

@@ -13,6 +13,7 @@ namespace {
 using Clock = LogPace::Clock;
 
 constexpr std::chrono::milliseconds kBetweenSnapshots{100};
+constexpr std::chrono::seconds kBetweenSnapshotsInHaste{1};  // while scans of a live source wait
 constexpr int kWorkPerPublishing = 20;  // making snapshots takes at most 1/20 of the thread's time
 
 /// Calls `action`. Returns why it failed, as a sentence: `out_of_memory` if memory ran out. Empty after
@@ -29,19 +30,48 @@ std::string failure_of(const Action& action, const char* out_of_memory) {
   return {};
 }
 
+Settings settings_of_live_run(Settings settings) {
+  settings.mapper.back_end_thread = true;
+  return settings;
+}
+
+/// Lets a live source end before the session is destroyed, which waits for it.
+class EndOfFeed {
+ public:
+  /// `feed` may be null.
+  explicit EndOfFeed(LiveFeed* feed) : feed_(feed) {}
+  ~EndOfFeed() {
+    if (feed_ != nullptr) feed_->end();
+  }
+  EndOfFeed(const EndOfFeed&) = delete;
+  EndOfFeed& operator=(const EndOfFeed&) = delete;
+
+ private:
+  LiveFeed* feed_;
+};
+
 }  // namespace
 
 Replay::Replay(const std::filesystem::path& log, const Settings& settings, EditJournal edits)
     : Replay(SessionInput(log).with_edits(std::move(edits)), settings) {}
 
-Replay::Replay(SessionInput input, const Settings& settings)
+Replay::Replay(SessionInput input, const Settings& settings) : Replay(std::move(input), settings, nullptr) {}
+
+Replay::Replay(LiveStream stream, const Settings& settings)
+    : Replay(std::make_shared<LiveFeed>(std::move(stream)), settings) {}
+
+Replay::Replay(const std::shared_ptr<LiveFeed>& live, const Settings& settings)
+    : Replay(LiveFeed::input(live), settings_of_live_run(settings), live) {}
+
+Replay::Replay(SessionInput input, const Settings& settings, std::shared_ptr<LiveFeed> live)
     : input_(std::move(input)),
       settings_(settings),
-      outline_(input_, log_options(settings)),
+      live_(std::move(live)),
+      outline_(live_ ? nullptr : std::make_unique<LogOutline>(input_, log_options(settings))),
       painter_(settings.map),
       maker_(std::make_unique<SnapshotMaker>(
           PsiThresholds{settings.mapper.back_end.psi.psi_1, settings.mapper.back_end.psi.psi_2},
-          input_.edits().edits())),
+          input_.edits().edits(), live_ != nullptr)),
       snapshot_(maker_->snapshot(phase_)),
       thread_(run_in_background([this] { run(); })) {}
 
@@ -54,7 +84,8 @@ void Replay::close() {
     close_ = true;
     stop_final_search_ = true;
   });
-  outline_.stop();
+  if (live_) live_->end();
+  if (outline_) outline_->stop();
   painter_.stop();
 }
 
@@ -71,7 +102,9 @@ void Replay::run() noexcept {
 }
 
 void Replay::work() {
+  if (live_) live_->set_observer([this] { change([] {}); });
   MappingSession session(input_, settings_);
+  const EndOfFeed end_of_feed(live_.get());
   session.set_observer([&](const SessionProgress& progress) { observe(progress); });
   session.stay_open();
   session_ = &session;
@@ -118,17 +151,13 @@ Replay::Turn Replay::next_turn() {
       hurry_to_ = 0;
       pace_.restart();
     }
-    const bool hurries = hurry_to_ > 0 || (playing_ && Clock::now() >= due_);
-    if (steps_ > 0 || hurries || playing_) {
+    if (is_next_scan_due()) {
       phase_ = ReplayPhase::kPlaying;
-      if (steps_ > 0 || hurries) {
-        if (steps_ > 0) --steps_;
-        return Turn::kStep;
-      }
-      if (stale_ && Clock::now() >= next_publication())
-        publish_unlocked(lock);
-      else
-        changed_.wait_until(lock, stale_ ? std::min(due_, next_publication()) : due_);
+      if (steps_ > 0) --steps_;
+      return Turn::kStep;
+    }
+    if (playing_ || live_) {
+      wait_for_scan(lock);
       continue;
     }
     if (phase_ != ReplayPhase::kPaused || stale_) {
@@ -138,6 +167,24 @@ Replay::Turn Replay::next_turn() {
     }
     changed_.wait(lock);
   }
+}
+
+bool Replay::is_next_scan_due() const {
+  if (live_) return live_->has_news(scans_);
+  return steps_ > 0 || hurry_to_ > 0 || (playing_ && Clock::now() >= due_);
+}
+
+/// Waits until the next scan is due or requests have changed. Publishes meanwhile.
+void Replay::wait_for_scan(std::unique_lock<std::mutex>& lock) {
+  const bool begins = std::exchange(phase_, ReplayPhase::kPlaying) != ReplayPhase::kPlaying;
+  if (begins || (stale_ && Clock::now() >= next_publication()))
+    publish_unlocked(lock);
+  else if (stale_)
+    changed_.wait_until(lock, live_ ? next_publication() : std::min(due_, next_publication()));
+  else if (live_)
+    changed_.wait(lock);
+  else
+    changed_.wait_until(lock, due_);
 }
 
 /// Serves exports, saves and edits of a finished run. Returns true if the map must be finished again, false
@@ -236,11 +283,19 @@ void Replay::observe(const SessionProgress& progress) {
     maker_->note_scan(progress.share);
     stale_ = true;
     locked([&] { scans_ = progress.scans; });
+    if (live_) return follow_live(progress.scans);
   } else if (session_ != nullptr) {
     maker_->follow_local_maps(session_->mapper());
   }
   if (Clock::now() >= next_publication()) publish();
   if (progress.phase == SessionProgress::Phase::kFinalSearch) hold_final_search();
+}
+
+/// Publishes only now and then while scans wait, because a snapshot waits for the back end.
+void Replay::follow_live(std::size_t scans) {
+  if (session_ == nullptr) return;
+  live_->note_pose(session_->mapper().missed_deadlines());
+  if (live_->has_news(scans) && Clock::now() >= published_at_ + kBetweenSnapshotsInHaste) publish();
 }
 
 /// Waits while the final loop search is paused.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "replay/live_feed.h"
 #include "replay/log_outline.h"
 #include "replay/log_pace.h"
 #include "replay/map_painter.h"
@@ -25,7 +26,9 @@ namespace psi_slam {
 class SnapshotMaker;
 
 /// A mapping run that can be watched: runs a MappingSession in a thread of its own. It can play, pause and
-/// step, and it publishes snapshots.
+/// step, and it publishes snapshots. A run of a live source maps each scan when it arrives, until the source
+/// ends or finish() ends it; play(), pause(), step(), hurry_to() and the speed then have no effect on the
+/// mapping of scans.
 ///
 ///     Replay replay("my.log", settings);      // opens the log in its thread and waits
 ///     replay.set_speed(5);
@@ -41,6 +44,8 @@ class Replay {
   Replay(const std::filesystem::path& log, const Settings& settings, EditJournal edits = {});
   /// Replays a log or a recording, with the edits of the input.
   Replay(SessionInput input, const Settings& settings);
+  /// Maps what a live source sends, with the back end in a thread of its own.
+  Replay(LiveStream stream, const Settings& settings);
   /// Calls close() and waits for the threads.
   ~Replay();
 
@@ -89,8 +94,10 @@ class Replay {
       hurry_to_ = scans;
     });
   }
-  /// Stops reading the log. The final loop search follows with the scans mapped so far.
+  /// Stops reading the log, or ends the live source and maps the scans that have arrived. The final loop
+  /// search follows.
   void finish() {
+    if (live_) return live_->end();
     change([&] {
       held_ = false;
       finish_ = true;
@@ -127,14 +134,18 @@ class Replay {
   /// Ends the threads as soon as possible, but completes an export that has begun. Does not wait.
   void close();
   /// True once all threads have ended; the destructor then does not wait.
-  bool ended() const { return has_ended(thread_) && outline_.ended() && painter_.ended(); }
+  bool ended() const { return has_ended(thread_) && (!outline_ || outline_->ended()) && painter_.ended(); }
 
   /// The newest snapshot; never null.
   std::shared_ptr<const ReplaySnapshot> snapshot() const;
   /// The newest drawing of the grid map, or null if there is none yet.
   std::shared_ptr<const DrawnMap> drawn_map() const { return painter_.drawn(); }
-  /// Time stamps of all scans of the log, or null until they are known.
-  LogOutline::Stamps stamps_us() const { return outline_.stamps_us(); }
+  /// Time stamps of all scans of the log, or null until they are known. Always null for a live source.
+  LogOutline::Stamps stamps_us() const { return outline_ ? outline_->stamps_us() : nullptr; }
+  /// How the mapping follows the live source; empty for a log.
+  std::optional<LiveFigures> live_figures() const {
+    return live_ ? std::optional(live_->figures()) : std::nullopt;
+  }
 
  private:
   enum class Turn { kStep, kEdit, kSave, kExport, kFinish, kClose };
@@ -147,6 +158,9 @@ class Replay {
     std::filesystem::path folder;
     bool replace = false;
   };
+
+  Replay(const std::shared_ptr<LiveFeed>& live, const Settings& settings);
+  Replay(SessionInput input, const Settings& settings, std::shared_ptr<LiveFeed> live);
 
   /// Changes requests under the lock and wakes the mapping thread.
   template <class Change>
@@ -170,6 +184,8 @@ class Replay {
   void work();
   bool map_scans(MappingSession& session);
   Turn next_turn();
+  bool is_next_scan_due() const;
+  void wait_for_scan(std::unique_lock<std::mutex>& lock);
   std::optional<Turn> urgent_turn() const;
   void finish_map(MappingSession& session);
   bool serve_finished(MappingSession& session);
@@ -178,6 +194,7 @@ class Replay {
   void save_once(const MappingSession& session);
   void export_once(MappingSession& session);
   void observe(const SessionProgress& progress);
+  void follow_live(std::size_t scans);
   void hold_final_search();
   void publish();
   void publish_unlocked(std::unique_lock<std::mutex>& lock);
@@ -187,7 +204,8 @@ class Replay {
 
   const SessionInput input_;
   const Settings settings_;
-  LogOutline outline_;
+  const std::shared_ptr<LiveFeed> live_;       // null for a log
+  const std::unique_ptr<LogOutline> outline_;  // null for a live source
   MapPainter painter_;
 
   // Used by the mapping thread only.

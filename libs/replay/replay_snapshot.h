@@ -63,6 +63,7 @@ struct EditOutcome {
 
 struct ReplaySnapshot {
   ReplayPhase phase = ReplayPhase::kOpening;
+  bool live = false;               ///< the scans come from a live source, not from a log
   bool final_search_held = false;  ///< the final loop search is paused
   SessionProgress progress;
   std::string failure;  ///< why the run failed, as a sentence; empty unless the phase is kFailed

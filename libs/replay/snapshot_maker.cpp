@@ -30,8 +30,9 @@ mrpt::math::TPose2D map_T_frame(const ReplaySnapshot& snapshot, std::size_t fram
   return (*snapshot.map_T_node)[node] + node_T_frame;
 }
 
-SnapshotMaker::SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits) {
+SnapshotMaker::SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits, bool live) {
   now.psi = psi;
+  now.live = live;
   now.edits = std::make_shared<std::vector<TimedEdit>>(edits);
 }
 
@@ -46,6 +47,7 @@ void SnapshotMaker::note_export(WriteOutcome outcome) {
 }
 
 void SnapshotMaker::follow(const Mapper& mapper, ActiveMaps active) {
+  mapper.wait();  // completes the records, which are copied once
   follow_log(mapper.log());
   append_new(frames_, mapper.frames());
   now.later_run_frames = mapper.later_run_frames();
@@ -54,10 +56,12 @@ void SnapshotMaker::follow(const Mapper& mapper, ActiveMaps active) {
   append_new(nodes_, mapper.keyframes().nodes);
   follow_local_maps(mapper);
   now.map_T_robot = mapper.map_T_robot();
-  if (*now.map_T_node != mapper.graph().poses())
-    now.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(mapper.graph().poses());
   // During the mapping of scans, verdicts change only when a loop is added.
   const bool verdicts_may_change = now.progress.phase != SessionProgress::Phase::kMapping;
+  // While scans are mapped, the nodes agree with the pose of the robot.
+  const auto& map_T_node = verdicts_may_change ? mapper.graph().poses() : mapper.node_poses();
+  if (*now.map_T_node != map_T_node)
+    now.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(map_T_node);
   if (verdicts_may_change || std::exchange(loops_changed_, false) ||
       now.loops->size() != mapper.loops().size())
     now.loops = std::make_shared<std::vector<LoopRecord>>(mapper.loops());

@@ -15,8 +15,8 @@ namespace psi_slam {
 /// Makes snapshots of a session in the mapping thread. Copies only what has changed since the last snapshot.
 class SnapshotMaker {
  public:
-  /// `edits` are the edits that are planned before the run starts.
-  SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits);
+  /// `edits` are the edits that are planned before the run starts. `live`: see ReplaySnapshot::live.
+  SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits, bool live);
 
   /// The next snapshot. The caller may set all members except the histories and the members that
   /// note_export(), note_save(), note_edits(), follow() and take() set.

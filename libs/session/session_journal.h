@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records a session continuously while it is mapped: a crash or a power failure loses no more than the scans
+// Records a session continuously while it is mapped: a crash or a power failure loses only the scans
 // of the last moments.
 //
 //     SessionJournal journal("my.journal", facts, {}, 0.5);

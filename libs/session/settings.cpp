@@ -143,8 +143,8 @@ void describe_map_files(OptionTable& table, MapFileOptions& files) {
 void describe_live(OptionTable& table, Settings& settings) {
   table.section("live", "Mapping while the robot drives")
       .integer("latency_nodes", settings.mapper.latency_nodes, between(0, 1000), "nodes",
-               "The pose of the robot while it drives follows the loops of a node from this many nodes later "
-               "on. The finished map does not depend on it. Larger values leave more time to close loops.")
+               "Loops found for a node correct the poses while mapping this many nodes later. Larger values "
+               "leave more time to search for loops. The finished map does not depend on it.")
       .number(
           "map_period_s", settings.live.map_period_s, between(0, 3600), "s",
           "Time between two writings of map.yaml and map.pgm during a live run. 0: writes the map only at "

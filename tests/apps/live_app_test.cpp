@@ -115,15 +115,17 @@ TEST_F(LiveApp, a_second_interrupt_at_any_time_leaves_the_map) {
 TEST_F(LiveApp, writes_the_map_and_a_journal_while_it_maps_and_can_be_resumed_after_a_crash) {
   const auto journal = folder("live") / "session.journal";
   const auto growing = folder("growing.log");
-  write_file(growing, text_of(lines_, 0, kScans));
+  write_file(growing, text_of(lines_, 0, 30));
   {
     const AppProcess process(live({"--follow", growing.string(), "--look-over-s", "1", "--set",
                                    "live.map_period_s=0.05", "--set", "live.journal_period_s=0.05"}),
                              folder_.path());
-    const auto is_recorded = [&] {
-      return std::filesystem::exists(journal) && read_session_file(journal).frames.size() == kScans;
+    const auto are_recorded = [&](std::size_t scans) {
+      return std::filesystem::exists(journal) && read_session_file(journal).frames.size() == scans;
     };
-    EXPECT_TRUE(soon(is_recorded)) << err();
+    EXPECT_TRUE(soon([&] { return are_recorded(30); })) << err();
+    std::ofstream(growing, std::ios::app) << text_of(lines_, 30, kScans);
+    EXPECT_TRUE(soon([&] { return are_recorded(kScans); })) << err();
     EXPECT_TRUE(soon([&] { return std::filesystem::exists(folder("live") / "map.yaml"); })) << err();
     EXPECT_TRUE(std::filesystem::exists(folder("live") / "map.pgm"));
     process.send(SIGKILL);
@@ -180,8 +182,8 @@ TEST_F(LiveApp, prints_poses_as_json) {
     const auto pose = nlohmann::json::parse(line);
     EXPECT_EQ(pose.at("frame"), scans);
     EXPECT_EQ(pose.at("matched"), scans > 0);
-    EXPECT_NEAR(pose.at("time"), 1000 + 0.2 * static_cast<double>(scans), 1e-6);
-    for (const char* key : {"x", "y", "yaw"}) EXPECT_TRUE(pose.at(key).is_number());
+    EXPECT_NEAR(pose.at("time_s"), 1000 + 0.2 * static_cast<double>(scans), 1e-6);
+    for (const char* key : {"x_m", "y_m", "yaw_rad"}) EXPECT_TRUE(pose.at(key).is_number());
   }
   EXPECT_EQ(scans, kScans);
   expect_same_map();
@@ -202,7 +204,7 @@ TEST_F(LiveApp, finishes_the_map_if_nobody_reads_the_poses) {
   expect_same_map();
 }
 
-TEST_F(LiveApp, one_thread_gives_the_same_map) {
+TEST_F(LiveApp, one_thread_for_loops_gives_the_same_map) {
   ASSERT_EQ(run_app(live({"--follow", log_.string(), "--idle-s", "0", "-q", "--set", "run.threads=1"})).code,
             0);
   expect_same_results(folder("live"), folder("whole"));
@@ -240,7 +242,8 @@ TEST_F(LiveApp, says_what_is_wrong_with_the_arguments) {
               HasSubstr("--json contradicts --poses"));
   EXPECT_THAT(complaint(live({"--follow", log_.string(), "--set", "log.calibrate=true"})),
               HasSubstr("log.calibrate needs a complete log"));
-  EXPECT_THAT(complaint({"localize", "map.yaml", "--idle-s", "1"}), HasSubstr("need a source"));
+  EXPECT_THAT(complaint({"localize", "map.yaml", "--idle-s", "1"}),
+              HasSubstr("--idle-s needs a live source"));
   EXPECT_THAT(complaint({"localize", "map.yaml", "my.log", "--stdin"}), HasSubstr("a log or a live source"));
   EXPECT_FALSE(std::filesystem::exists(folder("live")));
 }

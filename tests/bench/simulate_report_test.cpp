@@ -27,7 +27,8 @@ SimulateRow row() {
   row.loops = 700;
   row.false_loops = 2;
   row.covariances = {{"loops", 700, 1.5, 0.9, 0.072}};
-  row.scan_ms = {0.99, 8.42};
+  row.scan_ms = {0.99, 8.42, 9.5};
+  row.optimisation_ms = {1.25, 4.5, 6.5};
   row.add_s = 9.9;
   row.finish_s = 5.5;
   row.peak_memory_mib = 210;
@@ -48,6 +49,7 @@ TEST(SimulateReport, json_has_machine_seed_and_figures) {
   EXPECT_EQ(json["machine"], "a machine");
   EXPECT_EQ(json["seed"], 77);
   EXPECT_EQ(json["drives"][0]["scan_ms"]["p99"], 8.42);
+  EXPECT_EQ(json["drives"][0]["optimisation_ms"]["max"], 6.5);
   EXPECT_EQ(json["drives"][0]["stages_s"]["close loops"], 1.25);
   EXPECT_EQ(json["drives"][0]["covariances"][0]["of"], "loops");
 }
@@ -58,7 +60,8 @@ TEST(SimulateReport, markdown_has_the_figures) {
       page,
       HasSubstr("| 1000 m | 10001 | 334 | 36 | 2464 | 83 | 0.333 | 0.700 | 0.120 | 0.50 | 12.3 | 700 | 2 |"));
   EXPECT_THAT(page, HasSubstr("| 1000 m | loops | 700 | 1.50 | 0.90 | 7.2 % |"));
-  EXPECT_THAT(page, HasSubstr("| 1000 m | 0.99 | 8.42 | 9.9 | 5.5 | 210 | 2.5 | 1.2 |"));
+  EXPECT_THAT(page,
+              HasSubstr("| 1000 m | 0.99 | 8.42 | 9.5 | 1.25 | 4.5 | 6.5 | 9.9 | 5.5 | 210 | 2.5 | 1.2 |"));
 }
 
 TEST(SimulateReport, plots_have_their_unit) {

@@ -38,7 +38,7 @@ class LiveMapWriterTest : public testing::Test {
     poses.take(mapper_.frames());
     std::vector<mrpt::math::TPose2D> map_T_robot;
     for (std::size_t i = 0; i < mapper_.log().size(); ++i)
-      map_T_robot.push_back(poses.map_T_robot(i, mapper_.frames(), mapper_.graph()));
+      map_T_robot.push_back(poses.map_T_robot(i, mapper_.frames(), mapper_.node_poses()));
     fs::create_directory(folder_.path() / "expected");
     write_map_server_pair(folder_.path() / "expected" / "map.yaml",
                           *draw_grid_map(mapper_.log(), map_T_robot));

@@ -39,5 +39,13 @@ TEST(GuiCommandLine, rejects_wrong_arguments_with_the_messages_of_psi_slam) {
   EXPECT_THAT(run({"-c", "/missing.ini"}).err, HasSubstr("/missing.ini"));
 }
 
+TEST(GuiCommandLine, takes_one_log_or_live_source) {
+  EXPECT_THAT(run({"--help"}).out, HasSubstr("--sensors"));
+  EXPECT_EQ(run({"a.log", "--tcp", "5000"}).code, 2);
+  EXPECT_THAT(run({"a.log", "--tcp", "5000"}).err, HasSubstr("name a log or a live source, not both"));
+  EXPECT_THAT(run({"--tcp", "x"}).err, HasSubstr("--tcp x: expected the number of a port"));
+  EXPECT_THAT(run({"a.log", "--idle-s", "1"}).err, HasSubstr("--idle-s needs a live source"));
+}
+
 }  // namespace
 }  // namespace psi_slam

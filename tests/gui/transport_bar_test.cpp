@@ -36,6 +36,18 @@ TEST(TransportBar, shows_the_longer_time_of_work_and_waiting) {
   EXPECT_THAT(progress_words(snapshot, 119), Not(HasSubstr("1:59"))) << "the final search does not wait";
 }
 
+TEST(TransportBar, shows_the_scans_of_a_live_source) {
+  ReplaySnapshot snapshot;
+  snapshot.live = true;
+  EXPECT_EQ(progress_words(snapshot, 0), "Connecting");
+  snapshot.phase = ReplayPhase::kPlaying;
+  EXPECT_EQ(progress_words(snapshot, 0), "Waiting for scans");
+  SharedHistory<FrameRecord> frames;
+  frames.push_back({});
+  snapshot.frames = frames.view();
+  EXPECT_EQ(progress_words(snapshot, 0), "Mapping live: 1 scans");
+}
+
 TEST(TransportBar, counts_unmatched_scans) {
   ReplaySnapshot snapshot;
   for (const ReplayPhase phase : {ReplayPhase::kPlaying, ReplayPhase::kFinished}) {

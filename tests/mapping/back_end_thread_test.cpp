@@ -142,7 +142,7 @@ TEST(BackEndThread, waiting_completes_the_records) {
   Mapper mapper(options);
   for (std::size_t i = 0; i < 40; ++i) mapper.add(rounds()[i]);
   const auto is_complete = [&] { return mapper.frames()[39].eta > 0; };
-  EXPECT_FALSE(is_complete());
+  EXPECT_FALSE(is_complete()) << "the result of the newest frame is never taken early";
   mapper.wait();
   EXPECT_TRUE(is_complete());
   EXPECT_EQ(mapper.graph().num_nodes(), mapper.node_poses().size());
@@ -161,14 +161,26 @@ TrackedFrame impossible_frame() {
 }
 
 TEST(BackEndThread, passes_exceptions_on) {
-  GraphBuilder builder{MapperOptions()};
-  BackEndThread thread(builder, true);
-  thread.hand_over({});
-  thread.hand_over(impossible_frame());
-  thread.hand_over({});
-  EXPECT_EQ(thread.take().frame, 0U);
-  EXPECT_THROW(thread.take(), std::exception);
-  EXPECT_THROW(thread.take(), std::exception);
+  for (const bool own_thread : {false, true}) {
+    GraphBuilder builder{MapperOptions()};
+    BackEndThread thread(builder, own_thread, own_thread);
+    thread.hand_over({});
+    thread.hand_over(impossible_frame());
+    thread.hand_over({});
+    EXPECT_EQ(thread.take().frame, 0U);
+    EXPECT_THROW(thread.take(), std::exception);
+    EXPECT_THROW(thread.take(), std::exception);
+  }
+}
+
+TEST(BackEndThread, counts_the_frames_that_wait) {
+  MapperOptions options;
+  options.latency_nodes = 0;
+  options.back_end_thread = true;
+  Mapper mapper(options);
+  for (std::size_t i = 0; i < 100; ++i) mapper.add(rounds()[i]);
+  EXPECT_GT(mapper.missed_deadlines(), 0U) << "without latency, nearly every frame waits";
+  EXPECT_LE(mapper.missed_deadlines(), 100U);
 }
 
 TEST(BackEndThread, may_be_destroyed_while_frames_wait) {

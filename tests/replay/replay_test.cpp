@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "../session/room_log.h"
+#include "awaited_snapshot.h"
 #include "psi_slam/mapping_session.h"
 #include "report/output_folder.h"
 #include "same_results.h"
@@ -22,43 +23,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using SnapshotPtr = std::shared_ptr<const ReplaySnapshot>;
-
-/// Returns the first snapshot that fulfils `expected`. Fails the test after four minutes, or if the replay
-/// fails.
-SnapshotPtr wait_for(const Replay& replay, const std::function<bool(const ReplaySnapshot&)>& expected) {
-  const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(4);  // sanitizers are slow
-  SnapshotPtr snapshot = replay.snapshot();
-  while (!expected(*snapshot)) {
-    const bool over = snapshot->phase == ReplayPhase::kFailed;
-    if (over || std::chrono::steady_clock::now() > limit) {
-      ADD_FAILURE() << "phase " << static_cast<int>(snapshot->phase) << ", " << snapshot->frames.size()
-                    << " scans, failure \"" << snapshot->failure << '"';
-      break;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    snapshot = replay.snapshot();
-  }
-  return snapshot;
-}
-
-SnapshotPtr wait_for(const Replay& replay, ReplayPhase phase) {
-  return wait_for(replay, [phase](const ReplaySnapshot& snapshot) { return snapshot.phase == phase; });
-}
-
-SnapshotPtr wait_for_export(const Replay& replay, int number) {
-  return wait_for(replay, [number](const ReplaySnapshot& snapshot) {
-    return snapshot.exported && snapshot.exported->number == number;
-  });
-}
-
-SnapshotPtr wait_for_save(const Replay& replay, int number) {
-  const SnapshotPtr now = wait_for(replay, [number](const ReplaySnapshot& snapshot) {
-    return snapshot.saved && snapshot.saved->number == number;
-  });
-  EXPECT_EQ(now->saved->failure, "");
-  return now;
-}
 
 class ReplayTest : public testing::Test {
  protected:

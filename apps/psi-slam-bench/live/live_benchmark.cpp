@@ -26,6 +26,9 @@ void use_processors(int count) {
   cpu_set_t allowed;
   CPU_ZERO(&allowed);
   if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) throw SystemFailure("cannot read the processors");
+  if (CPU_COUNT(&allowed) < count)
+    throw UserError("--processors " + std::to_string(count) + ": this machine gives the program only " +
+                    std::to_string(CPU_COUNT(&allowed)) + ". Choose fewer");
   cpu_set_t chosen;
   CPU_ZERO(&chosen);
   for (int processor = 0; processor < CPU_SETSIZE && CPU_COUNT(&chosen) < count; ++processor)
@@ -95,7 +98,7 @@ LiveRow row_of(const Task& task, double speed, int processors, const std::functi
   row.processors = processors;
   row.scans = replayed.result.frames.size();
   row.nodes = replayed.result.node_frames.size();
-  row.mean_ms = mean_and_p99(replayed.latency_ms).mean;
+  row.mean_ms = summary_of_times(replayed.latency_ms).mean;
   row.p50_ms = quantile(replayed.latency_ms, 0.5);
   row.p99_ms = quantile(replayed.latency_ms, 0.99);
   row.max_ms = quantile(std::move(replayed.latency_ms), 1);
@@ -145,7 +148,7 @@ std::vector<double> due_times_s(const std::vector<Frame>& frames, double longest
 Replayed replay(std::vector<Frame> frames, const Settings& settings, double speed,
                 const std::function<void(double)>& progress) {
   MapperOptions options = mapper_options(settings);
-  options.back_end_thread = true;
+  options.back_end_thread = options.back_end_yields = true;
   Mapper mapper(options);
   Replayed replayed;
   const std::vector<double> due_s = due_times_s(frames);

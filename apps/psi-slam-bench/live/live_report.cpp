@@ -52,8 +52,8 @@ BenchReport live_report(const LiveBenchmark& benchmark, const LiveBenchmarkOptio
       "from each scan to its pose is measured.\n\n" +
       measured_by(machine) +
       ".\n\n"
-      "- Each replay is a process of its own that may use the stated number of processors. The front end has "
-      "one thread and the back end another.\n"
+      "- Each replay is a process of its own that may use the stated number of processors. The back end has "
+      "threads of its own.\n"
       "- scan to pose: from the moment when a scan is due, so waiting counts. As fast as possible: from the "
       "moment when the mapper begins with the scan.\n"
       "- missed deadline: a scan that waited for the result of the back end that was due. "

@@ -50,12 +50,12 @@ void compare_with_truth(const MappingResult& result, const Trajectory& truth, st
 }  // namespace
 
 // Conversions of the structs to and from nlohmann::json.
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeanAndP99, mean, p99)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeSummary, mean, p99, max)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NormalisedErrors, of, count, mean, median, beyond_95)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SimulateRow, path_m, scans, rooms, corridors_m, nodes, local_maps,
                                    error_mean_m, error_max_m, relation_mean_m, relation_mean_deg,
-                                   odometry_error_mean_m, loops, false_loops, covariances, scan_ms, add_s,
-                                   finish_s, peak_memory_mib, stages_s)
+                                   odometry_error_mean_m, loops, false_loops, covariances, scan_ms,
+                                   optimisation_ms, add_s, finish_s, peak_memory_mib, stages_s)
 
 std::string row_text(const SimulateRow& row) {
   return nlohmann::json(row).dump();
@@ -65,12 +65,13 @@ SimulateRow row_of_text(const std::string& text) {
   return nlohmann::json::parse(text).get<SimulateRow>();
 }
 
-MeanAndP99 mean_and_p99(std::vector<double> values) {
+TimeSummary summary_of_times(std::vector<double> values) {
   if (values.empty()) return {};
   const double sum = std::accumulate(values.begin(), values.end(), 0.0);
   const std::size_t rank = (values.size() * 99 + 99) / 100 - 1;
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
-  return {sum / static_cast<double>(values.size()), values[rank]};
+  return {sum / static_cast<double>(values.size()), values[rank],
+          *std::max_element(values.begin(), values.end())};
 }
 
 SimulatedLogOptions simulated_run_options(const SimulateOptions& options, double path_m) {
@@ -144,7 +145,11 @@ SimulateRow map_simulated_run(const SimulatedLogOptions& run, int threads,
   row.nodes = result.node_frames.size();
   row.local_maps = result.local_maps.size();
   row.add_s = std::accumulate(times_ms.begin(), times_ms.end(), 0.0) / 1e3;
-  row.scan_ms = mean_and_p99(std::move(times_ms));
+  row.scan_ms = summary_of_times(std::move(times_ms));
+  std::vector<double> optimisations_ms;
+  for (const FrameRecord& frame : result.frames)
+    if (frame.pose_graph_ms > 0) optimisations_ms.push_back(frame.pose_graph_ms);
+  row.optimisation_ms = summary_of_times(std::move(optimisations_ms));
   for (const StageTiming& stage : result.stages) row.stages_s.emplace_back(stage.name, stage.total_s);
   compare_with_truth(result, truth, run.path.seed, row);
   return row;

@@ -26,10 +26,11 @@ struct SimulateOptions {
   int threads = 1;           ///< number of threads that match loops
 };
 
-/// Mean, and 99th percentile: the least value that at least 99 % of the values do not exceed.
-struct MeanAndP99 {
+/// Mean, largest value, and 99th percentile: the least value that at least 99 % of the values do not exceed.
+struct TimeSummary {
   double mean = 0;
   double p99 = 0;
+  double max = 0;
 };
 
 /// Figures of one mapped run.
@@ -52,10 +53,11 @@ struct SimulateRow {
 
   std::vector<NormalisedErrors> covariances;  ///< see check_covariances()
 
-  MeanAndP99 scan_ms;          ///< time of Mapper::add for one scan
-  double add_s = 0;            ///< time of Mapper::add for all scans
-  double finish_s = 0;         ///< time of Mapper::finish, after the last scan
-  double peak_memory_mib = 0;  ///< memory of simulation and mapping, up to the finished map
+  TimeSummary scan_ms;          ///< time of Mapper::add for one scan
+  TimeSummary optimisation_ms;  ///< time of each optimisation of the graph while mapping
+  double add_s = 0;             ///< time of Mapper::add for all scans
+  double finish_s = 0;          ///< time of Mapper::finish, after the last scan
+  double peak_memory_mib = 0;   ///< memory of simulation and mapping, up to the finished map
   std::vector<std::pair<std::string, double>> stages_s;  ///< times of the stages of the mapper
 };
 
@@ -66,8 +68,8 @@ inline constexpr double kFalseLoop_deg = 5;
 /// Number of pairs of scans for the relations metric.
 inline constexpr std::size_t kRelations = 2000;
 
-/// Mean and 99th percentile of the values; zeros without values.
-MeanAndP99 mean_and_p99(std::vector<double> values);
+/// Summary of the values; zeros without values.
+TimeSummary summary_of_times(std::vector<double> values);
 
 /// Options of a run with a path of `path_m` metres, and with the seed, people and glass of `options`.
 SimulatedLogOptions simulated_run_options(const SimulateOptions& options, double path_m);

@@ -7,7 +7,8 @@
 /// of 180 degrees.
 ///
 /// Each frame counts once per cell, with the scans of all its lasers: as a hit if any beam ended in the cell,
-/// otherwise as a pass if any beam crossed it. A hit weighs three times a pass. A cell is occupied if more than a quarter of its counts are hits. The map
+/// otherwise as a pass if any beam crossed it. A hit weighs three times a pass. The counts of a cell saturate
+/// only after thousands of frames. A cell is occupied if more than a quarter of its counts are hits. The map
 /// does not depend on the number of beams. A standstill of 10 s or more counts as at most 64 frames.
 #pragma once
 

@@ -157,14 +157,14 @@ class MappingSession {
   /// Creates the folder and exports to it. Throws UserError if it is not empty, unless `force` is true.
   void export_to(const std::filesystem::path& folder, bool force = false);
 
-  /// Records the session in a journal from now on, so that a crash or a power failure loses no more than the
+  /// Records the session in a journal from now on, so that a crash or a power failure loses only the
   /// scans of the last moments. A journal is read like a session. Its file replaces an existing one; a
   /// recording that is resumed is copied to it first. Call before the first step(). Throws SystemFailure if
   /// the file cannot be created. The destructor keeps the file.
   void start_journal(const std::filesystem::path& file);
   /// Ends the journal, if there is one, and deletes its file, unless a saved session has replaced it.
   void remove_journal();
-  /// Why the journal is no longer written, a sentence without full stop; empty if it is or if there is none.
+  /// Why writing the journal failed, a sentence without full stop; empty if it did not fail.
   std::optional<std::string> journal_failure() const;
 
   /// Writes the mapped scans, all edits and settings to a session file. If only a part of a recorded session

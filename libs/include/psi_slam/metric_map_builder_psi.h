@@ -89,10 +89,11 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   /// Number of nodes of the graph.
   unsigned int getCurrentlyBuiltMapSize() override;
 
-  /// Returns an occupancy grid of all scans. The reference is valid as long as the builder. Before finish(), a
-  /// call draws the new scans and at most eight earlier scans whose poses have changed by more than 2.5 cm or
-  /// 2.5 mrad, so this function may be called at every scan. A correction of the whole map is thus worked off
-  /// over several calls, and a standstill counts with all its scans. After finish(), the grid is drawn anew.
+  /// Returns an occupancy grid of all scans. The reference is valid as long as the builder. Before finish(),
+  /// a call draws the new scans and at most eight earlier scans whose poses have changed by more than 2.5 cm
+  /// or 2.5 mrad, so this function may be called at every scan. A correction of the whole map is thus worked
+  /// off over several calls, and a standstill counts with all its scans. After finish(), the grid is drawn
+  /// anew.
 #if MRPT_VERSION >= 0x292
   const mrpt::maps::CMultiMetricMap& getCurrentlyBuiltMetricMap() const override;
 #else

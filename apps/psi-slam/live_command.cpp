@@ -64,7 +64,9 @@ int map_live(const CommandLine& line, const Streams& streams) {
   const std::filesystem::path journal = journal_in(line.output);
   OutputFolder::check(line.output, line.force);
   check_sessions_to_write(line);
-  LiveRun run(texts, streams.err_is_terminal && !line.quiet);
+  LiveRun run(texts, streams.err_is_terminal && !line.quiet,
+              "mapping the scans that came before, then finishing the map. Interrupt again to finish it "
+              "without more loops");
   MappingSession session(
       SessionInput(name_of(source),
                    [&](const LogOptions& options) { return open_live(source, options, run.control()); }),
@@ -79,9 +81,8 @@ int map_live(const CommandLine& line, const Streams& streams) {
         if (poses) print_pose(streams.out, last_pose(mapper), *poses);
       });
   if (unwritten) streams.err << "psi-slam: the map was not written while mapping: " << *unwritten << '\n';
-  if (run.end())
-    streams.err << "psi-slam: finishing the map. Interrupt again to finish it without more loops\n";
-  session.finish(run.interrupted());
+  run.end();
+  session.finish(run.cuts_short());
   return save_and_export(session, folder, line, texts, run.progress_line());
 }
 

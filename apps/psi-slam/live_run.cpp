@@ -3,36 +3,52 @@
 
 #include <csignal>
 #include <string>
+#include <utility>
 
 namespace psi_slam {
 
-LiveRun::LiveRun(const Streams& streams, bool shows_progress) : streams_(streams) {
-  signals_.emplace();
-  // A program that reads the poses must not end the mapping by its own end.
-  std::signal(SIGPIPE, SIG_IGN);
+// A program that reads the poses must not end the mapping by its own end.
+LiveRun::LiveRun(const Streams& streams, bool shows_progress, std::string at_interrupt)
+    : streams_(streams),
+      at_interrupt_(std::move(at_interrupt)),
+      previous_pipe_(std::signal(SIGPIPE, SIG_IGN)) {
   if (shows_progress) progress_line_.emplace(streams.err, ProgressLine::Input::kStream);
 }
 
+LiveRun::~LiveRun() {
+  std::signal(SIGPIPE, previous_pipe_);
+}
+
 LiveControl LiveRun::control() {
-  return {[this, &came = signals_->came()] { return came || left_; },
-          [this](const std::string& sentence) {
-            const std::lock_guard lock(printing_);
-            if (left_) return;
-            if (progress_line_) progress_line_->clear();
-            streams_.err << "psi-slam: " << sentence << std::endl;
-          }};
+  return {[this] {
+            print_interrupt();
+            return signals_.came() || left_;
+          },
+          [this](const std::string& sentence) { print(sentence); }};
+}
+
+void LiveRun::print(const std::string& sentence) {
+  const std::lock_guard lock(printing_);
+  if (left_) return;
+  if (progress_line_) progress_line_->clear();
+  streams_.err << "psi-slam: " << sentence << std::endl;
+}
+
+/// Tells that Ctrl-C came. A signal handler may not print.
+void LiveRun::print_interrupt() {
+  if (signals_.came() && !printed_interrupt_.exchange(true)) print(at_interrupt_);
 }
 
 void LiveRun::show(const SessionProgress& progress) {
+  print_interrupt();
   const std::lock_guard lock(printing_);
   if (progress_line_) progress_line_->show(progress);
 }
 
-bool LiveRun::end() {
+void LiveRun::end() {
+  print_interrupt();
   leave();
-  const bool interrupted = signals_->came();
-  signals_.emplace();
-  return interrupted;
+  ended_by_signal_ = signals_.came();
 }
 
 void LiveRun::leave() {

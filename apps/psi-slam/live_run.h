@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <ostream>
+#include <string>
 
 #include "interrupt_signals.h"
 #include "live/live_control.h"
@@ -15,31 +16,44 @@
 
 namespace psi_slam {
 
-/// Control of a live source and its messages. The first Ctrl-C ends the source, a later one the work that
-/// follows. The object must outlive the source.
+/// Control of a live source and its messages. The first Ctrl-C ends the source, the second one the work that
+/// follows, and the third one the process. The object must outlive the source.
 class LiveRun {
  public:
-  /// `shows_progress`: whether show() does anything.
-  LiveRun(const Streams& streams, bool shows_progress);
+  /// `shows_progress`: whether show() prints progress. `at_interrupt`: sentence that is printed after the
+  /// first Ctrl-C, without full stop.
+  LiveRun(const Streams& streams, bool shows_progress, std::string at_interrupt);
+  ~LiveRun();
+  LiveRun(const LiveRun&) = delete;
+  LiveRun& operator=(const LiveRun&) = delete;
 
   /// Lets the source print its notices until end() or leave().
   LiveControl control();
 
-  /// Shows progress while no notice is printed.
+  /// Shows progress while no notice is printed. Call after each scan.
   void show(const SessionProgress& progress);
   std::optional<ProgressLine>& progress_line() { return progress_line_; }
 
-  /// Call after the last frame. Returns whether Ctrl-C ended the source. The next Ctrl-C makes interrupted()
-  /// true.
-  bool end();
-  const std::atomic<bool>& interrupted() const { return signals_->came(); }
+  /// Call after the last frame.
+  void end();
+  /// Returns whether the work that follows the end of the source shall be cut short: by the second Ctrl-C, or
+  /// by the first one if the source has ended without. Call after end().
+  const std::atomic<bool>& cuts_short() const { return signals_.came(ended_by_signal_ ? 2 : 1); }
+  bool interrupted_twice() const { return signals_.came(2); }
 
   /// Lets the source end, so that it can be destroyed.
   void leave();
 
  private:
+  void print(const std::string& sentence);
+  void print_interrupt();
+
   const Streams& streams_;
-  std::optional<InterruptSignals> signals_;
+  std::string at_interrupt_;
+  InterruptSignals signals_{2};
+  void (*previous_pipe_)(int);
+  std::atomic<bool> printed_interrupt_ = false;
+  bool ended_by_signal_ = false;
   std::atomic<bool> left_ = false;
   std::mutex printing_;
   std::optional<ProgressLine> progress_line_;

@@ -93,11 +93,11 @@ int localize_live(const CommandLine& line, const LiveInput& source, const Settin
                   Localizer& localizer, const Streams& streams) {
   const std::optional<PoseFormat> poses = pose_format(line.live);
   const Streams texts{poses ? streams.err : streams.out, streams.err, streams.err_is_terminal};
-  LiveRun run(texts, false);
+  LiveRun run(texts, false, "localizing at the scans that came before. Interrupt again to skip them");
   const auto frames = open_live(source, log_options(settings), run.control());
   const std::optional<OutputFolder> folder = prepare_folder(line);
   const LocalizedLog localized = localize_all(
-      *frames, localizer, [] { return false; },
+      *frames, localizer, [&] { return run.interrupted_twice(); },
       [&](const std::vector<LocalizationStep>& steps) {
         const LocalizationStep& last = steps.back();
         if (poses && last.state == LocalizationStep::State::kTracking)

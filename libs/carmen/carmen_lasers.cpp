@@ -304,7 +304,8 @@ CarmenLasers::Candidates CarmenLasers::usual_candidates(const Messages& found) {
       left_out.push_back(message);
     }
   }
-  assumption_ = choice_of_lasers(chosen, left_out);
+  if (const std::string choice = choice_of_lasers(chosen, left_out); !choice.empty())
+    assumptions_.push_back(choice);
   if (chosen.size() < 2) return {carmen_laser_messages("")};
   Candidates wanted;
   for (const std::string& message : chosen) wanted.push_back({message});
@@ -327,9 +328,14 @@ void CarmenLasers::choose(Slot& slot, const std::string& message) {
   if (!options_.max_range_m) slot.laser->laser.set_max_range(max_range_by_readings_m(text_, message));
 }
 
-void CarmenLasers::require_all(const LaserChoice& choice) const {
+/// Throws UserError if a log lacks a selected laser, or if two selected ones are the same.
+void CarmenLasers::require_all(const LaserChoice& choice) {
   const std::string log_laser = "log.laser is \"" + options_.laser + "\"";
   for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (!slots_[i].laser && text_.is_stream()) {
+      assumptions_.push_back(late_laser_text("log.laser", choice.names[i]));
+      continue;
+    }
     if (!slots_[i].laser) {
       const Messages found = messages_in(text_, kAllLines);
       std::vector<std::string> lasers;
@@ -339,7 +345,7 @@ void CarmenLasers::require_all(const LaserChoice& choice) const {
                       "\", expected some of: " + quoted_list(lasers));
     }
     for (std::size_t j = 0; j < i; ++j)
-      if (slots_[j].laser->laser.message_name() == slots_[i].laser->laser.message_name())
+      if (slots_[j].laser && slots_[j].laser->laser.message_name() == slots_[i].laser->laser.message_name())
         throw UserError(log_laser + ", but \"" + choice.names[j] + "\" and \"" + choice.names[i] +
                         "\" are the same laser: the " + slots_[i].laser->laser.message_name() +
                         " messages of " + text_.path().string() + ". Name it once");

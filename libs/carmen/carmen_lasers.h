@@ -110,7 +110,7 @@ class CarmenLasers {
   };
 
   /// Throws UserError for a selected laser that CARMEN does not have. If several lasers are named, throws
-  /// UserError also if the log lacks one of them.
+  /// UserError also if the log lacks one of them; in a stream they may appear later.
   CarmenLasers(CarmenText text, const LogOptions& options);
 
   /// Returns the laser whose scans are in messages with this name, or null if these messages are not read.
@@ -134,8 +134,9 @@ class CarmenLasers {
   /// Names of all messages that may hold scans of the selected lasers, in order of preference.
   std::vector<std::string> candidates() const;
 
-  /// Says which lasers were selected, if the user selects none and the log has several; otherwise empty.
-  const std::string& assumption() const { return assumption_; }
+  /// Says which lasers were selected, if the user selects none and the log has several, and which selected
+  /// ones a stream lacks so far.
+  const std::vector<std::string>& assumptions() const { return assumptions_; }
 
   /// Names of each laser, see LogContents::laser_names.
   std::vector<std::vector<std::string>> names() const;
@@ -150,13 +151,13 @@ class CarmenLasers {
 
   Candidates usual_candidates(const std::set<std::string, std::less<>>& found);
   void choose(Slot& slot, const std::string& message);
-  void require_all(const LaserChoice& choice) const;
+  void require_all(const LaserChoice& choice);
 
   CarmenText text_;
   LogOptions options_;
   std::vector<Slot> slots_;
   std::deque<std::string> parameters_;
-  std::string assumption_;
+  std::vector<std::string> assumptions_;
 };
 
 }  // namespace psi_slam

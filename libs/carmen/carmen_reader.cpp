@@ -18,13 +18,14 @@
 // A stream is looked over only for its first seconds, see open_carmen_stream(). All its malformed lines are
 // skipped, because a connection may be cut at any time.
 #include <algorithm>
-#include <cmath>
+#include <set>
 #include <utility>
 
 #include "base/text_parts.h"
 #include "carmen/carmen_lasers.h"
 #include "carmen/carmen_stream.h"
 #include "frames/log_reader.h"
+#include "frames/look_over.h"
 #include "frames/odometry_interpolator.h"
 
 namespace psi_slam {
@@ -35,7 +36,11 @@ constexpr std::size_t kLinesForOneSkipped = 100;
 // fraction of skipped lines can fall later.
 constexpr std::size_t kSkippedBeforeTheEnd = 100;
 
-constexpr std::size_t kMostWaitingOfStream = 100;  // scans of a stream that wait for odometry
+constexpr std::size_t kMostHeadBytes = std::size_t{16} * 1024 * 1024;  // of a stream
+// Names of messages of a stream that the contents tell apart, besides those that are read, and their length.
+constexpr std::size_t kMostOtherNames = 20;
+constexpr std::size_t kMostNameLength = 32;
+constexpr const char* kOtherName = "unknown";
 
 /// Keeps a copy of the bytes that are read from another source.
 class CopiedSource : public ByteSource {
@@ -56,11 +61,27 @@ class CopiedSource : public ByteSource {
 };
 
 /// Beginning of a stream.
-struct StreamHead {
-  std::filesystem::path name;  ///< name of the stream
-  std::string lines;           ///< the lines that decide what is read
-  std::string bytes;           ///< all bytes that were taken from the stream
-  bool has_odometry = false;
+class StreamHead {
+ public:
+  /// Reads a stream until it has been looked over, see LookOver.
+  StreamHead(ByteSource& stream, const LogOptions& options, double look_over_s);
+
+  const std::filesystem::path& name() const { return name_; }
+  bool has_odometry() const { return has_odometry_; }
+
+  /// The lines that decide what is read.
+  std::string lines() const { return bytes_.substr(0, lines_end_); }
+
+  /// All bytes that were taken from the stream: the lines, and bytes that follow them.
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  void forget_old_lines();
+
+  std::filesystem::path name_;
+  std::string bytes_;
+  std::size_t lines_end_ = 0;
+  bool has_odometry_ = false;
 };
 
 /// Returns the time of a scan line; empty for a malformed one.
@@ -72,29 +93,51 @@ std::optional<TimeUs> time_of_scan(CarmenFields& fields) {
   }
 }
 
-/// Reads a stream until `look_over_s` seconds after its first scan of a laser that may be read.
-StreamHead look_over(ByteSource& stream, const LogOptions& options, double look_over_s) {
-  StreamHead head;
-  head.name = stream.path();
-  LineReader lines(std::make_unique<CopiedSource>(stream, head.bytes));
+StreamHead::StreamHead(ByteSource& stream, const LogOptions& options, double look_over_s)
+    : name_(stream.path()) {
+  LineReader lines(std::make_unique<CopiedSource>(stream, bytes_));
+  const bool names_several = laser_choice("log.laser", options.laser).names.size() > 1;
+  auto lasers = carmen_laser_candidates(options);  // lasers without a scan so far, if several are named
   std::vector<std::string> scans;
-  for (const auto& candidates : carmen_laser_candidates(options))
-    scans.insert(scans.end(), candidates.begin(), candidates.end());
-  std::optional<TimeUs> first_us;
+  for (const auto& candidates : lasers) scans.insert(scans.end(), candidates.begin(), candidates.end());
+  LookOver look_over(look_over_s);
   bool is_enough = false;
   std::string_view line;
   while (!is_enough && lines.next(line)) {
-    head.lines.append(line) += '\n';
+    lines_end_ = std::min(bytes_.find('\n', lines_end_), bytes_.size() - 1) + 1;
     CarmenFields fields(line, lines);
-    head.has_odometry = head.has_odometry || fields.message() == "ODOM";
-    if (contains(scans, std::string(fields.message())))
+    const std::string name(fields.message().substr(0, kMostNameLength));
+    has_odometry_ = has_odometry_ || name == "ODOM";
+    if (contains(scans, name))
       if (const auto time_us = time_of_scan(fields)) {
-        if (!first_us) first_us = time_us;
-        is_enough = std::abs(seconds(*time_us - *first_us)) >= look_over_s;
+        look_over.add_scan(*time_us);
+        lasers.erase(std::remove_if(lasers.begin(), lasers.end(),
+                                    [&](const auto& candidates) { return contains(candidates, name); }),
+                     lasers.end());
       }
-    is_enough = is_enough || (first_us && lines.line_number() >= kLinesOfHead);
+    const bool awaits_laser = names_several && !lasers.empty();
+    is_enough = look_over.is_enough(awaits_laser) ||
+                (look_over.began() && !awaits_laser && lines.line_number() >= kLinesOfHead);
+    if (lines_end_ <= kMostHeadBytes) continue;
+    is_enough = is_enough || look_over.began();
+    if (!is_enough) forget_old_lines();
   }
-  return head;
+}
+
+/// Drops the oldest lines until half of the most bytes are left. Keeps the first PARAM lines.
+void StreamHead::forget_old_lines() {
+  const std::string_view bytes = bytes_;
+  std::string parameters;
+  std::size_t begin = 0;
+  while (begin < lines_end_ && parameters.size() + lines_end_ - begin > kMostHeadBytes / 2) {
+    const std::size_t end = std::min(bytes.find('\n', begin), bytes.size() - 1) + 1;
+    const std::string_view line = bytes.substr(begin, end - begin);
+    if (starts_with(line, "PARAM ") && parameters.size() + line.size() <= kMostHeadBytes / 4)
+      parameters += line;
+    begin = end;
+  }
+  lines_end_ += parameters.size() - begin;
+  bytes_.replace(0, begin, parameters);
 }
 
 class CarmenReader : public LogReader {
@@ -104,12 +147,11 @@ class CarmenReader : public LogReader {
 
   /// Reads a stream from its beginning.
   CarmenReader(const StreamHead& head, std::unique_ptr<ByteSource> stream, const LogOptions& options)
-      : CarmenReader(CarmenText(head.name, std::make_shared<const std::string>(head.lines)),
-                     LineReader(std::make_unique<TextSource>(std::make_shared<const std::string>(head.bytes),
-                                                             head.name, std::move(stream))),
-                     options, kMostWaitingOfStream) {
-    is_stream_ = true;
-    if (!with_odometry_ || head.has_odometry) return;
+      : CarmenReader(CarmenText(head.name(), std::make_shared<const std::string>(head.lines())),
+                     LineReader(std::make_unique<TextSource>(
+                         std::make_shared<const std::string>(head.bytes()), head.name(), std::move(stream))),
+                     options) {
+    if (!with_odometry_ || head.has_odometry()) return;
     interpolator_.expect_no_odometry();
     ignores_odom_lines_ = lasers_.any_needs_odometry();
   }
@@ -131,21 +173,34 @@ class CarmenReader : public LogReader {
   }
 
  private:
-  CarmenReader(CarmenText text, LineReader lines, const LogOptions& options,
-               std::size_t most_waiting = OdometryInterpolator::kMaxWaiting)
-      : lasers_(std::move(text), options),
+  CarmenReader(CarmenText text, LineReader lines, const LogOptions& options)
+      : is_stream_(text.is_stream()),
+        lasers_(std::move(text), options),
         lines_(std::move(lines)),
-        interpolator_(most_waiting),
+        interpolator_(is_stream_ ? kMostWaitingOfStream : OdometryInterpolator::kMaxWaiting),
         with_odometry_(!ignores_odometry(options)) {
     if (!with_odometry_) interpolator_.expect_no_odometry();
     contents_.several_lasers = lasers_.several();
     contents_.laser_names = lasers_.names();
-    if (!lasers_.assumption().empty()) contents_.assumptions.push_back(lasers_.assumption());
+    contents_.assumptions = lasers_.assumptions();
+  }
+
+  /// Returns the name that a message is counted under. A stream may hold any number of damaged names, which
+  /// share one.
+  std::string counted_name(std::string_view message) {
+    if (!is_stream_ || message == "ODOM" || message == "PARAM") return std::string(message);
+    if (message.size() > kMostNameLength) return kOtherName;
+    std::string name(message);
+    if (other_names_.count(name) == 0) {
+      if (other_names_.size() == kMostOtherNames) return kOtherName;
+      other_names_.insert(name);
+    }
+    return name;
   }
 
   void count(std::string_view message, CarmenLasers::Laser* laser) {
     if (laser == nullptr) {
-      ++contents_.messages[std::string(message)];
+      ++contents_.messages[counted_name(message)];
       return;
     }
     scan_counts_.resize(std::max(scan_counts_.size(), laser->number + 1));
@@ -289,13 +344,14 @@ class CarmenReader : public LogReader {
                                    : name_list(found) + ". Select a laser with log.laser"));
   }
 
+  bool is_stream_;
   CarmenLasers lasers_;
   LineReader lines_;
   OdometryInterpolator interpolator_;
   // Pointers into contents_.messages, by number of the laser, to avoid a search.
   std::vector<std::size_t*> scan_counts_;
+  std::set<std::string> other_names_;  // of messages of a stream that are counted, but not read
   bool with_odometry_;
-  bool is_stream_ = false;
   bool ignores_odom_lines_ = false;  // because the first lines of the stream had none; none has come so far
   std::size_t lines_needed_ = 0;     // number of lines needed so far, malformed ones included
   bool at_end_ = false;
@@ -309,7 +365,7 @@ std::unique_ptr<LogReader> open_carmen_log(const std::filesystem::path& path, co
 
 std::unique_ptr<LogReader> open_carmen_stream(std::unique_ptr<ByteSource> stream, const LogOptions& options,
                                               double look_over_s) {
-  const StreamHead head = look_over(*stream, options, look_over_s);
+  const StreamHead head(*stream, options, look_over_s);
   return std::make_unique<CarmenReader>(head, std::move(stream), options);
 }
 

@@ -26,6 +26,8 @@ class CarmenText {
     return first_lines_ ? LineReader(std::make_unique<TextSource>(first_lines_, path_)) : LineReader(path_);
   }
 
+  bool is_stream() const { return first_lines_ != nullptr; }
+
   /// Path of the file, or name of the stream.
   const std::filesystem::path& path() const { return path_; }
 

@@ -143,6 +143,12 @@ std::string choice_of_lasers(const std::vector<std::string>& combined,
   return text.empty() ? text : text + ". Select lasers with log.laser";
 }
 
+std::string late_laser_text(const std::string& option, const std::string& name) {
+  return option + " names the laser \"" + name +
+         "\", of which no scan came in the first seconds. It is read from its first scan on. Check its name "
+         "if it never sends";
+}
+
 std::vector<StatedMount> stated_mounts(const LogOptions& options) {
   std::vector<StatedMount> mounts;
   if (trimmed(options.laser_mounts).empty()) return mounts;

@@ -58,6 +58,9 @@ class ChosenLasers {
 std::string choice_of_lasers(const std::vector<std::string>& combined,
                              const std::vector<std::string>& left_out);
 
+/// Says that no scan of a laser which `option` names came while a stream was looked over.
+std::string late_laser_text(const std::string& option, const std::string& name);
+
 /// Pose of one laser on the robot as the user states it.
 struct StatedMount {
   std::string name;

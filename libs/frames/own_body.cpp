@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "frames/look_over.h"
 #include "frames/scan_neighbours.h"
 #include "psi_slam/user_error.h"
 
@@ -259,16 +260,14 @@ OwnBodyMask OwnBodyFinder::mask() const {
 
 OwnBodyMask find_own_body(FrameSource& log, std::optional<double> most_s) {
   OwnBodyFinder finder;
-  std::optional<TimeUs> first_us;
+  LookOver look_over(most_s.value_or(0));
   try {
-    for (std::size_t frames = 1; !finder.settled(); ++frames) {
+    while (!finder.settled()) {
       const std::optional<Frame> frame = log.next();
       if (!frame) break;
       finder.add(*frame);
-      if (!first_us) first_us = frame->time_us;
-      if (most_s && (frames >= OwnBodyFinder::kMostFramesOfStream ||
-                     std::abs(seconds(frame->time_us - *first_us)) >= *most_s))
-        break;
+      look_over.add_scan(frame->time_us);
+      if (most_s && look_over.is_enough()) break;
     }
   } catch (const UserError&) {  // damage is reported where the log is mapped or checked
   }

@@ -105,7 +105,6 @@ class OwnBodyFinder {
   static constexpr double kFar_m = 2.0;
   static constexpr double kReach_m = 1.0;  ///< the body is at most this far from the laser
   static constexpr std::size_t kMostFrames = 10'000;
-  static constexpr std::size_t kMostFramesOfStream = 500;
   static constexpr std::size_t kMostKeyScans = 60;
   static constexpr std::size_t kLeastSeen = 15;
   static constexpr std::size_t kLeastSeenWithoutHeading = 40;
@@ -152,8 +151,8 @@ class OwnBodyFinder {
   std::map<std::size_t, Laser> lasers_;
 };
 
-/// Reads a log until the finder has settled. With `most_s`, reads at most kMostFramesOfStream frames, until
-/// `most_s` seconds after the first one. Stops without an error where the log is damaged.
+/// Reads a log until the finder has settled. With `most_s`, the log is a stream, which is looked over for so
+/// many seconds, see LookOver. Stops without an error where the log is damaged.
 OwnBodyMask find_own_body(FrameSource& log, std::optional<double> most_s = std::nullopt);
 
 }  // namespace psi_slam

@@ -111,7 +111,10 @@ class TcpInput : public LineStream {
     socklen_t size = sizeof(sender);
     client_ = Descriptor(::accept4(listener_.number(), reinterpret_cast<sockaddr*>(&sender), &size,
                                    SOCK_CLOEXEC | SOCK_NONBLOCK));
-    if (!client_.is_open()) return;
+    if (!client_.is_open()) {
+      ::poll(nullptr, 0, kWait_ms);  // the failure may last, such as too many open files
+      return;
+    }
     find_cut_cables();
     std::array<char, INET_ADDRSTRLEN> address{};
     ::inet_ntop(AF_INET, &sender.sin_addr, address.data(), address.size());
@@ -172,6 +175,11 @@ void check_growing_lines(const fs::path& file) {
       " cannot be followed, expected a plain CARMEN log. Record CARMEN lines, or map the log when it is "
       "complete";
   if (fs::is_directory(file, ignored)) throw UserError(file.string() + " is a folder and" + remedy);
+  // Looking at the first bytes of a pipe would take them from the stream.
+  if (!fs::is_regular_file(file, ignored))
+    throw UserError(file.string() +
+                    " is no regular file, expected a log that is being recorded. Pipe it to "
+                    "--stdin");
   std::array<char, 4> head{};
   const Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
   const ssize_t got = ::read(opened.number(), head.data(), head.size());

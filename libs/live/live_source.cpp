@@ -2,7 +2,6 @@
 #include "live/live_source.h"
 
 #include <filesystem>
-#include <functional>
 #include <utility>
 
 #include "carmen/carmen_stream.h"
@@ -15,17 +14,28 @@
 namespace psi_slam {
 namespace {
 
-using OpenReader = std::function<std::unique_ptr<LogReader>()>;
+/// Opens the reader of a stream.
+template <class Stream>
+using OpenReader = std::unique_ptr<LogReader> (*)(std::unique_ptr<Stream>, const LogOptions&, double);
 
-/// Frames of a reader that is opened by the first call of next(), because that waits for the first scans.
+/// Frames of a reader that is opened by the first call of next(), because that waits for the first scans. If
+/// that fails, there are no frames.
+template <class Stream>
 class AwaitedSource : public FrameSource {
  public:
-  AwaitedSource(OpenReader open, LogFormat format, LogOptions options, double look_over_s)
-      : open_(std::move(open)), format_(format), options_(std::move(options)), look_over_s_(look_over_s) {}
+  AwaitedSource(std::unique_ptr<Stream> stream, OpenReader<Stream> open, LogFormat format, LogOptions options,
+                double look_over_s)
+      : stream_(std::move(stream)),
+        open_(open),
+        format_(format),
+        options_(std::move(options)),
+        look_over_s_(look_over_s) {}
 
   std::optional<Frame> next() override {
-    if (!source_) source_ = frames_to_map(open_(), format_, options_, look_over_s_);
-    return source_->next();
+    if (stream_)
+      source_ =
+          frames_to_map(open_(std::move(stream_), options_, look_over_s_), format_, options_, look_over_s_);
+    return source_ ? source_->next() : std::nullopt;
   }
   double progress() const override { return 0; }
   SkippedLines skipped_lines() const override { return source_ ? source_->skipped_lines() : SkippedLines(); }
@@ -34,7 +44,8 @@ class AwaitedSource : public FrameSource {
   }
 
  private:
-  OpenReader open_;
+  std::unique_ptr<Stream> stream_;  // null after it was opened
+  OpenReader<Stream> open_;
   LogFormat format_;
   LogOptions options_;
   double look_over_s_;
@@ -72,22 +83,12 @@ std::unique_ptr<FrameSource> open_live(const LiveInput& input, const LogOptions&
   const LogFormat format =
       input.kind == LiveInput::Kind::kSensors ? LogFormat::kMrptRawlog : LogFormat::kCarmen;
   check_options_for(format, name, options);
-  // A reader is opened once, so it may take its stream.
-  if (input.kind == LiveInput::Kind::kSensors) {
-    auto sensors = std::make_shared<std::unique_ptr<ObjectSource>>(
-        std::make_unique<SensorSet>(input.file, control, input.idle_s));
-    return std::make_unique<AwaitedSource>(
-        [sensors, options, look_over_s = input.look_over_s] {
-          return open_observation_stream(std::move(*sensors), options, look_over_s);
-        },
-        format, options, input.look_over_s);
-  }
-  auto lines = std::make_shared<std::unique_ptr<ByteSource>>(open_lines(input, control));
-  return std::make_unique<AwaitedSource>(
-      [lines, options, look_over_s = input.look_over_s] {
-        return open_carmen_stream(std::move(*lines), options, look_over_s);
-      },
-      format, options, input.look_over_s);
+  if (input.kind == LiveInput::Kind::kSensors)
+    return std::make_unique<AwaitedSource<ObjectSource>>(
+        std::make_unique<SensorSet>(input.file, control, input.idle_s), open_observation_stream, format,
+        options, input.look_over_s);
+  return std::make_unique<AwaitedSource<ByteSource>>(open_lines(input, control), open_carmen_stream, format,
+                                                     options, input.look_over_s);
 }
 
 }  // namespace psi_slam

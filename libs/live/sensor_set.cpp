@@ -35,7 +35,8 @@ constexpr auto kWait = 100ms;  // next() looks at the user's wishes so often
 constexpr auto kFailing = 1s;  // errors of a driver that last longer restart it
 constexpr auto kSilent = 5s;   // so does a laser without scans
 constexpr auto kBeforeRestart = 1s;
-constexpr std::size_t kMostWaiting = 10'000;  // objects that wait; older ones are dropped
+constexpr std::size_t kMostWaiting = 10'000;  // objects that wait
+constexpr const char* kTooSlow = "more than 10,000 observations wait, so the oldest are dropped";
 
 /// First line of the message of a driver, without the place in its source code.
 std::string reason_of(const std::exception& error) {
@@ -50,6 +51,10 @@ bool is_wanted(const CSerializable& object) {
          dynamic_cast<const mrpt::obs::CObservationOdometry*>(&object) != nullptr ||
          dynamic_cast<const mrpt::obs::CActionCollection*>(&object) != nullptr ||
          dynamic_cast<const mrpt::obs::CObservationIMU*>(&object) != nullptr;
+}
+
+bool is_imu(const CSerializable::Ptr& object) {
+  return dynamic_cast<const mrpt::obs::CObservationIMU*>(object.get()) != nullptr;
 }
 
 /// Some drivers make a scan without readings of a broken connection.
@@ -208,14 +213,32 @@ void SensorSet::read(const std::string& section, bool& works) {
     const auto objects = sensor.read();
     if (!objects.empty() && !std::exchange(works, true))
       control_.notify("sensor [" + section + "] sends data");
-    {
-      const std::lock_guard lock(mutex_);
-      objects_.insert(objects_.end(), objects.begin(), objects.end());
-      while (objects_.size() > kMostWaiting) objects_.pop_front();
-    }
-    changed_.notify_all();
+    keep(objects);
     pause(began + sensor.period() - Clock::now());
   }
+}
+
+/// Lets objects wait for next().
+void SensorSet::keep(const std::vector<CSerializable::Ptr>& objects) {
+  bool is_first = false;
+  {
+    const std::lock_guard lock(mutex_);
+    objects_.insert(objects_.end(), objects.begin(), objects.end());
+    is_first = dropped_ == 0 && objects_.size() > kMostWaiting;
+    for (; objects_.size() > kMostWaiting; ++dropped_) {
+      const auto imu = std::find_if(objects_.begin(), objects_.end(), is_imu);
+      objects_.erase(imu != objects_.end() ? imu : objects_.begin());
+    }
+  }
+  changed_.notify_all();
+  if (is_first)
+    control_.notify(std::string(kTooSlow) + ". Lower process_rate, or choose settings that map faster");
+}
+
+SkippedLines SensorSet::dropped() const {
+  const std::lock_guard lock(mutex_);
+  if (dropped_ == 0) return {};
+  return {dropped_, settings_.string() + ": " + kTooSlow, 0};
 }
 
 CSerializable::Ptr SensorSet::next() {

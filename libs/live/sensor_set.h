@@ -20,7 +20,9 @@ namespace psi_slam {
 /// Reads the sensors of a settings file as rawlog-grabber and icp-slam-live do: each section with a key
 /// `driver` is a sensor, whose driver is a class of mrpt::hwdrivers, and is read in a thread of its own.
 /// Yields scans, odometry, robot actions and readings of IMUs in the order of their arrival; other
-/// observations are dropped. At most 10,000 objects wait to be taken; older ones are dropped.
+/// observations are dropped. At most 10,000 objects wait to be taken. If more come, the oldest readings of
+/// IMUs are dropped, or without any the oldest objects; dropped() counts them, and a notice tells of the
+/// first.
 ///
 /// A driver that fails, sends empty scans or, for a laser, sends nothing for five seconds, is started again
 /// every second until it works. Notices say so.
@@ -36,6 +38,7 @@ class SensorSet : public ObjectSource {
 
   mrpt::serialization::CSerializable::Ptr next() override;
   std::string place() const override;
+  SkippedLines dropped() const override;
   const std::filesystem::path& path() const override { return settings_; }
   double progress() const override { return 0; }
 
@@ -45,6 +48,7 @@ class SensorSet : public ObjectSource {
   void start();
   void keep_reading(const std::string& section);
   void read(const std::string& section, bool& works);
+  void keep(const std::vector<mrpt::serialization::CSerializable::Ptr>& objects);
   void pause(std::chrono::duration<double> time);
   bool should_stop() const;
 
@@ -58,6 +62,7 @@ class SensorSet : public ObjectSource {
   mutable std::mutex mutex_;  ///< protects the members below
   std::condition_variable changed_;
   std::deque<mrpt::serialization::CSerializable::Ptr> objects_;
+  std::size_t dropped_ = 0;
   bool ended_ = false;
 };
 

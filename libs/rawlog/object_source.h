@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "psi_slam/frame_source.h"
+
 namespace psi_slam {
 
 /// Actions, sensory frames and observations of MRPT in their order: those of a rawlog, or of sensors that are
@@ -20,6 +22,9 @@ class ObjectSource {
   /// Place of the object that next() last returned, for error messages: "path: object 12". Objects are
   /// counted from 1.
   virtual std::string place() const = 0;
+
+  /// Objects that were dropped because next() was not called fast enough.
+  virtual SkippedLines dropped() const { return {}; }
 
   virtual const std::filesystem::path& path() const = 0;
   /// Share of the objects read so far, in [0, 1]; 0 for sensors.

@@ -17,7 +17,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
-#include <cmath>
+#include <deque>
 #include <functional>
 #include <set>
 #include <utility>
@@ -26,6 +26,7 @@
 #include "frames/gyroscope_choice.h"
 #include "frames/laser_readings.h"
 #include "frames/log_reader.h"
+#include "frames/look_over.h"
 #include "observations/mrpt_objects.h"
 #include "observations/observation_frames.h"
 #include "psi_slam/user_error.h"
@@ -55,7 +56,7 @@ struct Sensors {
   std::vector<std::string> lasers;
   Odometry odometry;
   GyroscopeChoice gyroscope;
-  std::string assumption;  // about the lasers; may be empty
+  std::vector<std::string> assumptions;  // about the lasers
 };
 
 /// Chooses lasers by the first scans of a log, for a user who selects none: the first laser, and all others
@@ -142,7 +143,8 @@ std::vector<std::pair<std::string, std::string>> named_labels(const LogOptions& 
 /// Combines the usual lasers of a log, if there are several.
 void use(const UsualLasers& usual, Sensors& sensors) {
   const auto [chosen, left_out] = usual.choose();
-  sensors.assumption = choice_of_lasers(chosen, left_out);
+  if (const std::string choice = choice_of_lasers(chosen, left_out); !choice.empty())
+    sensors.assumptions.push_back(choice);
   if (chosen.size() < 2) return;
   sensors.lasers = chosen;
   sensors.options.laser.clear();
@@ -152,8 +154,8 @@ void use(const UsualLasers& usual, Sensors& sensors) {
 
 /// Finds the lasers to read, the kind of odometry and the gyroscope. Reads objects until the lasers, all
 /// sensors that the user names, and odometry have appeared, or to their end. Throws UserError if a sensor is
-/// missing.
-Sensors find_sensors(ObjectSource& archive, const LogOptions& options) {
+/// missing; lasers of a stream may appear later, except for one of those that log.laser names.
+Sensors find_sensors(ObjectSource& archive, const LogOptions& options, bool of_stream = false) {
   const std::filesystem::path& path = archive.path();
   const auto named = named_labels(options);
   const LaserChoice choice = laser_choice("log.laser", options.laser);
@@ -201,7 +203,14 @@ Sensors find_sensors(ObjectSource& archive, const LogOptions& options) {
         path.string() +
         " has no laser scans, expected observations of class CObservation2DRangeScan. Choose another log");
   }
-  if (const auto missing = std::find_if(named.begin(), named.end(), is_missing); missing != named.end()) {
+  const bool selected_is_found = std::any_of(choice.names.begin(), choice.names.end(),
+                                             [&](const auto& name) { return labels.count(name) != 0; });
+  const bool may_come_later = of_stream && (choice.names.empty() || selected_is_found);
+  std::vector<std::string> assumptions;
+  for (const auto& [label, option] : named)
+    if (may_come_later && labels.count(label) == 0) assumptions.push_back(late_laser_text(option, label));
+  const auto missing = may_come_later ? named.end() : std::find_if(named.begin(), named.end(), is_missing);
+  if (missing != named.end()) {
     throw UserError(missing->second + " is \"" + missing->first + "\", expected the label of a laser of " +
                     path.string() + ": " + quoted_list({labels.begin(), labels.end()}));
   }
@@ -209,7 +218,7 @@ Sensors find_sensors(ObjectSource& archive, const LogOptions& options) {
   Sensors found{options, chosen.names(), odometry,
                 choose_gyroscope(options, {gyroscopes.begin(), gyroscopes.end()}, odometry != Odometry::kNone,
                                  "the label of a CObservationIMU with a rate of turn of " + path.string()),
-                ""};
+                assumptions};
   if (!selects_lasers) use(usual, found);
   return found;
 }
@@ -219,9 +228,8 @@ Sensors find_sensors(const std::filesystem::path& path, const LogOptions& option
   return find_sensors(archive, options);
 }
 
-constexpr std::size_t kMostScansOfHead = 500;        // of a stream
-constexpr std::size_t kMostWaitingOfStream = 100;    // scans of a stream that wait for odometry
-constexpr std::size_t kMostSkippedBeforeScans = 20;  // observations of a stream
+// Objects that are kept while a stream is looked over. Scans that are looked over are kept in any case.
+constexpr std::size_t kMostObjectsOfHead = 10'000;
 
 /// Objects in memory, and after them those of another source unless that is null.
 class KeptObjects : public ObjectSource {
@@ -232,12 +240,13 @@ class KeptObjects : public ObjectSource {
 
   mrpt::serialization::CSerializable::Ptr next() override {
     if (next_ == objects_.size()) return rest_ ? rest_->next() : nullptr;
-    return objects_[next_++];
+    return std::move(objects_[next_++]);  // objects that were read need no memory
   }
   std::string place() const override {
     if (next_ == objects_.size() && rest_) return rest_->place();
     return path_.string() + ": object " + std::to_string(next_);
   }
+  SkippedLines dropped() const override { return rest_ ? rest_->dropped() : SkippedLines(); }
   const std::filesystem::path& path() const override { return path_; }
   double progress() const override { return 0; }
 
@@ -248,25 +257,35 @@ class KeptObjects : public ObjectSource {
   std::size_t next_ = 0;
 };
 
-/// Reads a stream until `look_over_s` seconds after its first scan.
-std::vector<mrpt::serialization::CSerializable::Ptr> look_over(ObjectSource& stream, double look_over_s) {
-  std::vector<mrpt::serialization::CSerializable::Ptr> head;
-  std::optional<TimeUs> first_us;
-  std::size_t scans = 0;
-  while (scans < kMostScansOfHead) {
+/// Returns the time of an object that is a scan with a time stamp.
+std::optional<TimeUs> time_of_scan(const mrpt::serialization::CSerializable& object) {
+  const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&object);
+  return scan != nullptr ? time_us(*scan) : std::nullopt;
+}
+
+/// Reads a stream until it has been looked over, see LookOver. Keeps the latest objects besides the scans.
+std::vector<mrpt::serialization::CSerializable::Ptr> look_over(ObjectSource& stream,
+                                                               const LogOptions& options,
+                                                               double look_over_s) {
+  std::deque<mrpt::serialization::CSerializable::Ptr> head;
+  std::set<std::string> awaited;
+  for (const auto& [label, option] : named_labels(options)) awaited.insert(label);
+  LookOver scans(look_over_s);
+  while (!scans.is_enough(!awaited.empty())) {
     head.push_back(stream.next());
     if (!head.back()) {
       head.pop_back();
       break;
     }
-    const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(head.back().get());
-    const std::optional<TimeUs> stamp = scan != nullptr ? time_us(*scan) : std::nullopt;
-    if (!stamp) continue;
-    ++scans;
-    if (!first_us) first_us = stamp;
-    if (std::abs(seconds(*stamp - *first_us)) >= look_over_s) break;
+    if (const auto stamp = time_of_scan(*head.back())) {
+      scans.add_scan(*stamp);
+      awaited.erase(dynamic_cast<const CObservation&>(*head.back()).sensorLabel);
+    } else if (head.size() > kMostObjectsOfHead) {
+      head.erase(
+          std::find_if(head.begin(), head.end(), [](const auto& object) { return !time_of_scan(*object); }));
+    }
   }
-  return head;
+  return {head.begin(), head.end()};
 }
 
 class RawlogReader : public LogReader {
@@ -284,7 +303,7 @@ class RawlogReader : public LogReader {
     contents_.laser = name_list(found_.lasers);
     contents_.several_lasers = found_.lasers.size() > 1;
     name_lasers(found_.lasers);
-    if (!found_.assumption.empty()) contents_.assumptions.push_back(found_.assumption);
+    contents_.assumptions = found_.assumptions;
     if (!found_.gyroscope.assumption.empty()) contents_.assumptions.push_back(found_.gyroscope.assumption);
   }
 
@@ -297,6 +316,7 @@ class RawlogReader : public LogReader {
       if (at_end_ && frames_given() == 0 && frames_.scans() > 0 && contents_.skipped.count > 0)
         throw UserError(contents_.skipped.first +
                         ", as in all of its observations. Map without odometry with log.odometry=none");
+      if (at_end_ && frames_given() == 0 && invalid_.count > 0) throw UserError(invalid_.first);
       if (at_end_) return std::nullopt;
       if (const auto object = archive_->next()) {
         take_or_skip(*object);
@@ -314,9 +334,8 @@ class RawlogReader : public LogReader {
     } catch (const UserError& error) {
       if (!is_stream_) throw;
       if (invalid_.count++ == 0) invalid_.first = error.what();
-      if (frames_given() == 0 && invalid_.count > kMostSkippedBeforeScans) throw;
     }
-    contents_.skipped = frames_.skipped() + invalid_;
+    contents_.skipped = frames_.skipped() + invalid_ + archive_->dropped();
   }
 
   void take(mrpt::serialization::CSerializable& object) {
@@ -353,11 +372,11 @@ std::unique_ptr<LogReader> open_rawlog(const std::filesystem::path& path, const 
 
 std::unique_ptr<LogReader> open_observation_stream(std::unique_ptr<ObjectSource> stream,
                                                    const LogOptions& options, double look_over_s) {
-  const auto head = look_over(*stream, look_over_s);
+  const auto head = look_over(*stream, options, look_over_s);
   const std::filesystem::path path = stream->path();
   KeptObjects first(head, path);
   return std::make_unique<RawlogReader>(std::make_unique<KeptObjects>(head, path, std::move(stream)),
-                                        find_sensors(first, options), true);
+                                        find_sensors(first, options, true), true);
 }
 
 }  // namespace psi_slam

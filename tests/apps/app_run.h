@@ -59,7 +59,8 @@ inline AppRun run_app(const std::vector<std::string>& arguments, bool err_is_ter
   return {code, out.str(), err.str()};
 }
 
-/// Runs the program as a child process. Its standard output and error go to files in `folder`.
+/// Runs the program as a child process, which is killed with the object unless finish() was called. Its
+/// standard output and error go to files in `folder`.
 class AppProcess {
  public:
   /// Starts `program` in a new process. `prepare` runs in this process before the program does.
@@ -85,6 +86,14 @@ class AppProcess {
     ::_exit(127);
   }
 
+  ~AppProcess() {
+    if (finished_) return;
+    send(SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+  }
+  AppProcess(const AppProcess&) = delete;
+  AppProcess& operator=(const AppProcess&) = delete;
+
   pid_t pid() const { return pid_; }
   void send(int signal) const { ::kill(pid_, signal); }
 
@@ -92,6 +101,7 @@ class AppProcess {
   AppRun finish() const {
     int status = 0;
     ::waitpid(pid_, &status, 0);
+    finished_ = true;
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     return {code, bytes_of(folder_ / "stdout"), bytes_of(folder_ / "stderr")};
   }
@@ -99,6 +109,7 @@ class AppProcess {
  private:
   std::filesystem::path folder_;
   pid_t pid_ = -1;
+  mutable bool finished_ = false;  // the process may not be signalled after it was waited for
 };
 
 }  // namespace psi_slam

@@ -24,6 +24,18 @@ TEST(InterruptSignals, the_first_sets_a_flag_and_the_next_ends_the_process) {
   }
 }
 
+TEST(InterruptSignals, counts_as_many_as_are_expected) {
+  const InterruptSignals signals(2);
+  raise(SIGINT);
+  EXPECT_TRUE(signals.came());
+  EXPECT_FALSE(signals.came(2));
+  EXPECT_NE(handler_of(SIGTERM), SIG_DFL);
+  raise(SIGTERM);
+  EXPECT_TRUE(signals.came(2));
+  EXPECT_EQ(handler_of(SIGINT), SIG_DFL);
+  EXPECT_EQ(handler_of(SIGTERM), SIG_DFL);
+}
+
 TEST(InterruptSignals, leaves_signals_as_they_were) {
   signal(SIGINT, SIG_IGN);
   {

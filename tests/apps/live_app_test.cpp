@@ -98,6 +98,20 @@ TEST_F(LiveApp, maps_what_clients_send_until_it_is_interrupted) {
   expect_same_map();
 }
 
+TEST_F(LiveApp, a_second_interrupt_at_any_time_leaves_the_map) {
+  const AppProcess process(live({"--follow", log_.string(), "--poses", "tum"}), folder_.path());
+  ASSERT_TRUE(soon([&] { return lines_in(out()) > 0; })) << err();
+  process.send(SIGSTOP);  // both signals come at once, before the first one is looked at
+  process.send(SIGINT);
+  process.send(SIGTERM);
+  process.send(SIGCONT);
+  const AppRun run = process.finish();
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("Interrupt again to finish it without more loops"),
+                             HasSubstr("scans of room.log")));
+  EXPECT_TRUE(std::filesystem::exists(folder("live") / "map.pgm"));
+}
+
 TEST_F(LiveApp, writes_the_map_and_a_journal_while_it_maps_and_can_be_resumed_after_a_crash) {
   const auto journal = folder("live") / "session.journal";
   const auto growing = folder("growing.log");

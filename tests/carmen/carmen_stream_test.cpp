@@ -176,6 +176,52 @@ TEST_F(CarmenStreamTest, keeps_repeated_and_late_scans_in_their_order) {
   EXPECT_THAT(times_us, testing::ElementsAre(100'000'000, 101'000'000, 101'000'000, 100'000'000));
 }
 
+TEST_F(CarmenStreamTest, forgets_old_lines_while_there_are_no_scans) {
+  const std::string mount = "PARAM robot_frontlaser_offset 0.3 nav 1 host 1\n";
+  std::string garbage;
+  for (int i = 0; i < 40; ++i) garbage += std::string(1'000'000, static_cast<char>('a' + i % 26)) + '\n';
+  const auto live = stream(mount + garbage + log_of({kFlaser}));
+  std::size_t scans = 0;
+  while (const auto frame = live->next()) {
+    EXPECT_EQ(frame->scan.robot_T_laser.x, 0.3) << "PARAM lines are kept";
+    ++scans;
+  }
+  EXPECT_EQ(scans, 200U);
+  EXPECT_LE(live->contents().messages.at("unknown"), 16U) << "MB";
+}
+
+TEST_F(CarmenStreamTest, counts_only_some_names_of_messages) {
+  std::string log;
+  for (int i = 0; i < 1000; ++i) log += "NAME" + std::to_string(i) + " 1\n";
+  const auto live = stream(log_of({kFlaser, kOdom}) + log);
+  while (live->next()) {
+  }
+  const auto& messages = live->contents().messages;
+  EXPECT_EQ(messages.size(), 23U) << "FLASER, ODOM, 20 others, and unknown ones";
+  EXPECT_EQ(messages.at("NAME0"), 1U);
+  EXPECT_EQ(messages.at("unknown"), 980U);
+}
+
+TEST_F(CarmenStreamTest, awaits_lasers_that_the_user_names) {
+  const std::string mounts =
+      "PARAM robot_frontlaser_offset 0.3 nav 1 host 1\nPARAM robot_rearlaser_offset -0.2 nav 1 host 1\n";
+  LogOptions both = half_circle();
+  both.laser = "front,rear";
+  for (const int rear_from : {12, 35}) {
+    std::string log = mounts;
+    for (int i = 0; i < 200; ++i) {
+      log += line_of(kFlaser, 100 + 0.2 * i, 0);
+      if (i >= 5 * rear_from) log += line_of(kRlaser, 100.05 + 0.2 * i, 0);
+    }
+    const auto live = stream(log, 5, both);
+    EXPECT_EQ(live->assumptions().size(), rear_from == 35 ? 1U : 0U);
+    std::size_t rear_scans = 0;
+    while (const auto frame = live->next())
+      if (frame->scan.laser == 1) ++rear_scans;
+    EXPECT_EQ(rear_scans, static_cast<std::size_t>(200 - 5 * rear_from));
+  }
+}
+
 TEST_F(CarmenStreamTest, a_stream_without_scans_is_an_error) {
   for (const std::string text : {"", "ODOM 0 0 0 0 0 0 1 host 1\n"}) {
     try {

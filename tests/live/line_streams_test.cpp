@@ -2,6 +2,7 @@
 #include "live/line_streams.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -20,11 +21,12 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Reads a stream in a thread of its own.
+/// Reads a stream in a thread of its own, until it ends or the object is destroyed.
 class ReadingThread {
  public:
-  explicit ReadingThread(std::unique_ptr<LineStream> stream)
-      : thread_([this, stream = std::move(stream)] {
+  /// `stop` ends the stream.
+  ReadingThread(std::unique_ptr<LineStream> stream, std::atomic<bool>& stop)
+      : stop_(stop), thread_([this, stream = std::move(stream)] {
           std::array<char, 7> bytes{};
           while (const std::size_t size = stream->read(bytes.data(), bytes.size())) {
             const std::lock_guard lock(mutex_);
@@ -32,6 +34,7 @@ class ReadingThread {
           }
         }) {}
   ~ReadingThread() {
+    stop_ = true;
     if (thread_.joinable()) thread_.join();
   }
   ReadingThread(const ReadingThread&) = delete;
@@ -48,6 +51,7 @@ class ReadingThread {
   }
 
  private:
+  std::atomic<bool>& stop_;
   std::mutex mutex_;
   std::string text_;
   std::thread thread_;
@@ -69,7 +73,7 @@ TEST_F(LineStreamsTest, standard_input_ends_with_its_last_bytes) {
   ASSERT_EQ(::pipe(ends.data()), 0);
   const Descriptor input(ends[0]);
   Descriptor sender(ends[1]);
-  ReadingThread reader(standard_input(control(), std::nullopt, input.number()));
+  ReadingThread reader(standard_input(control(), std::nullopt, input.number()), stop_);
   send_text(sender.number(), "one\ntw");
   EXPECT_TRUE(soon([&] { return reader.text() == "one\n"; })) << "whole lines come at once";
   send_text(sender.number(), "o\nthree");
@@ -82,7 +86,7 @@ TEST_F(LineStreamsTest, the_user_ends_a_stream_and_its_incomplete_line) {
   ASSERT_EQ(::pipe(ends.data()), 0);
   const Descriptor input(ends[0]);
   const Descriptor sender(ends[1]);
-  ReadingThread reader(standard_input(control(), std::nullopt, input.number()));
+  ReadingThread reader(standard_input(control(), std::nullopt, input.number()), stop_);
   send_text(sender.number(), "one\ntw");
   EXPECT_TRUE(soon([&] { return reader.text() == "one\n"; }));
   stop_ = true;
@@ -95,11 +99,11 @@ TEST_F(LineStreamsTest, a_stream_ends_if_nothing_comes) {
   const Descriptor input(ends[0]);
   const Descriptor sender(ends[1]);
   send_text(sender.number(), "one\n");
-  EXPECT_EQ(ReadingThread(standard_input(control(), 0.0, input.number())).rest(), "one\n");
+  EXPECT_EQ(ReadingThread(standard_input(control(), 0.0, input.number()), stop_).rest(), "one\n");
 }
 
 TEST_F(LineStreamsTest, a_tcp_port_serves_one_sender_after_the_other) {
-  ReadingThread reader(tcp_input("127.0.0.1", 0, control(), std::nullopt));
+  ReadingThread reader(tcp_input("127.0.0.1", 0, control(), std::nullopt), stop_);
   const int port = notices_.port();
   {
     const Descriptor first = connect_to(port);
@@ -119,7 +123,7 @@ TEST_F(LineStreamsTest, a_tcp_port_serves_one_sender_after_the_other) {
 }
 
 TEST_F(LineStreamsTest, a_sender_that_resets_the_connection_may_return) {
-  ReadingThread reader(tcp_input("127.0.0.1", 0, control(), std::nullopt));
+  ReadingThread reader(tcp_input("127.0.0.1", 0, control(), std::nullopt), stop_);
   const int port = notices_.port();
   {
     const Descriptor first = connect_to(port);
@@ -147,7 +151,7 @@ TEST_F(LineStreamsTest, rejects_addresses_and_ports_that_cannot_be_opened) {
 TEST_F(LineStreamsTest, follows_a_file_that_grows) {
   const auto file = folder_.path() / "my.log";
   write_file(file, "");
-  ReadingThread reader(growing_file(file, control(), std::nullopt));
+  ReadingThread reader(growing_file(file, control(), std::nullopt), stop_);
   std::ofstream recorder(file, std::ios::app);
   recorder << "one\ntw" << std::flush;
   EXPECT_TRUE(soon([&] { return reader.text() == "one\n"; }));
@@ -160,7 +164,7 @@ TEST_F(LineStreamsTest, follows_a_file_that_grows) {
 TEST_F(LineStreamsTest, a_file_that_stops_growing_ends_as_a_log) {
   const auto file = folder_.path() / "my.log";
   write_file(file, "FLASER one\nFLASER two");
-  EXPECT_EQ(ReadingThread(growing_file(file, control(), 0.0)).rest(), "FLASER one\nFLASER two");
+  EXPECT_EQ(ReadingThread(growing_file(file, control(), 0.0), stop_).rest(), "FLASER one\nFLASER two");
 }
 
 TEST_F(LineStreamsTest, a_followed_file_must_not_shrink) {
@@ -188,6 +192,10 @@ TEST_F(LineStreamsTest, says_which_files_cannot_be_followed) {
   EXPECT_THAT(complaint("\x1f\x8b\x08"), HasSubstr("log is compressed and cannot be followed"));
   EXPECT_THAT(sentence_of([&] { growing_file(folder_.path(), control(), std::nullopt); }),
               HasSubstr("is a folder and cannot be followed"));
+  const auto pipe = folder_.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), S_IRUSR | S_IWUSR), 0);
+  EXPECT_THAT(sentence_of([&] { growing_file(pipe, control(), std::nullopt); }),
+              AllOf(HasSubstr("pipe is no regular file"), HasSubstr("Pipe it to --stdin")));
   EXPECT_THAT(sentence_of([&] { growing_file(folder_.path() / "none", control(), std::nullopt); }),
               HasSubstr("none does not exist"));
 }

@@ -75,6 +75,7 @@ TEST(LiveSource, a_source_without_scans_is_an_error_of_its_first_frame) {
   const auto live = open_live(to_the_end_of(file), {}, quiet_control());
   EXPECT_THAT(live->assumptions(), testing::IsEmpty());
   EXPECT_THAT(sentence_of([&] { live->next(); }), HasSubstr("my.log has no laser scans"));
+  EXPECT_FALSE(live->next());
 }
 
 }  // namespace

@@ -22,7 +22,8 @@
 namespace psi_slam {
 
 /// The laser answers each request for a scan with its next message: ranges in metres, or a raw telegram.
-/// After the last one it does not answer. It listens while the object exists.
+/// After the last one it does not answer. It begins with the first one again for each connection. It listens
+/// while the object exists.
 class Lms100Emulator {
  public:
   struct Message {
@@ -100,6 +101,7 @@ class Lms100Emulator {
       if (!client.is_open()) {
         client = Descriptor(::accept(listener_.number(), nullptr, nullptr));
         received.clear();
+        played_ = 0;
       } else if (::read(client.number(), &c, 1) != 1) {
         client.close();
       } else if (c == '\x03') {

@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <functional>
 #include <mutex>
@@ -53,10 +54,11 @@ class Notices {
   std::string text_;
 };
 
-/// Sends all of a text to a socket, pipe or terminal.
+/// Sends all of a text to a socket, pipe or terminal. A closed socket is an exception, not a signal.
 inline void send_text(int descriptor, const std::string& text) {
   for (std::size_t sent = 0; sent < text.size();) {
-    const ssize_t done = ::write(descriptor, text.data() + sent, text.size() - sent);
+    ssize_t done = ::send(descriptor, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
+    if (done < 0 && errno == ENOTSOCK) done = ::write(descriptor, text.data() + sent, text.size() - sent);
     if (done < 0) throw std::runtime_error("cannot send");
     sent += static_cast<std::size_t>(done);
   }

@@ -27,7 +27,7 @@ namespace psi_slam {
 std::vector<std::string> carmen_laser_messages(const std::string& laser,
                                                const std::string& option = "log.laser");
 
-/// Names of the messages that may hold the scans of each laser that the options choose. "all" stands for the
+/// Names of the messages that may hold the scans of each laser that the options choose. "all" means the
 /// front laser, the rear laser, RAWLASER3 and RAWLASER4. A laser with several kinds of messages is thus read
 /// once.
 std::vector<std::vector<std::string>> carmen_laser_candidates(const LogOptions& options);

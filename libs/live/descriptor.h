@@ -7,7 +7,7 @@
 
 namespace psi_slam {
 
-/// A file descriptor that is closed with the object; -1 stands for none.
+/// A file descriptor that is closed with the object; -1: no descriptor.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}

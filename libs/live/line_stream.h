@@ -17,7 +17,7 @@ namespace psi_slam {
 /// a stated time without a byte.
 class LineStream : public ByteSource {
  public:
-  /// `name` stands for a path in messages. `idle_s`: seconds without a byte after which the stream ends;
+  /// `name` is the path in messages. `idle_s`: seconds without a byte after which the stream ends;
   /// empty: never.
   LineStream(std::filesystem::path name, LiveControl control, std::optional<double> idle_s);
 
@@ -30,7 +30,7 @@ class LineStream : public ByteSource {
     kBytes,    ///< bytes were appended
     kNothing,  ///< no bytes came for a short time
     kLost,     ///< the sender was lost; the next bytes begin a new line
-    kEnd,      ///< there will be no more bytes
+    kEnd,      ///< the stream has ended
   };
 
   static constexpr int kWait_ms = 100;  ///< time after which receive() gives up

@@ -33,7 +33,8 @@ struct LiveInput {
   double look_over_s = 5;
 };
 
-/// Returns the name of the source for messages and reports: "standard input", or the name of the file.
+/// Returns the name of the source for messages and reports: "standard input", "TCP port 5000", or the name
+/// of the file.
 std::string name_of(const LiveInput& input);
 
 /// Returns the frames of a live source, numbered from 0. next() waits for the next frame, and returns nothing

@@ -21,7 +21,7 @@ namespace psi_slam {
 /// `driver` is a sensor, whose driver is a class of mrpt::hwdrivers, and is read in a thread of its own.
 /// Yields scans, odometry, robot actions and readings of IMUs in the order of their arrival; other
 /// observations are dropped. At most 10,000 objects wait to be taken. If more come, the oldest readings of
-/// IMUs are dropped, or without any the oldest objects; dropped() counts them, and a notice tells of the
+/// IMUs are dropped, or without any the oldest objects; dropped() counts them, and a notice reports the
 /// first.
 ///
 /// A driver that fails, sends empty scans or, for a laser, sends nothing for five seconds, is started again

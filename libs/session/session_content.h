@@ -33,7 +33,7 @@ std::string facts_text(const SessionFacts& facts);
 class SessionContentWriter {
  public:
   /// Returns facts_text() and frames, compressed with this level of Zstandard, after the compressed size and
-  /// the size, both u64. Empty facts stand for those of the part before.
+  /// the size, both u64. Empty facts: those of the part before.
   std::string packed(const std::string& facts, const std::vector<Frame>& frames, int level);
 
  private:

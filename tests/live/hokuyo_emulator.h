@@ -23,7 +23,7 @@
 namespace psi_slam {
 
 /// The laser plays its messages in turn: scans as ranges in metres, or raw bytes. It is silent after the last
-/// one. It begins with the first one again when it is started anew, which the driver does twice in a row. The
+/// one. It begins with the first one when it is started, which the driver does twice in a row. The
 /// cable is plugged in while the object exists: `port` is then a symbolic link to the terminal.
 class HokuyoEmulator {
  public:

@@ -139,8 +139,7 @@ class SensorSetTest : public testing::Test {
     return numbers;
   }
 
-  /// As numbers_until(), but only the last four: on a busy computer a driver may give up and start its laser
-  /// anew.
+  /// As numbers_until(), but only the last four: on a busy computer a driver may restart its laser.
   static std::vector<std::size_t> last_numbers_until(SensorSet& sensors, std::size_t last) {
     std::vector<std::size_t> numbers = numbers_until(sensors, last);
     if (numbers.size() > 4) numbers.erase(numbers.begin(), numbers.end() - 4);

@@ -21,8 +21,7 @@ namespace {
 
 /// The widest usual text of each column.
 constexpr std::array<const char*, LoopTable::kColumns> kWidest{
-    "00000", "0000",         "000", "coarse_genetic, final", "0.000", "0.000", "00.00",
-    "0.000", "switched off", ""};
+    "00000", "0000", "000", "coarse_genetic, final", "0.000", "0.000", "00.00", "0.000", "switched off", ""};
 constexpr int kNarrowestReason = 150;
 constexpr int kPictureWidth = 330;
 constexpr int kScrollBar = 16;

@@ -84,9 +84,10 @@ void require_kept(const std::map<std::string, std::string>& kept, const OptionTa
   const std::vector<ChangedSetting> changed = changed_settings(kept, table);
   if (changed.empty()) return;
   const auto& [name, before, now] = changed.front();
-  throw UserError(name + " is " + before + " in the session " + file.string() + " and cannot become " + now +
-                  ": a resumed session keeps all settings except [map], [localization], [live] and run.threads. "
-                  "Remove this setting");
+  throw UserError(
+      name + " is " + before + " in the session " + file.string() + " and cannot become " + now +
+      ": a resumed session keeps all settings except [map], [localization], [live] and run.threads. "
+      "Remove this setting");
 }
 
 }  // namespace psi_slam

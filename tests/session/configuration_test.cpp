@@ -75,7 +75,8 @@ TEST(Configuration, names_the_mistake) {
   Configuration configuration;
   EXPECT_THAT(message_of([&] { configuration.set("map.resolution", "1"); }), HasSubstr("did you mean"));
   EXPECT_THAT(message_of([&] { configuration.set("map.resolution_m", "wide"); }), HasSubstr("wide"));
-  EXPECT_THAT(message_of([&] { configuration.value("map.colour"); }), HasSubstr("unknown key \"colour\" in [map]"));
+  EXPECT_THAT(message_of([&] { configuration.value("map.colour"); }),
+              HasSubstr("unknown key \"colour\" in [map]"));
   configuration.set("front_end.window_m", "3");
   configuration.set("front_end.max_window_m", "2");
   EXPECT_THAT(message_of([&] { configuration.check(); }), HasSubstr("front_end.max_window_m"));

@@ -54,9 +54,11 @@ BackEndStep BackEndThread::take() {
 }
 
 void BackEndThread::work(bool yields) {
-  constexpr int kNiceness = 10;
+  // A larger difference would let other programs of the robot stop the thread for which the front end waits.
+  constexpr int kYieldedNiceness = 2;
   // On Linux, this affects one thread only. The threads that match loops keep their priority.
-  if (yields) setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
+  const auto thread = static_cast<id_t>(gettid());
+  if (yields) setpriority(PRIO_PROCESS, thread, getpriority(PRIO_PROCESS, thread) + kYieldedNiceness);
   std::unique_lock<std::mutex> lock(mutex_);
   while (!failure_) {
     changed_.wait(lock, [&] { return stop_ || !waiting_.empty(); });

@@ -48,6 +48,8 @@ TEST(LiveBenchmark, a_replay_makes_the_map_of_the_log) {
     ASSERT_EQ(replayed.result.frames[i].map_T_robot, result.frames[i].map_T_robot) << "scan " << i;
     ASSERT_EQ(replayed.live[i].map_T_robot, live[i]) << "scan " << i;
     ASSERT_GT(replayed.latency_ms[i], 0);
+    ASSERT_NEAR(replayed.mapped[i].map_T_robot.x, result.frames[i].map_T_robot.x, 0.2);
+    ASSERT_NEAR(replayed.mapped[i].map_T_robot.y, result.frames[i].map_T_robot.y, 0.2);
   }
 }
 
@@ -84,6 +86,7 @@ TEST_F(LiveBenchCommand, replays_logs_and_simulated_runs_on_each_number_of_proce
     EXPECT_GT(row["cpu_ms"], 0);
     EXPECT_LT(row["final_m"], 0.3);
     EXPECT_LT(row["live_m"], 0.5);
+    EXPECT_LT(row["mapped_m"], 0.5);
   }
   EXPECT_EQ(rows[0]["log"], "room");
   EXPECT_EQ(rows[1]["speed"], 100);

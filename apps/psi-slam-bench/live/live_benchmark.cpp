@@ -10,6 +10,8 @@
 #include <thread>
 #include <utility>
 
+#include "loop_closure/keyframe_store.h"
+#include "mapping/carried_frames.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 #include "simulate/forked_work.h"
@@ -106,6 +108,7 @@ LiveRow row_of(const Task& task, double speed, int processors, const std::functi
   row.cpu_ms = 1e3 * replayed.cpu_s / static_cast<double>(std::max<std::size_t>(1, row.scans));
   if (task.relations.empty()) return row;
   row.live_m = error_of(replayed.live, task.relations).translation_abs_m.mean;
+  row.mapped_m = error_of(replayed.mapped, task.relations).translation_abs_m.mean;
   row.final_m = error_of(replayed.result.frames, task.relations).translation_abs_m.mean;
   return row;
 }
@@ -120,6 +123,7 @@ std::string text_of(const LiveRow& row) {
                       {"missed", row.missed_deadlines},
                       {"cpu", row.cpu_ms}};
   if (row.live_m) json["live"] = *row.live_m;
+  if (row.mapped_m) json["mapped"] = *row.mapped_m;
   if (row.final_m) json["final"] = *row.final_m;
   return json.dump();
 }
@@ -128,8 +132,9 @@ LiveRow row_of_text(const std::string& text, const Task& task, double speed, int
   const nlohmann::json json = nlohmann::json::parse(text);
   LiveRow row{task.name,       speed,          processors,     json.at("scans"), json.at("nodes"),
               json.at("mean"), json.at("p50"), json.at("p99"), json.at("max"),   json.at("missed"),
-              json.at("cpu"),  std::nullopt,   std::nullopt};
+              json.at("cpu"),  std::nullopt,   std::nullopt,   std::nullopt};
   if (json.contains("live")) row.live_m = json["live"].get<double>();
+  if (json.contains("mapped")) row.mapped_m = json["mapped"].get<double>();
   if (json.contains("final")) row.final_m = json["final"].get<double>();
   return row;
 }
@@ -168,6 +173,10 @@ Replayed replay(std::vector<Frame> frames, const Settings& settings, double spee
   mapper.wait();
   replayed.cpu_s = static_cast<double>(std::clock() - cpu_before) / CLOCKS_PER_SEC;
   replayed.missed_deadlines = mapper.missed_deadlines();
+  replayed.mapped = mapper.frames();
+  std::vector<std::size_t> node_frames;
+  for (const NodeScan& node : mapper.keyframes().nodes) node_frames.push_back(node.frame);
+  carry_frames_along(mapper.graph().poses(), node_frames, replayed.mapped, mapper.later_run_frames());
   replayed.result = mapper.finish();
   return replayed;
 }

@@ -43,8 +43,10 @@ struct LiveRow {
   std::size_t missed_deadlines = 0;  ///< Mapper::missed_deadlines()
   double cpu_ms = 0;                 ///< processor time of all threads per scan
   /// Mean translation errors over the relations, in metres: of the poses as the mapper gave them while
-  /// mapping, and of the finished map. Empty without relations.
+  /// mapping, of the map after the last scan before the final steps, and of the finished map. Empty without
+  /// relations.
   std::optional<double> live_m;
+  std::optional<double> mapped_m;
   std::optional<double> final_m;
 };
 
@@ -61,8 +63,9 @@ std::vector<double> due_times_s(const std::vector<Frame>& frames, double longest
 /// Poses and times of one replay.
 struct Replayed {
   MappingResult result;
-  std::vector<FrameRecord> live;   ///< the records as Mapper::add returned them
-  std::vector<double> latency_ms;  ///< time from each scan to its pose
+  std::vector<FrameRecord> live;    ///< the records as Mapper::add returned them
+  std::vector<FrameRecord> mapped;  ///< the records before the final steps, with the loops found until then
+  std::vector<double> latency_ms;   ///< time from each scan to its pose
   std::size_t missed_deadlines = 0;
   double cpu_s = 0;  ///< processor time while scans were added
 };

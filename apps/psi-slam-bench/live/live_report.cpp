@@ -38,6 +38,7 @@ ReportTable rows_table(const std::vector<LiveRow>& rows) {
                         column("missed deadlines", "missed_deadlines", &Row::missed_deadlines),
                         time_column("processor time per scan [ms]", "cpu_ms", &Row::cpu_ms),
                         error_column("error while mapping [m]", "live_m", &Row::live_m),
+                        error_column("error before the final steps [m]", "mapped_m", &Row::mapped_m),
                         error_column("error of the finished map [m]", "final_m", &Row::final_m)},
                        rows);
 }
@@ -61,6 +62,8 @@ BenchReport live_report(const LiveBenchmark& benchmark, const LiveBenchmarkOptio
       "sets the deadline.\n"
       "- error while mapping: mean translation error over the relations of the poses that the mapper gave at "
       "once. Nothing that came later corrected them.\n"
+      "- error before the final steps: the same of the map after the last scan, with the loops found until "
+      "then\n"
       "- Pauses of a log longer than 2 s are replayed as 2 s.\n\n" +
       rows.markdown() + '\n' + logs_section(benchmark.identities, benchmark.without_relations);
   return {"live.md",

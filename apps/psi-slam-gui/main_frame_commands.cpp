@@ -28,7 +28,7 @@ using Ask = FileQuestion::Kind;
 using Path = std::filesystem::path;
 
 const char* const kLogFiles =
-    "Logs and sessions|*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz;*.zst;*.zstd;*.session|All files|*";
+    "Logs and sessions|*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz;*.zst;*.zstd;*.session;*.journal|All files|*";
 const char* const kGrowingFiles = "CARMEN logs|*.log;*.clf|All files|*";
 const char* const kSettingsFiles = "Settings (*.ini)|*.ini|All files|*";
 

@@ -76,10 +76,15 @@ int map_live(const CommandLine& line, const Streams& streams) {
   session.set_observer([&](const SessionProgress& progress) { run.show(progress); });
 
   session.start_journal(journal);
-  const std::optional<std::string> unwritten =
-      map_to_the_end(session, folder, bound.settings, [&](const Mapper& mapper) {
-        if (poses) print_pose(streams.out, last_pose(mapper), *poses);
-      });
+  std::optional<std::string> unwritten;
+  try {
+    unwritten = map_to_the_end(session, folder, bound.settings, [&](const Mapper& mapper) {
+      if (poses) print_pose(streams.out, last_pose(mapper), *poses);
+    });
+  } catch (...) {
+    if (session.mapper().frames().empty()) session.remove_journal();  // nothing could be resumed
+    throw;
+  }
   if (unwritten) streams.err << "psi-slam: the map was not written while mapping: " << *unwritten << '\n';
   run.end();
   session.finish(run.cuts_short());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/atomic_file.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -61,6 +62,21 @@ bool is_old(const fs::path& path) {
   return !error && fs::file_time_type::clock::now() - written > std::chrono::hours(1);
 }
 
+// Waits until the disk holds a file or the entries of a folder, so that a power failure cannot undo what was
+// reported as written. `path` is named in the exception.
+void wait_for_disk(const fs::path& written, const fs::path& path) {
+  const int descriptor = ::open(written.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return;  // the folder may be writable but not readable
+  const int failed = ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
+  ::close(descriptor);
+  if (failed != 0) throw cannot_write(path, std::strerror(failed));
+}
+
+// The folder that holds the entry of a file.
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
 // A folder that the constructor creates and the destructor removes with its contents.
 class ScopedFolder {
  public:
@@ -97,12 +113,15 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
   if (!fs::exists(temporary, error))
     throw cannot_write(
         path, "its folder is missing, read-only or full. Choose a folder that exists and is writable");
-  fs::rename(temporary, path, error);
-  if (error) {
-    const std::string why = error.message();
+  try {
+    wait_for_disk(temporary, path);
+    fs::rename(temporary, path, error);
+    if (error) throw cannot_write(path, error.message());
+  } catch (...) {
     fs::remove(temporary, error);
-    throw cannot_write(path, why);
+    throw;
   }
+  wait_for_disk(folder_of(path), path);
 }
 
 void write_text_atomically(const fs::path& path, std::string_view text) {
@@ -120,11 +139,13 @@ void write_files_atomically(const fs::path& folder, const std::function<void(con
   write(temporary.path());
   std::set<fs::path> files;
   for (const fs::directory_entry& file : fs::directory_iterator(temporary.path())) files.insert(file.path());
+  for (const fs::path& file : files) wait_for_disk(file, folder / file.filename());
   for (const fs::path& file : files) {
     std::error_code error;
     fs::rename(file, folder / file.filename(), error);
     require(error, folder / file.filename());
   }
+  wait_for_disk(folder, folder);
 }
 
 void remove_leftovers(const fs::path& folder) {

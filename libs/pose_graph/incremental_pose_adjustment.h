@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Optimises a growing pose graph at a cost that depends mainly on what new constraints change. Only the
-// factorisation for the core nodes grows with the graph. Between complete solutions by SparsePoseAdjustment,
-// it takes Gauss-Newton steps of the same robust error sum, in which most terms remain from earlier steps:
+// Optimises a growing pose graph at a cost that depends mainly on what new constraints change. With the graph
+// grow only the factorisation for the core nodes, and passes over all poses that compare or copy them.
+// Between complete solutions by SparsePoseAdjustment, it takes Gauss-Newton steps of the same robust error
+// sum, in which most terms remain from earlier steps:
 //
 // - Most nodes are leaves: their constraints lead only to core nodes, such as the anchors of local maps. The
 //   poses of leaves are eliminated, and only the core nodes remain in the equations that are factorised.

@@ -150,7 +150,9 @@ void describe_live(OptionTable& table, Settings& settings) {
           "Time between two writings of map.yaml and map.pgm during a live run. 0: writes the map only at "
           "the end.")
       .number("journal_period_s", settings.live.journal_period_s, between(0.05, 60), "s",
-              "Time between two writings of the journal. A crash loses the scans of this time at most.");
+              "Time between two writings of the journal. A crash loses the scans of this time, and those "
+              "that were "
+              "not yet mapped.");
 }
 
 void describe_run(OptionTable& table, RunOptions& run) {

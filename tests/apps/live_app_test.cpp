@@ -217,6 +217,7 @@ TEST_F(LiveApp, a_stream_without_scans_is_an_error) {
   const AppRun run = process.finish();
   EXPECT_EQ(run.code, 2);
   EXPECT_THAT(run.err, HasSubstr("has no laser scans"));
+  EXPECT_FALSE(std::filesystem::exists(folder("live") / "session.journal")) << "nothing could be resumed";
 }
 
 TEST_F(LiveApp, says_what_is_wrong_with_the_arguments) {

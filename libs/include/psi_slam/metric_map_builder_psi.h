@@ -92,8 +92,8 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   /// Returns an occupancy grid of all scans. The reference is valid as long as the builder. Before finish(),
   /// a call draws the new scans and at most eight earlier scans whose poses have changed by more than 2.5 cm
   /// or 2.5 mrad, so this function may be called at every scan. A correction of the whole map is thus worked
-  /// off over several calls, and a standstill counts with all its scans. finish() draws
-  /// the whole grid.
+  /// off over several calls, and a standstill counts with all its scans. The first
+  /// call after finish() draws the whole grid.
 #if MRPT_VERSION >= 0x292
   const mrpt::maps::CMultiMetricMap& getCurrentlyBuiltMetricMap() const override;
 #else

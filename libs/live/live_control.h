@@ -6,7 +6,7 @@
 
 namespace psi_slam {
 
-/// How a live source is ended, and what it tells the user.
+/// Ends a live source, and receives its notices.
 struct LiveControl {
   /// Returns whether the source shall end. Called about ten times a second, from the threads of the source.
   std::function<bool()> should_stop;

@@ -23,14 +23,6 @@ SystemFailure cannot_write(const fs::path& path) {
   return SystemFailure("cannot write " + path.string() + ": " + std::strerror(errno));
 }
 
-/// Makes the name of a new file durable. Ignores errors: some file systems cannot do this.
-void sync_folder(const fs::path& folder) {
-  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
 }  // namespace
 
 OpenFile::~OpenFile() {
@@ -48,7 +40,6 @@ SessionJournal::SessionJournal(fs::path path, const SessionFacts& facts, const s
   write_atomically(path_, [&](const fs::path& temporary) {
     if (file_.create(temporary)) write(chunks_.next(facts, frames));
   });
-  sync_folder(path_.parent_path());
   thread_ = std::thread([this] { work(); });
 }
 

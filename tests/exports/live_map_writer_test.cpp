@@ -3,10 +3,9 @@
 
 #include <gmock/gmock.h>
 
-#include <functional>
-
 #include "exports/map_files.h"
 #include "simulated_room.h"
+#include "soon.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 
@@ -14,14 +13,6 @@ namespace psi_slam {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool becomes_true(const std::function<bool()>& condition) {
-  for (int i = 0; i < 60'000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
-}
 
 class LiveMapWriterTest : public testing::Test {
  protected:
@@ -60,7 +51,7 @@ TEST_F(LiveMapWriterTest, writes_the_map_of_all_scans_so_far) {
     writer.update(mapper_);
   }
   const std::string expected = expected_image();
-  EXPECT_TRUE(becomes_true([&] {
+  EXPECT_TRUE(soon([&] {
     writer.update(mapper_);
     return fs::exists(yaml()) && read_file(image()) == expected;
   }));
@@ -70,7 +61,7 @@ TEST_F(LiveMapWriterTest, writes_the_map_of_all_scans_so_far) {
 TEST_F(LiveMapWriterTest, writes_only_if_the_map_has_changed) {
   LiveMapWriter writer(folder_.path(), {}, 1e-3);
   mapper_.add(frames_[0]);
-  EXPECT_TRUE(becomes_true([&] {
+  EXPECT_TRUE(soon([&] {
     writer.update(mapper_);
     return fs::exists(yaml());
   }));
@@ -106,14 +97,14 @@ TEST_F(LiveMapWriterTest, tells_why_it_cannot_write_and_tries_again) {
   const fs::path missing = folder_.path() / "later";
   LiveMapWriter writer(missing, {}, 1e-3);
   mapper_.add(frames_[0]);
-  ASSERT_TRUE(becomes_true([&] {
+  ASSERT_TRUE(soon([&] {
     writer.update(mapper_);
     return writer.failure().has_value();
   }));
   EXPECT_THAT(*writer.failure(), testing::HasSubstr("map.pgm"));
   fs::create_directory(missing);
   std::size_t next = 1;
-  EXPECT_TRUE(becomes_true([&] {
+  EXPECT_TRUE(soon([&] {
     if (next < frames_.size()) mapper_.add(frames_[next++]);
     writer.update(mapper_);
     return !writer.failure() && fs::exists(missing / "map.yaml");

@@ -5,11 +5,11 @@
 #include <sys/resource.h>
 
 #include <csignal>
-#include <functional>
 
 #include "psi_slam/user_error.h"
 #include "session/session_file.h"
 #include "small_recording.h"
+#include "soon.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 
@@ -18,15 +18,6 @@ namespace {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
-
-/// Returns whether a condition becomes true within a minute.
-bool becomes_true(const std::function<bool()>& condition) {
-  for (int i = 0; i < 60'000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
-}
 
 class SessionJournalTest : public testing::Test {
  protected:
@@ -53,13 +44,13 @@ TEST_F(SessionJournalTest, frames_are_in_the_file_while_the_journal_is_open) {
   EXPECT_EQ(recorded(), 0U) << "the file is whole from the beginning";
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     add(journal, frames_[i]);
-    EXPECT_TRUE(becomes_true([&] { return recorded() == i + 1; }));
+    EXPECT_TRUE(soon([&] { return recorded() == i + 1; }));
   }
   const SessionRecording back = read_session_file(path_);
   for (std::size_t i = 0; i < frames_.size(); ++i) expect_same_frame(frames_[i], back.frames[i]);
   facts_.edits.add({{LoopEdit::Kind::kDelete, 1, 0}, {}});
   journal.update(facts_);
-  EXPECT_TRUE(becomes_true([&] { return !read_session_file(path_).facts.edits.empty(); }));
+  EXPECT_TRUE(soon([&] { return !read_session_file(path_).facts.edits.empty(); }));
   EXPECT_FALSE(journal.failure());
 }
 
@@ -77,7 +68,7 @@ TEST_F(SessionJournalTest, begins_with_the_frames_of_a_session_that_is_resumed) 
   SessionJournal again(path_, facts_, read_session_file(path_).frames, 0.05);
   EXPECT_EQ(recorded(), 3U);
   add(again, frames_[3]);
-  EXPECT_TRUE(becomes_true([&] { return recorded() == 4; }));
+  EXPECT_TRUE(soon([&] { return recorded() == 4; }));
 }
 
 TEST_F(SessionJournalTest, deletes_its_file_but_no_file_that_replaced_it) {
@@ -100,14 +91,14 @@ TEST_F(SessionJournalTest, a_folder_that_is_missing_is_an_error) {
 TEST_F(SessionJournalTest, a_full_disk_ends_the_journal_and_keeps_what_was_written) {
   SessionJournal journal(path_, facts_, {}, 0.05);
   add(journal, frames_[0]);
-  ASSERT_TRUE(becomes_true([&] { return recorded() == 1; }));
+  ASSERT_TRUE(soon([&] { return recorded() == 1; }));
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
   const rlimit small{fs::file_size(path_) + 100, before.rlim_max};
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
   add(journal, frames_[1]);
-  const bool failed = becomes_true([&] { return journal.failure().has_value(); });
+  const bool failed = soon([&] { return journal.failure().has_value(); });
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   ASSERT_TRUE(failed);

@@ -8,26 +8,14 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
-#include <functional>
 #include <mutex>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 #include "live/descriptor.h"
+#include "soon.h"
 
 namespace psi_slam {
-
-/// Waits until a condition holds, at most a minute. Returns whether it holds.
-inline bool soon(const std::function<bool()>& holds) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-  while (!holds()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
-}
 
 /// Returns the port in "listening on ADDRESS:PORT"; 0 without such a text.
 inline int port_in(const std::string& text) {

@@ -62,8 +62,7 @@ BenchReport live_report(const LiveBenchmark& benchmark, const LiveBenchmarkOptio
       "sets the deadline.\n"
       "- error while mapping: mean translation error over the relations of the poses that the mapper gave at "
       "once. Nothing that came later corrected them.\n"
-      "- error before the final steps: the same of the map after the last scan, with the loops found until "
-      "then\n"
+      "- error before the final steps: mean translation error of the map after the last scan\n"
       "- Pauses of a log longer than 2 s are replayed as 2 s.\n\n" +
       rows.markdown() + '\n' + logs_section(benchmark.identities, benchmark.without_relations);
   return {"live.md",

@@ -22,10 +22,8 @@ class Leaving {
   LiveRun& run_;
 };
 
-LivePose last_pose(const Mapper& mapper) {
-  const FrameRecord& record = mapper.frames().back();
-  return {record.time_us, record.map_T_robot, mapper.frames().size() - 1,
-          record.match == ScanMatch::kMatched};
+LivePose live_pose(const FrameRecord& record, std::size_t frame) {
+  return {record.time_us, record.map_T_robot, frame, record.match == ScanMatch::kMatched};
 }
 
 /// Returns the journal of a live run, which lies in the folder of its results. Throws UserError if the folder
@@ -41,13 +39,9 @@ std::filesystem::path journal_in(const std::filesystem::path& folder) {
 
 /// Maps until the source ends. Returns why the map could not be written the last time; empty if it was.
 std::optional<std::string> map_to_the_end(MappingSession& session, const OutputFolder& folder,
-                                          const Settings& settings,
-                                          const std::function<void(const Mapper&)>& after_scan) {
+                                          const Settings& settings) {
   LiveMapWriter map(folder.path(), settings.map, settings.live.map_period_s);
-  while (session.step()) {
-    after_scan(session.mapper());
-    map.update(session.mapper());
-  }
+  while (session.step()) map.update(session.mapper());
   return map.failure();
 }
 
@@ -74,13 +68,15 @@ int map_live(const CommandLine& line, const Streams& streams) {
   const Leaving leaving(run);
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
   session.set_observer([&](const SessionProgress& progress) { run.show(progress); });
+  if (poses)
+    session.set_pose_observer([&](const FrameRecord& record) {
+      print_pose(streams.out, live_pose(record, session.mapper().frames().size() - 1), *poses);
+    });
 
   session.start_journal(journal);
   std::optional<std::string> unwritten;
   try {
-    unwritten = map_to_the_end(session, folder, bound.settings, [&](const Mapper& mapper) {
-      if (poses) print_pose(streams.out, last_pose(mapper), *poses);
-    });
+    unwritten = map_to_the_end(session, folder, bound.settings);
   } catch (...) {
     if (session.mapper().frames().empty()) session.remove_journal();  // nothing could be resumed
     throw;

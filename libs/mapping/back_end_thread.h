@@ -29,6 +29,8 @@ class BackEndThread {
 
   /// Number of frames that were handed over and whose results were not taken.
   std::size_t in_work() const { return handed_over_ - taken_; }
+  /// Number of frames whose results were taken.
+  std::size_t taken() const { return taken_; }
   /// Whether take() would not have to wait.
   bool is_ready() const;
   /// Returns the result of the oldest frame in work, and waits for it if necessary. Throws what the builder

@@ -106,6 +106,9 @@ void Replay::work() {
   MappingSession session(input_, settings_);
   const EndOfFeed end_of_feed(live_.get());
   session.set_observer([&](const SessionProgress& progress) { observe(progress); });
+  if (live_)
+    session.set_pose_observer(
+        [&](const FrameRecord&) { live_->note_pose(session.mapper().missed_deadlines()); });
   session.stay_open();
   session_ = &session;
   if (!map_scans(session)) return;
@@ -294,7 +297,6 @@ void Replay::observe(const SessionProgress& progress) {
 /// Publishes only now and then while scans wait, because a snapshot waits for the back end.
 void Replay::follow_live(std::size_t scans) {
   if (session_ == nullptr) return;
-  live_->note_pose(session_->mapper().missed_deadlines());
   if (live_->has_news(scans) && Clock::now() >= published_at_ + kBetweenSnapshotsInHaste) publish();
 }
 

@@ -74,6 +74,10 @@ void MappingSession::set_observer(Observer observer) {
   m_->observer = std::move(observer);
 }
 
+void MappingSession::set_pose_observer(Mapper::PoseObserver observer) {
+  m_->mapper->set_pose_observer(std::move(observer));
+}
+
 bool MappingSession::step() {
   if (m_->state != Members::State::kReading) return false;
   {

@@ -159,15 +159,19 @@ Replayed replay(std::vector<Frame> frames, const Settings& settings, double spee
   const std::vector<double> due_s = due_times_s(frames);
   const Clock::time_point first = Clock::now();
   const std::clock_t cpu_before = std::clock();
+  Clock::time_point due;
+  mapper.set_pose_observer([&](const FrameRecord& record) {
+    replayed.latency_ms.push_back(ms_between(due, Clock::now()));
+    replayed.live.push_back(record);
+  });
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    Clock::time_point due = Clock::now();
+    due = Clock::now();
     if (speed > 0) {
       due = first +
             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s[i] / speed));
       std::this_thread::sleep_until(due);
     }
-    replayed.live.push_back(mapper.add(std::move(frames[i])));
-    replayed.latency_ms.push_back(ms_between(due, Clock::now()));
+    mapper.add(std::move(frames[i]));
     progress(static_cast<double>(i + 1) / static_cast<double>(frames.size()));
   }
   mapper.wait();

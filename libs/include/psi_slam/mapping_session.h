@@ -83,6 +83,9 @@ class MappingSession {
   /// Sets the function that is called after every scan, at the start of every phase and sometimes within a
   /// phase. The function runs in the thread that drives the session.
   void set_observer(Observer observer);
+  /// Sets the function that is called as soon as the pose of a scan is known, see
+  /// Mapper::set_pose_observer().
+  void set_pose_observer(Mapper::PoseObserver observer);
 
   /// Maps the next scan. Returns false at the end of the log and where the log is damaged (see broken_off()).
   /// Throws UserError if the log is damaged before its first scan.

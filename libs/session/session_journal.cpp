@@ -25,20 +25,12 @@ SystemFailure cannot_write(const fs::path& path) {
 
 }  // namespace
 
-OpenFile::~OpenFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-bool OpenFile::create(const fs::path& path) {
-  descriptor_ = ::open(path.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, kMode);
-  return descriptor_ >= 0;
-}
-
 SessionJournal::SessionJournal(fs::path path, const SessionFacts& facts, const std::vector<Frame>& frames,
                                double period_s)
     : path_(std::move(path)), period_(period_s) {
   write_atomically(path_, [&](const fs::path& temporary) {
-    if (file_.create(temporary)) write(chunks_.next(facts, frames));
+    file_ = Descriptor(::open(temporary.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, kMode));
+    if (file_.is_open()) write(chunks_.next(facts, frames));
   });
   thread_ = std::thread([this] { work(); });
 }
@@ -66,7 +58,7 @@ void SessionJournal::remove() {
   end();
   struct stat mine {};
   struct stat named {};
-  const bool is_mine = ::fstat(file_.descriptor(), &mine) == 0 && ::stat(path_.c_str(), &named) == 0 &&
+  const bool is_mine = ::fstat(file_.number(), &mine) == 0 && ::stat(path_.c_str(), &named) == 0 &&
                        mine.st_dev == named.st_dev && mine.st_ino == named.st_ino;
   if (is_mine && ::unlink(path_.c_str()) != 0)
     throw SystemFailure("cannot delete " + path_.string() + ": " + std::strerror(errno));
@@ -112,11 +104,11 @@ void SessionJournal::work() {
 
 void SessionJournal::write(const std::string& bytes) {
   for (std::size_t written = 0; written < bytes.size();) {
-    const ssize_t count = ::write(file_.descriptor(), bytes.data() + written, bytes.size() - written);
+    const ssize_t count = ::write(file_.number(), bytes.data() + written, bytes.size() - written);
     if (count < 0 && errno != EINTR) throw cannot_write(path_);
     if (count > 0) written += static_cast<std::size_t>(count);
   }
-  if (::fdatasync(file_.descriptor()) != 0 && errno != EINVAL) throw cannot_write(path_);
+  if (::fdatasync(file_.number()) != 0 && errno != EINVAL) throw cannot_write(path_);
 }
 
 }  // namespace psi_slam

@@ -18,26 +18,11 @@
 #include <thread>
 #include <vector>
 
+#include "base/descriptor.h"
 #include "session/journal_chunks.h"
 #include "session/session_recording.h"
 
 namespace psi_slam {
-
-/// A file descriptor that the destructor closes.
-class OpenFile {
- public:
-  OpenFile() = default;
-  ~OpenFile();
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  /// Creates a file for writing. Returns false if that is impossible.
-  bool create(const std::filesystem::path& path);
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_ = -1;
-};
 
 /// Writes a journal in a thread of its own, so that no function except the constructor waits for the disk.
 class SessionJournal {
@@ -72,7 +57,7 @@ class SessionJournal {
 
   const std::filesystem::path path_;
   const std::chrono::duration<double> period_;
-  OpenFile file_;
+  Descriptor file_;
   JournalChunks chunks_;
 
   mutable std::mutex mutex_;  ///< protects the members below

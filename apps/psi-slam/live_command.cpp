@@ -3,6 +3,7 @@
 
 #include "commands.h"
 #include "exports/live_map_writer.h"
+#include "failure_notice.h"
 #include "live_run.h"
 #include "psi_slam/user_error.h"
 #include "session/session_input.h"
@@ -39,16 +40,18 @@ std::filesystem::path journal_in(const std::filesystem::path& folder) {
   return journal;
 }
 
-/// Maps until the source ends. Returns why the map could not be written the last time; empty if it was.
-std::optional<std::string> map_to_the_end(MappingSession& session, const OutputFolder& folder,
-                                          const Settings& settings,
-                                          const std::function<void(const Mapper&)>& after_scan) {
+/// Maps until the source ends. Tells at once when the journal or the map cannot be written.
+void map_to_the_end(MappingSession& session, const OutputFolder& folder, const Settings& settings,
+                    const std::function<void(const Mapper&)>& after_scan, const LiveControl& control) {
   LiveMapWriter map(folder.path(), settings.map, settings.live.map_period_s);
+  FailureNotice of_journal("the journal");
+  FailureNotice of_map("the map");
   while (session.step()) {
     after_scan(session.mapper());
     map.update(session.mapper());
+    if (const auto news = of_journal.news(session.journal_failure())) control.notify(*news);
+    if (const auto news = of_map.news(map.failure())) control.notify(*news);
   }
-  return map.failure();
 }
 
 }  // namespace
@@ -76,16 +79,15 @@ int map_live(const CommandLine& line, const Streams& streams) {
   session.set_observer([&](const SessionProgress& progress) { run.show(progress); });
 
   session.start_journal(journal);
-  std::optional<std::string> unwritten;
+  const auto after_scan = [&](const Mapper& mapper) {
+    if (poses) print_pose(streams.out, last_pose(mapper), *poses);
+  };
   try {
-    unwritten = map_to_the_end(session, folder, bound.settings, [&](const Mapper& mapper) {
-      if (poses) print_pose(streams.out, last_pose(mapper), *poses);
-    });
+    map_to_the_end(session, folder, bound.settings, after_scan, run.control());
   } catch (...) {
     if (session.mapper().frames().empty()) session.remove_journal();  // nothing could be resumed
     throw;
   }
-  if (unwritten) streams.err << "psi-slam: the map was not written while mapping: " << *unwritten << '\n';
   run.end();
   session.finish(run.cuts_short());
   return save_and_export(session, folder, line, texts, run.progress_line());

@@ -59,7 +59,6 @@ void map_to_the_end(MappingSession& session, const OutputFolder& folder, const S
 int map_live(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
   load_settings(line, bound, streams);
-  bound.settings.mapper.back_end_thread = bound.settings.mapper.back_end_yields = true;
   const LiveInput source = live_input(line.live).value();
   const std::optional<PoseFormat> poses = pose_format(line.live);
   // Only poses go to standard output if there are any.

@@ -199,7 +199,8 @@ OpenedInput open_input(const SessionInput& input, const Settings& settings) {
   opened.calibration = calibrated.logs().back().calibration;
   opened.frames =
       input.open(calibrated_options(log_options(settings), opened.calibration.value_or(LogCalibration())));
-  if (worker_threads(settings.run) > 1) opened.frames = std::make_unique<ReadAhead>(std::move(opened.frames));
+  if (input.is_stream() || worker_threads(settings.run) > 1)
+    opened.frames = std::make_unique<ReadAhead>(std::move(opened.frames));
   return opened;
 }
 

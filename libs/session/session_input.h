@@ -49,6 +49,8 @@ class SessionInput {
   /// unreadable, or if it continues the recording but begins before the recording's end.
   std::unique_ptr<FrameSource> open(const LogOptions& options) const;
 
+  /// Whether a stream is read.
+  bool is_stream() const { return open_stream_ != nullptr; }
   /// The recording; null if there is none.
   const std::shared_ptr<const SessionRecording>& recording() const { return recording_; }
   /// Path of the log that is read; empty if there is none.
@@ -77,8 +79,9 @@ struct OpenedInput {
   std::optional<LogCalibration> calibration;  ///< of the last log; see RecordedLog::calibration
 };
 
-/// Opens the input for a run, after log.calibrate. If run.threads allows several threads, an extra thread
-/// reads ahead. Throws UserError if settings contradict each other or if the input is unreadable.
+/// Opens the input for a run, after log.calibrate. An extra thread reads ahead if a stream is read or if
+/// run.threads allows several threads. Throws UserError if settings contradict each other or if the input is
+/// unreadable.
 OpenedInput open_input(const SessionInput& input, const Settings& settings);
 
 /// Returns the names of the logs: "first.log + second.log".

@@ -153,7 +153,8 @@ std::vector<double> due_times_s(const std::vector<Frame>& frames, double longest
 Replayed replay(std::vector<Frame> frames, const Settings& settings, double speed,
                 const std::function<void(double)>& progress) {
   MapperOptions options = mapper_options(settings);
-  options.back_end_thread = options.back_end_yields = true;
+  options.back_end_thread = true;
+  options.back_end.priority = ThreadPriority::kLow;
   Mapper mapper(options);
   Replayed replayed;
   const std::vector<double> due_s = due_times_s(frames);

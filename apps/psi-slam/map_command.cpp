@@ -39,13 +39,7 @@ SessionInput input_of(const CommandLine& line, BoundSettings& bound, const Strea
     load_settings(line, bound, streams);
     return SessionInput(line.log);
   }
-  const auto recording = std::make_shared<const SessionRecording>(read_session_file(line.resume));
-  warn_of_lost_end(*recording, streams);
-  load_recorded_settings(line, line.resume, recording->facts, bound, streams);
-  const auto kept = kept_settings(bound.table);
-  load_settings(line, bound, streams);
-  require_kept(kept, bound.table, line.resume);
-  return SessionInput(recording, line.log);
+  return SessionInput(read_resumed(line, bound, streams), line.log);
 }
 
 void print_result(const MappingSession& session, const RunSummary& summary, const OutputFolder& folder,
@@ -103,6 +97,17 @@ void load_recorded_settings(const CommandLine& line, const std::string& file, co
     streams.err << "psi-slam: " << sentence << '\n';
   if (const auto other = other_version_text(file, facts); other && !line.quiet)
     streams.err << "psi-slam: " << *other << '\n';
+}
+
+std::shared_ptr<const SessionRecording> read_resumed(const CommandLine& line, BoundSettings& bound,
+                                                     const Streams& streams) {
+  auto recording = std::make_shared<const SessionRecording>(read_session_file(line.resume));
+  warn_of_lost_end(*recording, streams);
+  load_recorded_settings(line, line.resume, recording->facts, bound, streams);
+  const auto kept = kept_settings(bound.table);
+  load_settings(line, bound, streams);
+  require_kept(kept, bound.table, line.resume);
+  return recording;
 }
 
 void calibrate(SessionInput& input, const Settings& settings, const CommandLine& line,

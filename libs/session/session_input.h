@@ -21,17 +21,23 @@ struct Settings;
 
 class SessionInput {
  public:
+  /// Opens a stream of frames.
+  using OpenStream = std::function<std::unique_ptr<FrameSource>(const LogOptions&)>;
+
   /// Reads a log from its beginning.
   explicit SessionInput(std::filesystem::path log);
 
   /// Reads a stream that `open` opens when it is first read. Such an input can be opened once. `name` stands
   /// for the log in reports.
-  SessionInput(const std::string& name, std::function<std::unique_ptr<FrameSource>(const LogOptions&)> open);
+  SessionInput(const std::string& name, OpenStream open);
 
   /// Reads a recording, and then `log` unless that path is empty. If the checksum of `log` is that of the
   /// recording's last log, only the rest of that log is read, else all of `log`. Throws UserError if `log` is
   /// unreadable or is an earlier log of the recording.
   explicit SessionInput(std::shared_ptr<const SessionRecording> recording, std::filesystem::path log = {});
+
+  /// Reads a recording, and then a stream. The stream is opened with the recording, and read after it.
+  SessionInput(std::shared_ptr<const SessionRecording> recording, const std::string& name, OpenStream open);
 
   /// Returns the session in a file, or a log for any other file. Throws UserError as read_session_file().
   static SessionInput of_file(const std::filesystem::path& path);
@@ -64,8 +70,7 @@ class SessionInput {
   void check_kept_calibration(const LogOptions& options);
 
   std::shared_ptr<const SessionRecording> recording_;
-  std::function<std::unique_ptr<FrameSource>(const LogOptions&)>
-      open_stream_;  ///< empty unless a stream is read
+  OpenStream open_stream_;  ///< empty unless a stream is read
   std::filesystem::path log_;
   std::vector<RecordedLog> logs_;
   EditJournal edits_;

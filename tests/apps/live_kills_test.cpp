@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-constexpr int kScans = 150;
+constexpr int kLines = 150;
 constexpr double kScansPerSecond = 100;
 
 /// What a killed run had received and kept.
@@ -101,7 +101,7 @@ class LiveKills : public testing::Test {
   TemporaryFolder folder_;
   const fs::path live_ = file("live");
   const fs::path journal_ = live_ / "session.journal";
-  const std::vector<std::string> lines_ = room_log_lines(kScans);
+  const std::vector<std::string> lines_ = room_log_lines(kLines);
   std::set<std::size_t> mapped_;  ///< numbers of scans that expect_resumed() has mapped
 };
 
@@ -109,7 +109,7 @@ TEST_F(LiveKills, a_killed_run_loses_at_most_a_second_and_gives_the_map_of_the_o
   const bool is_long = std::getenv("PSI_SLAM_LONG_TESTS") != nullptr;
   const int kills = is_long ? 200 : 3;
   std::mt19937_64 random(19);
-  std::uniform_real_distribution<double> moment_s(0.1, 1.05 * kScans / kScansPerSecond);
+  std::uniform_real_distribution<double> moment_s(0.1, 1.05 * kLines / kScansPerSecond);
   double largest_s = 0;
   double sum_s = 0;
   std::size_t largest_scans = 0;

@@ -10,15 +10,16 @@
 #include <mutex>
 #include <thread>
 
+#include "base/thread_priority.h"
 #include "mapping/graph_builder.h"
 
 namespace psi_slam {
 
 class BackEndThread {
  public:
-  /// Without `own_thread`, or if no thread can be started, hand_over() does the work itself. A thread that
-  /// `yields` has a lower priority than the others. `builder` must outlive this object.
-  BackEndThread(GraphBuilder& builder, bool own_thread, bool yields = false);
+  /// Without `own_thread`, or if no thread can be started, hand_over() does the work itself. `builder` must
+  /// outlive this object.
+  BackEndThread(GraphBuilder& builder, bool own_thread, ThreadPriority priority = ThreadPriority::kNormal);
   /// Ends the thread after the frame it works on. Later frames are dropped.
   ~BackEndThread();
   BackEndThread(const BackEndThread&) = delete;
@@ -38,7 +39,7 @@ class BackEndThread {
   BackEndStep take();
 
  private:
-  void work(bool yields);
+  void work();
   void work_off(std::unique_lock<std::mutex>& lock);
 
   GraphBuilder& builder_;

@@ -27,7 +27,7 @@ Mapper::Implementation::Implementation(const MapperOptions& options)
     : options_(options),
       front_end_(options.front_end),
       builder_(options),
-      back_end_(builder_, options.back_end_thread, options.back_end_yields) {
+      back_end_(builder_, options.back_end_thread, options.back_end.priority) {
   result_.psi = {options.back_end.psi.psi_1, options.back_end.psi.psi_2};
 }
 

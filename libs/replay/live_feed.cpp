@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "session/read_ahead.h"
-
 namespace psi_slam {
 namespace {
 
@@ -62,7 +60,7 @@ SessionInput LiveFeed::input(const std::shared_ptr<LiveFeed>& feed) {
   return SessionInput(feed->stream_.name, [feed](const LogOptions& options) {
     const LiveControl control{[feed] { return feed->should_stop_.load(); },
                               [feed](const std::string& notice) { feed->note(notice); }};
-    return std::make_unique<ReadAhead>(std::make_unique<Source>(feed, feed->stream_.open(options, control)));
+    return std::make_unique<Source>(feed, feed->stream_.open(options, control));
   });
 }
 

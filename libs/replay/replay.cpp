@@ -30,11 +30,6 @@ std::string failure_of(const Action& action, const char* out_of_memory) {
   return {};
 }
 
-Settings settings_of_live_run(Settings settings) {
-  settings.mapper.back_end_thread = true;
-  return settings;
-}
-
 /// Lets a live source end before the session is destroyed, which waits for it.
 class EndOfFeed {
  public:
@@ -61,7 +56,7 @@ Replay::Replay(LiveStream stream, const Settings& settings)
     : Replay(std::make_shared<LiveFeed>(std::move(stream)), settings) {}
 
 Replay::Replay(const std::shared_ptr<LiveFeed>& live, const Settings& settings)
-    : Replay(LiveFeed::input(live), settings_of_live_run(settings), live) {}
+    : Replay(LiveFeed::input(live), settings, live) {}
 
 Replay::Replay(SessionInput input, const Settings& settings, std::shared_ptr<LiveFeed> live)
     : input_(std::move(input)),

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "../local_maps/simulated_drive.h"
+#include "same_map.h"
 
 namespace psi_slam {
 namespace {
@@ -190,22 +191,6 @@ TEST(Mapper, the_same_log_gives_the_same_poses_to_the_last_bit) {
     EXPECT_EQ(again.loops[i].node, first.loops[i].node);
     EXPECT_EQ(again.loops[i].verdict, first.loops[i].verdict);
     EXPECT_EQ(again.loops[i].response, first.loops[i].response);
-  }
-}
-
-void expect_same_map(const MappingResult& a, const MappingResult& b) {
-  ASSERT_EQ(a.frames.size(), b.frames.size());
-  for (std::size_t i = 0; i < a.frames.size(); ++i) {
-    ASSERT_EQ(a.frames[i].map_T_robot, b.frames[i].map_T_robot) << "scan " << i;
-    ASSERT_EQ(a.frames[i].evaluations, b.frames[i].evaluations) << "scan " << i;
-    ASSERT_EQ(a.frames[i].psi, b.frames[i].psi) << "scan " << i;
-  }
-  ASSERT_EQ(a.loops.size(), b.loops.size());
-  for (std::size_t i = 0; i < a.loops.size(); ++i) {
-    ASSERT_EQ(a.loops[i].node, b.loops[i].node) << "loop " << i;
-    ASSERT_EQ(a.loops[i].local_map, b.loops[i].local_map) << "loop " << i;
-    ASSERT_EQ(a.loops[i].anchor_T_node, b.loops[i].anchor_T_node) << "loop " << i;
-    ASSERT_EQ(a.loops[i].verdict, b.loops[i].verdict) << "loop " << i;
   }
 }
 

@@ -167,7 +167,8 @@ class MappingSession {
   void start_journal(const std::filesystem::path& file);
   /// Ends the journal, if there is one, and deletes its file, unless a saved session has replaced it.
   void remove_journal();
-  /// Why writing the journal failed, a sentence without full stop; empty if it did not fail.
+  /// Why the journal could not be written the last time, a sentence without full stop; empty if it was
+  /// written. Writing is tried again until it works, so that the journal becomes complete.
   std::optional<std::string> journal_failure() const;
 
   /// Writes the mapped scans, all edits and settings to a session file. If only a part of a recorded session

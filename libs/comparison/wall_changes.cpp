@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "frames/pose_operations.h"
@@ -19,8 +20,8 @@ using mrpt::math::TPose2D;
 using Kind = WallChange::Kind;
 using Cells = std::vector<cv::Point>;
 
-constexpr int kBridgedCells = 2;      // changed cells this far apart belong to one change
-constexpr double kLeastFilled = 0.5;  // cells of a change per cell of its length; sparser changes are specks
+constexpr int kBridgedCells = 2;        // changed cells this far apart belong to one change
+constexpr double kLeastFilled = 0.5;    // share of the length of a change that has cells; others are dotted
 constexpr double kLeastParallel = 0.6;  // share of a moved wall's cells that have moved by the same distance
 
 /// The value of an expression of masks, such as `a & b`.
@@ -141,7 +142,8 @@ cv::Mat1b without_counterpart(const cv::Mat1b& walls, const cv::Mat1b& others, d
 /// A connected set of changed cells and its extent.
 struct Change {
   Cells cells;
-  cv::Point2d from;  ///< ends along the main direction, in cells
+  double filled_cells = 0;  ///< length of the parts that have cells, along the main direction
+  cv::Point2d from;         ///< ends along the main direction, in cells
   cv::Point2d to;
 
   double length_cells() const { return std::hypot(to.x - from.x, to.y - from.y) + 1; }
@@ -164,12 +166,15 @@ Change change_of(Cells cells) {
   const cv::Point2d direction(std::cos(direction_rad), std::sin(direction_rad));
   double least = 0;
   double most = 0;
+  std::set<int> filled;
   for (const cv::Point& cell : cells) {
     const double along = direction.dot(cv::Point2d(cell) - mean);
     least = std::min(least, along);
     most = std::max(most, along);
+    filled.insert(static_cast<int>(std::floor(along)));
   }
-  return {std::move(cells), mean + least * direction, mean + most * direction};
+  return {std::move(cells), static_cast<double>(filled.size()), mean + least * direction,
+          mean + most * direction};
 }
 
 /// Returns the connected changes of a mask that are long and dense enough.
@@ -188,7 +193,7 @@ std::vector<Change> changes_in(const cv::Mat1b& changed, double min_length_cells
     if (part.empty()) continue;
     Change change = change_of(std::move(part));
     const double length = change.length_cells();
-    if (length >= min_length_cells && static_cast<double>(change.cells.size()) >= kLeastFilled * length)
+    if (length >= min_length_cells && change.filled_cells >= kLeastFilled * length)
       changes.push_back(std::move(change));
   }
   return changes;
@@ -238,7 +243,7 @@ WallChange in_metres(const Change& change, Kind kind, const cv::Point2d& shift_c
   result.kind = kind;
   result.from = centre_of(layout, change.from.x, change.from.y);
   result.to = centre_of(layout, change.to.x, change.to.y);
-  result.length_m = (result.to - result.from).norm();
+  result.length_m = change.length_cells() * layout.cell_m;
   result.shift = TPoint2D(shift_cells.x, shift_cells.y) * layout.cell_m;
   return result;
 }

@@ -33,7 +33,7 @@ struct WallChange {
   Kind kind = Kind::kAppeared;
   mrpt::math::TPoint2D from;  ///< ends of the wall along its main direction; in map A if it moved
   mrpt::math::TPoint2D to;
-  double length_m = 0;               ///< distance between both ends
+  double length_m = 0;               ///< distance between both ends, with the cells at the ends
   mrpt::math::TPoint2D shift{0, 0};  ///< of a moved wall: from its place in map A to its place in map B
 
   mrpt::math::TPoint2D middle() const { return (from + to) * 0.5; }

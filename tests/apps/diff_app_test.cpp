@@ -61,7 +61,7 @@ TEST_F(DiffApp, a_new_wall_gives_exit_code_1_and_three_files) {
   EXPECT_EQ(json["vanished"]["walls"], 0);
   EXPECT_NEAR(json["alignment"]["x_m"].get<double>(), 0, 0.03);
   EXPECT_EQ(bytes_of(path("out/diff.json")), run.out);
-  EXPECT_THAT(bytes_of(path("out/diff.csv")), HasSubstr("\nappeared,-0.4"));
+  EXPECT_THAT(bytes_of(path("out/diff.csv")), HasSubstr("\nappeared,-0.3"));
   EXPECT_THAT(bytes_of(path("out/diff.png")), HasSubstr("PNG"));
   EXPECT_EQ(diff("a", "new.yaml", {"--min-length-m", "1.5"}).code, 0);
   EXPECT_EQ(diff("a", "new.yaml", {"--tolerance-m", "3"}).code, 0);

@@ -28,7 +28,7 @@ using mrpt::math::TPose2D;
 
 constexpr double kSmoothing_m = 0.03;
 constexpr double kLeastCoarse_m = 0.1;  // smallest cell of the grid in which the whole map is searched
-constexpr double kCoarseCells = 200;    // largest number of coarse cells along the larger map
+constexpr double kCoarseCells = 300;    // largest number of coarse cells along the larger map
 constexpr double kCoarseResponse = 0.3;
 constexpr double kFineCells = 1.5;  // half-width of the window in the fine grid, in coarse cells and steps
 // Neighbouring wall cells show the same surface. Points farther apart than this count as independent.
@@ -117,6 +117,9 @@ class WallMatcher {
     return fine;
   }
 
+ private:
+  double coarse_m() const { return map_.coarse->scores().resolution_m(); }
+
   /// Compares the walls with the other map at the pose of their centre.
   WallMatch judged(const MatchResult& match) const {
     WallMatch result{match, map_.fine->agreement(walls_.points, match.map_T_robot), 0};
@@ -124,9 +127,6 @@ class WallMatcher {
         static_cast<double>(result.agreement.observed) / static_cast<double>(walls_.points.points.size());
     return result;
   }
-
- private:
-  double coarse_m() const { return map_.coarse->scores().resolution_m(); }
 
   WallMatch refined(const TPose2D& map_T_centre, double window_m, double window_rad) const {
     const CorrelativeMatcher matcher{MatcherOptions()};
@@ -190,14 +190,19 @@ MapAlignment align_maps(const Grid& a, const Grid& b, const MapAlignmentOptions&
   const TPose2D a_T_b = options.a_T_b.value_or(TPose2D(0, 0, 0));
   std::optional<WallMatch> found =
       matcher.near(swapped ? inverse(a_T_b) : a_T_b, options.near_m, options.near_rad);
+  std::string why_not = objection(found, options);
   auto method = MapAlignment::Method::kNearby;
-  const bool same_frame =
-      objection(found, options).empty() && found->agreement.share() >= options.min_agree_in_same_frame;
-  if (!options.a_T_b && !same_frame) {
-    found = matcher.anywhere();
-    method = MapAlignment::Method::kWholeMap;
+  const double near_agree = why_not.empty() ? found->agreement.share() : 0;
+  if (!options.a_T_b && near_agree < options.min_agree_in_same_frame) {
+    // Bent maps with equal frames may agree less. They are equal unless another place fits better.
+    std::optional<WallMatch> somewhere = matcher.anywhere();
+    const std::string why_not_there = objection(somewhere, options);
+    if (near_agree == 0 || (why_not_there.empty() && somewhere->agreement.share() > near_agree)) {
+      found = std::move(somewhere);
+      why_not = why_not_there;
+      method = MapAlignment::Method::kWholeMap;
+    }
   }
-  const std::string why_not = objection(found, options);
   if (!why_not.empty())
     throw UserError(why_not + (options.a_T_b ? ". Correct the pose of --start"
                                              : ". Compare maps of one building, or give the rough pose of "

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "frames/pose_operations.h"
+#include "matching/score_grid.h"
 #include "rendering/map_image.h"
 
 namespace psi_slam {
@@ -41,32 +42,34 @@ struct Layer {
   cv::Mat1b seen() const { return mask(wall | free); }
 };
 
-/// Makes the cells that hold both maps, in the frame and with the cells of map A.
+/// Makes the cells that hold all observed cells of both maps, in the frame and with the cells of map A.
 ComparedCells layout_of(const Grid& a, const Grid& b, const TPose2D& a_T_b) {
-  ComparedCells layout;
-  layout.cell_m = static_cast<double>(a.getResolution());
-  double x_min = static_cast<double>(a.getXMin());
-  double y_min = static_cast<double>(a.getYMin());
-  double x_max = static_cast<double>(a.getXMax());
-  double y_max = static_cast<double>(a.getYMax());
-  for (const float x : {b.getXMin(), b.getXMax()}) {
-    for (const float y : {b.getYMin(), b.getYMax()}) {
-      const TPoint2D corner = a_T_b.composePoint({static_cast<double>(x), static_cast<double>(y)});
-      x_min = std::min(x_min, corner.x);
-      y_min = std::min(y_min, corner.y);
-      x_max = std::max(x_max, corner.x);
-      y_max = std::max(y_max, corner.y);
+  const SeenCells seen = seen_cells(a);
+  int x_begin = seen.x_begin;
+  int x_end = seen.x_end;
+  int y_begin = seen.y_begin;
+  int y_end = seen.y_end;
+  const auto resolution_m = static_cast<double>(a.getResolution());
+  for (int y = 0; y < static_cast<int>(b.getSizeY()); ++y) {
+    const Grid::cellType* row = b.getRow(y);
+    for (int x = 0; x < static_cast<int>(b.getSizeX()); ++x) {
+      if (!is_occupied(row[x]) && !is_free(row[x])) continue;
+      const TPoint2D point =
+          a_T_b.composePoint({static_cast<double>(b.idx2x(x)), static_cast<double>(b.idx2y(y))});
+      const int column = floor_to_int((point.x - static_cast<double>(a.getXMin())) / resolution_m);
+      const int line = floor_to_int((point.y - static_cast<double>(a.getYMin())) / resolution_m);
+      x_begin = std::min(x_begin, column);
+      x_end = std::max(x_end, column + 1);
+      y_begin = std::min(y_begin, line);
+      y_end = std::max(y_end, line + 1);
     }
   }
-  const auto cells = [&](double length_m) {
-    return static_cast<int>(std::ceil(length_m / layout.cell_m - 1e-3));
-  };
-  const auto a_x_min = static_cast<double>(a.getXMin());
-  const auto a_y_min = static_cast<double>(a.getYMin());
-  layout.x_min_m = a_x_min - cells(a_x_min - x_min) * layout.cell_m;
-  layout.y_min_m = a_y_min - cells(a_y_min - y_min) * layout.cell_m;
-  layout.width = cells(x_max - layout.x_min_m);
-  layout.height = cells(y_max - layout.y_min_m);
+  ComparedCells layout;
+  layout.cell_m = resolution_m;
+  layout.x_min_m = static_cast<double>(a.getXMin()) + x_begin * resolution_m;
+  layout.y_min_m = static_cast<double>(a.getYMin()) + y_begin * resolution_m;
+  layout.width = x_end - x_begin;
+  layout.height = y_end - y_begin;
   return layout;
 }
 

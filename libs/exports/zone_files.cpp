@@ -44,6 +44,12 @@ SpeedScale scale_for(const std::vector<MapEdit>& edits) {
   return fastest_mps > 0 ? SpeedScale{2, 0, fastest_mps / 100} : SpeedScale{};
 }
 
+/// Text of a number that ROS 2 reads as a double, with a decimal point.
+std::string double_text(double value) {
+  const std::string text = trimmed_text(value, 9);
+  return text.find('.') == std::string::npos ? text + ".0" : text;
+}
+
 bool has(const std::vector<MapEdit>& edits, Kind kind) {
   return std::any_of(edits.begin(), edits.end(), [&](const MapEdit& edit) { return edit.kind == kind; });
 }
@@ -122,8 +128,7 @@ void write_zone_files(const std::filesystem::path& folder, const Grid& grid,
         [&](std::uint8_t a, std::uint8_t b) { return scale.multiplier < 0 ? a > b : a < b; });
     write_mask_pair(speed, grid, values,
                     "# costmap_filter_info_server of nav2: type " + std::to_string(scale.type) + ", base " +
-                        fixed_text(scale.base, 1) + ", multiplier " + trimmed_text(scale.multiplier, 9) +
-                        '\n');
+                        double_text(scale.base) + ", multiplier " + double_text(scale.multiplier) + '\n');
   } else {
     remove_pair(speed);
   }

@@ -67,16 +67,28 @@ TEST(MapAlignment, a_corridor_is_uncertain_along_its_walls) {
   }
 }
 
-TEST(MapAlignment, a_rough_pose_decides_between_alike_places) {
+/// A square room, which fits in four directions.
+DrawnPlan square_room() {
   DrawnPlan square;
   square.width_m = square.height_m = 6;
   square.walls = {{{0, 0}, {6, 0}}, {{6, 0}, {6, 6}}, {{6, 6}, {0, 6}}, {{0, 6}, {0, 0}}};
-  const auto a = map_of(square);
-  const auto b = map_of(square, {2, 1, 0.5});
+  return square;
+}
+
+TEST(MapAlignment, a_rough_pose_decides_between_alike_places) {
+  const auto a = map_of(square_room());
+  const auto b = map_of(square_room(), {2, 1, 0.5});
   EXPECT_THAT(sentence_of([&] { align_maps(a, b); }), HasSubstr("another alignment fits nearly as well"));
   MapAlignmentOptions options;
   options.a_T_b = TPose2D(2.5, 0.7, 0.4);
   expect_near(align_maps(a, b, options).a_T_b, {2, 1, 0.5}, 0.03);
+}
+
+TEST(MapAlignment, keeps_equal_frames_if_no_other_place_fits_better) {
+  MapAlignmentOptions options;
+  options.min_agree_in_same_frame = 2;  // the whole map is always searched
+  const auto map = map_of(square_room());
+  EXPECT_EQ(align_maps(map, map, options).method, MapAlignment::Method::kNearby);
 }
 
 TEST(MapAlignment, refuses_maps_of_other_buildings) {

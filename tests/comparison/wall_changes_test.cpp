@@ -125,7 +125,7 @@ TEST(WallChanges, the_cells_show_the_changes) {
   EXPECT_EQ(at(2, 3), ComparedCell::kAppeared);
   EXPECT_EQ(at(2, 2), ComparedCell::kFree);
   EXPECT_EQ(at(7, 4.5), ComparedCell::kWall);
-  EXPECT_EQ(at(-0.3, 4), ComparedCell::kUnknown);
+  EXPECT_LT(cells.width * cells.cell_m, 12.2) << "no more than both maps show";
 }
 
 }  // namespace

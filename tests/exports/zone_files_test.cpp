@@ -66,7 +66,7 @@ TEST_F(ZoneFiles, nav2_computes_the_percentage_of_slow_zones) {
   zones.push_back(zone(Kind::kSlow, 3.4, 3.7, 20));  // overlaps the zone of 40 %
   write(zones);
   EXPECT_THAT(read_file(folder_.path() / "speed_mask.yaml"),
-              HasSubstr("type 1, base 100.0, multiplier -1\n"));
+              HasSubstr("type 1, base 100.0, multiplier -1.0\n"));
   const auto limit = [&](double x_m) { return 100 - value("speed_mask", x_m, 0.5); };
   EXPECT_EQ(limit(0.3), 1);
   EXPECT_EQ(limit(3.3), 40);

@@ -143,7 +143,9 @@ void MainFrame::enable_edit_commands() {
 EditJournal MainFrame::edits() const {
   if (!replay_) return {};
   if (edits_are_pending()) throw UserError("The last edit is still in progress: try again in a moment");
-  return journal_of(*replay_->snapshot()->edits);
+  EditJournal journal = journal_of(*replay_->snapshot()->edits);
+  for (const MapEdit& edit : replay_->input().edits().map_edits()) journal.add(edit);
+  return journal;
 }
 
 void MainFrame::open_edits(const std::filesystem::path& file) {

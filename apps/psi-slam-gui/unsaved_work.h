@@ -17,13 +17,13 @@ inline EditJournal journal_of(const std::vector<TimedEdit>& edits) {
 }
 
 /// Tracks what closing the window would lose: scans mapped and edits made since results, a session or a file
-/// of edits were last written.
+/// of edits were last written. Edits of the drawn map cannot change in the window, so they do not count.
 class UnsavedWork {
  public:
   /// Call this when a run is opened whose edits come from a file.
   void open(const SessionInput& input) {
     restart(input);
-    written_edits_ = input.edits().text();
+    written_edits_ = journal_of(input.edits().edits()).text();
   }
   /// Call this when the run is restarted or resumed with a log. Unsaved edits still count as unsaved.
   void restart(const SessionInput& input) {
@@ -34,7 +34,7 @@ class UnsavedWork {
     written_scans_ = written.scans;
     written_edits_ = journal_of(*written.edits).text();
   }
-  void note_written_edits(const EditJournal& edits) { written_edits_ = edits.text(); }
+  void note_written_edits(const EditJournal& edits) { written_edits_ = journal_of(edits.edits()).text(); }
 
   bool any_edits(const ReplaySnapshot& snapshot) const {
     return journal_of(*snapshot.edits).text() != written_edits_;

@@ -28,6 +28,7 @@ constexpr const char* kExamples =
     "  psi-slam --resume my.session my.log -o more/   resume an interrupted run\n"
     "  psi-slam merge monday.log friday.log -o out/   make one map of several runs\n"
     "  psi-slam localize out/map.yaml new.log   find and track a robot in a finished map\n"
+    "  psi-slam diff may/ june/ -o changes/     show the walls that changed between two maps\n"
     "  psi-slam live --tcp 5000 -o out/         map while the robot drives\n"
     "  psi-slam -c my.ini my.log -o out/ --set map.resolution_m=0.025\n"
     "  psi-slam --dump-config > my.ini          print settings to start from\n"
@@ -41,12 +42,17 @@ bool is_option(const std::string& argument) {
   return argument.size() > 1 && argument.front() == '-';
 }
 
-/// Adds the options of all commands that read logs and write a folder.
-void add_run_options(CLI::App& command, CommandLine& line) {
-  add_settings_options(command, line.config, line.settings);
+/// Adds the options of all commands that write a folder.
+void add_output_options(CLI::App& command, CommandLine& line) {
   command.add_flag("--force", line.force, "Replace results in a folder that is not empty");
   command.add_flag("--json", line.json, "Print the summary as JSON");
   command.add_flag("-q,--quiet", line.quiet, "Print only warnings and errors");
+}
+
+/// Adds the options of all commands that read logs and write a folder.
+void add_run_options(CLI::App& command, CommandLine& line) {
+  add_settings_options(command, line.config, line.settings);
+  add_output_options(command, line);
 }
 
 CLI::App* add_check(CLI::App& app, CommandLine& line) {
@@ -57,6 +63,27 @@ CLI::App* add_check(CLI::App& app, CommandLine& line) {
   add_settings_options(*check, line.config, line.settings);
   check->add_flag("--json", line.json, "Print the findings as JSON");
   return check;
+}
+
+CLI::App* add_diff(CLI::App& app, CommandLine& line) {
+  CLI::App* const diff = app.add_subcommand(
+      "diff", "Show the walls that changed between two maps of a building (exit code 1 if a wall changed)");
+  add_value(*diff, "MAP", line.inputs,
+            "The older and the newer map: map.yaml, map.gridmap.gz or the results folder of a run", "");
+  add_value(*diff, "-o,--output", line.output, "Folder for diff.png, diff.csv and diff.json, new or empty",
+            "DIR");
+  diff->add_flag("--aligned", line.diff.aligned, "Both maps have one frame: compare them without alignment");
+  add_value(*diff, "--start", line.start,
+            "Rough pose of the second map in the first: metres and degrees. Default: search everywhere",
+            "X,Y,YAW_DEG");
+  add_value(*diff, "--tolerance-m", line.diff.tolerance_m,
+            "Walls within this distance are equal; the uncertainty of the alignment is added. Default: three "
+            "cells",
+            "M");
+  add_value(*diff, "--min-length-m", line.diff.min_length_m, "Length of the shortest change. Default: 0.3",
+            "M");
+  add_output_options(*diff, line);
+  return diff;
 }
 
 CLI::App* add_live(CLI::App& app, CommandLine& line) {
@@ -117,7 +144,8 @@ CLI::App* add_sweep(CLI::App& app, CommandLine& line) {
 
 /// Throws UserError for an argument that is neither the log nor a known option.
 [[noreturn]] void fail_unknown(const std::string& argument, const CommandLine& line, const CLI::App& app) {
-  const auto command = nearest_name(line.log, {"check", "live", "localize", "merge", "options", "sweep"});
+  const auto command =
+      nearest_name(line.log, {"check", "diff", "live", "localize", "merge", "options", "sweep"});
   if (command && !is_option(argument))
     throw UserError("there is no command \"" + line.log + "\"; did you mean \"" + *command + "\"?");
   throw UserError(unknown_argument_text(argument, app, "psi-slam"));
@@ -136,6 +164,7 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
   const bool maps = line.command == Command::kMap;
   const bool is_live = line.command == Command::kLive;
   const bool merges = line.command == Command::kMerge;
+  const bool compares = line.command == Command::kDiff;
   const bool localizes = line.command == Command::kLocalize;
   if (maps) require(!line.log.empty() || !line.resume.empty(), "name the log: psi-slam LOG -o DIR");
   if (line.command == Command::kCheck) require(!line.log.empty(), "name the log: psi-slam check LOG");
@@ -148,11 +177,13 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
   refuse(
       line.json && pose_format(line.live),
       "--json contradicts --poses: only poses go to standard output. Read the figures in the results folder");
+  if (compares) require(line.inputs.size() == 2, "name two maps: psi-slam diff OLDER NEWER");
+  refuse(line.diff.aligned && !line.start.empty(), "--aligned contradicts --start: give only one of them");
   if (merges) require(line.inputs.size() >= 2, "name the runs: psi-slam merge FIRST SECOND -o DIR");
   if (maps || merges || is_live) require(!line.output.empty(), "name the folder for the results: -o DIR");
   refuse(merges && line.inputs.size() > 2 && !line.start.empty(),
          "--start needs exactly two runs. Merge the first two, then merge their session with further runs");
-  refuse(!maps && !merges && !localizes && !is_live && !line.output.empty(),
+  refuse(!maps && !merges && !localizes && !is_live && !compares && !line.output.empty(),
          "-o has no effect on this command, because nothing is written. Leave -o out");
   refuse(!maps && !line.edits.empty(), "--edits is only for mapping a log");
   refuse(!maps && !is_live && !line.resume.empty(), "--resume is only for mapping");
@@ -222,7 +253,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
             "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag", "");
   add_value(app, "-o,--output", line.output, kFolderHelp, "DIR");
   add_run_options(app, line);
-  add_value(app, "--edits", line.edits, "File with edits of loops, as psi-slam-gui saves it", "FILE");
+  add_value(app, "--edits", line.edits, "File with edits of loops and of the drawn map", "FILE");
   add_value(app, "--save-session", line.save_session,
             "Save the run to this file, even if it is interrupted, for --resume", "FILE");
   add_value(app, "--journal", line.journal,
@@ -239,9 +270,10 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   app.add_flag("--dump-config", dump_config, "Print a settings file with all options and exit");
   app.set_version_flag("--version", "psi-slam " PSI_SLAM_VERSION, "Print the version and exit");
   const std::vector<std::pair<CLI::App*, Command>> commands{
-      {add_check(app, line), Command::kCheck},       {add_live(app, line), Command::kLive},
-      {add_localize(app, line), Command::kLocalize}, {add_merge(app, line), Command::kMerge},
-      {add_options(app, line), Command::kOptions},   {add_sweep(app, line), Command::kSweep}};
+      {add_check(app, line), Command::kCheck}, {add_diff(app, line), Command::kDiff},
+      {add_live(app, line), Command::kLive},   {add_localize(app, line), Command::kLocalize},
+      {add_merge(app, line), Command::kMerge}, {add_options(app, line), Command::kOptions},
+      {add_sweep(app, line), Command::kSweep}};
   app.require_subcommand(0, 1);
   app.allow_extras();
   for (const auto& [command, kind] : commands) command->allow_extras();

@@ -17,15 +17,22 @@
 
 namespace psi_slam {
 
+/// The arguments of psi-slam diff alone.
+struct DiffArguments {
+  bool aligned = false;      ///< whether both maps have one frame
+  std::string tolerance_m;   ///< empty: three cells
+  std::string min_length_m;  ///< empty: the default of WallChangeOptions
+};
+
 /// The arguments of psi-slam, before their values are examined.
 struct CommandLine {
-  enum class Command { kMap, kCheck, kLive, kLocalize, kMerge, kOptions, kDumpConfig, kSweep };
+  enum class Command { kMap, kCheck, kDiff, kLive, kLocalize, kMerge, kOptions, kDumpConfig, kSweep };
 
   Command command = Command::kMap;
   std::string log;
   std::string map;                    ///< map file for localize
-  std::string start;                  ///< "X,Y,YAW_DEG" in the map; empty: unknown
-  std::vector<std::string> inputs;    ///< logs and sessions for merge
+  std::string start;                  ///< "X,Y,YAW_DEG" in the map, of diff in the first map; empty: unknown
+  std::vector<std::string> inputs;    ///< logs and sessions for merge; both maps for diff
   std::string output;                 ///< folder for the results
   std::string edits;                  ///< file of loop edits; empty: no edits
   std::string resume;                 ///< session file to resume; empty: maps from the first scan
@@ -40,6 +47,7 @@ struct CommandLine {
   bool quiet = false;
   bool verbose = false;
   bool markdown = false;
+  DiffArguments diff;
   LiveArguments live;
   SweepArguments sweep;
 };

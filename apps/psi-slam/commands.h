@@ -31,6 +31,9 @@ int merge_runs(const CommandLine& line, const Streams& streams);
 /// is 0 if the robot is localized at the end of the log, 1 if it is not, 2 if the log is damaged.
 int localize(const CommandLine& line, const Streams& streams);
 
+/// psi-slam diff: compares the walls of two maps. The exit code is 0 if no wall has changed, 1 if one has.
+int compare_maps(const CommandLine& line, const Streams& streams);
+
 /// psi-slam check: prints what the log holds and what looks wrong, as sentences or as JSON. The exit code is
 /// 2 if damage ends the log early.
 int check_log(const CommandLine& line, const Streams& streams);

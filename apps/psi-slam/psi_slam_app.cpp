@@ -24,6 +24,8 @@ int run(const CommandLine& line, const Streams& streams) {
       return map_log(line, streams);
     case CommandLine::Command::kCheck:
       return check_log(line, streams);
+    case CommandLine::Command::kDiff:
+      return compare_maps(line, streams);
     case CommandLine::Command::kLocalize:
       return localize(line, streams);
     case CommandLine::Command::kLive:

@@ -99,6 +99,28 @@ ClearBeams clear_beams(const ScoreGrid& map, const ScanPoints& scan, const mrpt:
   return result;
 }
 
+WholeMapMatch match_whole_map(const Matcher& matcher, const WholeMapProblem& problem,
+                              const MatcherOptions& options) {
+  const ScoreGrid& grid = problem.grid;
+  const double half_x_m = 0.5 * grid.finest().width() * grid.resolution_m();
+  const double half_y_m = 0.5 * grid.finest().height() * grid.resolution_m();
+  const TPose2D middle(grid.origin_x_m() + half_x_m, grid.origin_y_m() + half_y_m, problem.centre_rad);
+  MatchProblem window{grid, problem.scan, middle, {half_x_m, half_y_m, M_PI}};
+  window.min_response = problem.min_response;
+  window.measure_ambiguity = true;
+  window.seed = problem.seed;
+  MatchResult match = matcher.match(window);
+  const double turn_rad = std::abs(mrpt::math::wrapToPi(match.lattice_pose.phi - problem.centre_rad));
+  if (!match.found || turn_rad < M_PI - options.distinct_rad) return {match, problem.centre_rad};
+  const std::int64_t evaluations = match.evaluations;
+  window.map_T_robot.phi = mrpt::math::wrapToPi(problem.centre_rad + M_PI);
+  // The headings of the repeated search may miss the best heading by up to half a step.
+  window.min_response = std::min(problem.min_response, kSearchedShare * match.response);
+  match = matcher.match(window);
+  match.evaluations += evaluations;
+  return {match, window.map_T_robot.phi};
+}
+
 GlobalSearch::GlobalSearch(ReferenceMap map, const GlobalSearchOptions& options)
     : map_(std::move(map)),
       options_(options),
@@ -113,8 +135,9 @@ FoundPlace GlobalSearch::find(std::size_t node, const KeyframeStore& memory, con
     place.objection = "the scan has no points";
     return place;
   }
-  const WholeMapMatch somewhere =
-      match_anywhere(*matcher_, kSearchedShare * options_.min_response, 0, context, seed);
+  const WholeMapMatch somewhere = match_whole_map(
+      *matcher_, {map_.coarse->scores(), context, kSearchedShare * options_.min_response, 0, seed},
+      options_.match);
   FoundPlace place = judge(somewhere.match, context, node, memory);
   if (!place.believed() || options_.matcher == MatcherKind::kCsm) return place;
 
@@ -122,8 +145,10 @@ FoundPlace GlobalSearch::find(std::size_t node, const KeyframeStore& memory, con
   // is fast, because it need not consider places with lower responses. It begins in the window in which the
   // response was reached, because a window with another centre has other headings.
   const std::int64_t evaluations = place.evaluations;
-  const WholeMapMatch checked = match_anywhere(exact_matcher_, kCheckedShare * somewhere.match.response,
-                                               somewhere.centre_rad, context, seed);
+  const WholeMapMatch checked = match_whole_map(
+      exact_matcher_,
+      {map_.coarse->scores(), context, kCheckedShare * somewhere.match.response, somewhere.centre_rad, seed},
+      options_.match);
   place = judge(checked.match, context, node, memory);
   place.evaluations += evaluations;
   return place;
@@ -151,32 +176,6 @@ FoundPlace GlobalSearch::judge(const MatchResult& somewhere, const ScanPoints& c
   }
   place.objection = objection(place, context, node, memory);
   return place;
-}
-
-// Matches the context in the whole map at all headings, in a window centred on the heading `centre_rad`. If
-// the best heading is near the ends of the window, both ends contain it, and the match seems ambiguous. The
-// search is then repeated with the opposite heading at the centre.
-GlobalSearch::WholeMapMatch GlobalSearch::match_anywhere(const Matcher& matcher, double min_response,
-                                                         double centre_rad, const ScanPoints& context,
-                                                         const MatchSeed& seed) const {
-  const ScoreGrid& grid = map_.coarse->scores();
-  const double half_x_m = 0.5 * grid.finest().width() * grid.resolution_m();
-  const double half_y_m = 0.5 * grid.finest().height() * grid.resolution_m();
-  const TPose2D middle(grid.origin_x_m() + half_x_m, grid.origin_y_m() + half_y_m, centre_rad);
-  MatchProblem problem{grid, context, middle, {half_x_m, half_y_m, M_PI}};
-  problem.min_response = min_response;
-  problem.measure_ambiguity = true;
-  problem.seed = seed;
-  MatchResult match = matcher.match(problem);
-  const double turn_rad = std::abs(mrpt::math::wrapToPi(match.lattice_pose.phi - centre_rad));
-  if (!match.found || turn_rad < M_PI - options_.match.distinct_rad) return {match, centre_rad};
-  const std::int64_t evaluations = match.evaluations;
-  problem.map_T_robot.phi = mrpt::math::wrapToPi(centre_rad + M_PI);
-  // The headings of the repeated search may miss the best heading by up to half a step.
-  problem.min_response = std::min(min_response, kSearchedShare * match.response);
-  match = matcher.match(problem);
-  match.evaluations += evaluations;
-  return {match, problem.map_T_robot.phi};
 }
 
 // Returns the least share of clear beams of a place. Specks and moved furniture block many beams at the true

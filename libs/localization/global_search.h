@@ -34,6 +34,26 @@ struct ClearBeams {
 /// whichever is more, and only if the beam crosses it at 27 degrees or more.
 ClearBeams clear_beams(const ScoreGrid& map, const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot);
 
+/// A scan to match in a whole map, at all headings.
+struct WholeMapProblem {
+  const ScoreGrid& grid;
+  const ScanPoints& scan;
+  double min_response = 0;  ///< smallest response of a match, in [0, 1]
+  double centre_rad = 0;    ///< heading at the centre of the window
+  MatchSeed seed = {};
+};
+
+struct WholeMapMatch {
+  MatchResult match;
+  double centre_rad = 0;  ///< heading at the centre of the window in which the match was found
+};
+
+/// Matches a scan in a whole map, with its ambiguity. If the best heading is near the ends of the window,
+/// both ends contain it, and the match seems ambiguous. The search is then repeated with the opposite heading
+/// at the centre. `options` are those of `matcher`.
+WholeMapMatch match_whole_map(const Matcher& matcher, const WholeMapProblem& problem,
+                              const MatcherOptions& options);
+
 class GlobalSearch {
  public:
   GlobalSearch(ReferenceMap map, const GlobalSearchOptions& options);
@@ -45,13 +65,6 @@ class GlobalSearch {
   const ReferenceMap& map() const { return map_; }
 
  private:
-  struct WholeMapMatch {
-    MatchResult match;
-    double centre_rad = 0;  ///< heading at the centre of the window in which the match was found
-  };
-
-  WholeMapMatch match_anywhere(const Matcher& matcher, double min_response, double centre_rad,
-                               const ScanPoints& context, const MatchSeed& seed) const;
   FoundPlace judge(const MatchResult& somewhere, const ScanPoints& context, std::size_t node,
                    const KeyframeStore& memory) const;
   double least_clear_share(double ambiguity) const;

@@ -5,15 +5,16 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <sstream>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "base/text_parts.h"
 #include "compression/line_reader.h"
-#include "config/nearest_name.h"
+#include "exports/zone_files.h"
 #include "psi_slam/user_error.h"
+#include "session/edit_values.h"
+#include "session/map_edit_line.h"
 
 namespace psi_slam {
 namespace {
@@ -26,66 +27,23 @@ constexpr std::array<std::pair<const char*, Kind>, 4> kVerbs{{{"delete", Kind::k
                                                               {"restore", Kind::kRestore}}};
 constexpr double kMaxWindow_m = 1000;
 
-std::string did_you_mean(const std::string& name, const std::vector<std::string>& names) {
-  const auto near = nearest_name(name, names);
-  return near ? "; did you mean \"" + *near + "\"?" : "";
-}
-
 Kind kind_of(const std::string& verb) {
   std::vector<std::string> verbs;
   for (const auto& [text, kind] : kVerbs) {
     if (verb == text) return kind;
     verbs.emplace_back(text);
   }
-  throw UserError("unknown edit \"" + verb + "\": expected delete, force, match or restore" +
-                  did_you_mean(verb, verbs));
+  for (const auto& [text, kind] : kMapEditVerbs) verbs.emplace_back(text);
+  throw UserError("unknown edit \"" + verb + "\": expected " + name_list(verbs) + did_you_mean(verb, verbs));
 }
 
-/// The key=value pairs of a line.
-class Values {
- public:
-  Values(std::istringstream& words, Kind kind) {
-    std::vector<std::string> keys{"scan", "local_map", "after"};
-    if (kind == Kind::kForce) keys.emplace_back("attempt");
-    if (kind == Kind::kMatch)
-      keys.insert(keys.end(), {"matcher", "x_m", "y_m", "yaw_deg", "window_m", "window_deg"});
-    for (std::string word; words >> word;) {
-      const std::size_t equals = word.find('=');
-      if (equals == std::string::npos)
-        throw UserError("\"" + word + "\": expected KEY=VALUE. Correct the word");
-      const std::string key = word.substr(0, equals);
-      if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        throw UserError("unknown key \"" + key + "\": expected " + name_list(keys) + did_you_mean(key, keys));
-      if (!values_.emplace(key, word.substr(equals + 1)).second)
-        throw UserError("\"" + key + "\" is given twice, expected once. Remove one of them");
-    }
-  }
-
-  bool has(const char* key) const { return values_.count(key) != 0; }
-
-  const std::string& text(const char* key) const {
-    const auto found = values_.find(key);
-    if (found == values_.end())
-      throw UserError(std::string("\"") + key + "\" is missing. Add " + key + "=VALUE");
-    return found->second;
-  }
-
-  std::size_t whole(const char* key) const {
-    const auto value = parse_number(text(key));
-    if (!value || *value < 0 || *value > 1e15 || *value != std::floor(*value))
-      throw UserError(std::string(key) + "=" + text(key) + ": expected a whole number, 0 or more");
-    return static_cast<std::size_t>(*value);
-  }
-
-  double number(const char* key, decltype(parse_number)* parse = parse_number) const {
-    const auto value = parse(text(key));
-    if (!value) throw UserError(std::string(key) + "=" + text(key) + ": expected a number");
-    return *value;
-  }
-
- private:
-  std::map<std::string, std::string> values_;
-};
+std::vector<std::string> keys_of(Kind kind) {
+  std::vector<std::string> keys{"scan", "local_map", "after"};
+  if (kind == Kind::kForce) keys.emplace_back("attempt");
+  if (kind == Kind::kMatch)
+    keys.insert(keys.end(), {"matcher", "x_m", "y_m", "yaw_deg", "window_m", "window_deg"});
+  return keys;
+}
 
 MatcherKind matcher_of(const std::string& text) {
   for (const MatcherKind kind : kMatcherKinds)
@@ -93,7 +51,7 @@ MatcherKind matcher_of(const std::string& text) {
   throw UserError("matcher=" + text + ": expected csm, csm_ga or ga");
 }
 
-std::optional<LoopPlace> place_of(const Values& values) {
+std::optional<LoopPlace> place_of(const EditValues& values) {
   constexpr std::array<const char*, 5> kKeys{"x_m", "y_m", "yaw_deg", "window_m", "window_deg"};
   if (std::none_of(kKeys.begin(), kKeys.end(), [&](const char* key) { return values.has(key); })) return {};
   LoopPlace place;
@@ -108,7 +66,7 @@ std::optional<LoopPlace> place_of(const Values& values) {
   return place;
 }
 
-EditTime time_of(const Values& values) {
+EditTime time_of(const EditValues& values) {
   if (!values.has("after")) return {};
   if (values.text("after") == "end") return {EditTime::Kind::kEnd, 0};
   return {EditTime::Kind::kAfterScan, values.whole("after")};
@@ -141,7 +99,7 @@ TimedEdit parse_edit_line(std::string_view line) {
   words >> verb;
   TimedEdit timed;
   timed.edit.kind = kind_of(verb);
-  const Values values(words, timed.edit.kind);
+  const EditValues values(words, keys_of(timed.edit.kind));
   timed.edit.frame = values.whole("scan");
   timed.edit.local_map = values.whole("local_map");
   timed.time = time_of(values);
@@ -168,7 +126,10 @@ void add_line(std::string_view line, const std::string& place, EditJournal& jour
   line = line.substr(0, line.find('#'));
   if (line.find_first_not_of(" \t") == std::string_view::npos) return;
   try {
-    journal.add(parse_edit_line(line));
+    if (const auto map_edit = parse_map_edit_line(line))
+      journal.add(*map_edit);
+    else
+      journal.add(parse_edit_line(line));
   } catch (const UserError& error) {
     throw UserError(place + ": " + error.what());
   }
@@ -182,6 +143,7 @@ void EditJournal::add(const TimedEdit& edit) {
 
 void EditJournal::add(const EditJournal& others) {
   for (const TimedEdit& edit : others.edits_) add(edit);
+  for (const MapEdit& edit : others.map_edits_) add(edit);
 }
 
 std::vector<LoopEdit> EditJournal::take_due(EditTime now) {
@@ -221,6 +183,7 @@ bool EditJournal::forget_later(const LoopEdit& same) {
 EditJournal EditJournal::of_run(std::size_t first_scan, std::size_t scans,
                                 std::size_t first_local_map) const {
   EditJournal journal;
+  if (first_scan == 0) journal.map_edits_ = map_edits_;
   for (TimedEdit edit : edits_) {
     edit.edit.frame += first_scan;
     edit.edit.local_map += first_local_map;
@@ -238,6 +201,7 @@ EditJournal EditJournal::of_run(std::size_t first_scan, std::size_t scans,
 std::string EditJournal::text() const {
   std::string text = kHeading;
   for (const TimedEdit& edit : edits_) text += edit_line(edit) + '\n';
+  for (const MapEdit& edit : map_edits_) text += map_edit_line(edit) + '\n';
   return text;
 }
 
@@ -245,6 +209,11 @@ EditJournal EditJournal::read(const std::filesystem::path& file) {
   EditJournal journal;
   LineReader lines(file);
   for (std::string_view line; lines.next(line);) add_line(line, lines.place(), journal);
+  try {
+    check_zones(journal.map_edits());
+  } catch (const UserError& error) {
+    throw UserError(file.string() + ": " + error.what());
+  }
   return journal;
 }
 

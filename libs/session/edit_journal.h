@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edits of the loops of a log, each with the scan after which it is made. The same edits give the same map,
-// whether they are made in the window or read from a file.
+// Edits of the loops of a log, each with the scan after which it is made, and edits of the drawn map. The
+// same edits give the same map, whether they are made in the window or read from a file.
 //
 // The file is text, one line for each edit:
 //
@@ -10,11 +10,21 @@
 //     force scan=813 local_map=15 attempt=final_search after=end
 //     match scan=900 local_map=3 matcher=ga x_m=1.5 y_m=-2 yaw_deg=90 window_m=2 window_deg=30 after=1500
 //     restore scan=812 local_map=14 after=1600
+//     erase polygon=1,2;3,2;3,4.5
+//     unknown polygon=5,5;6,5;6,6
+//     wall line=0,0;4,0;4,2 width_m=0.1
+//     crop polygon=-10,-10;30,-10;30,20;-10,20
+//     keep_out polygon=7,1;9,1;9,3
+//     slow polygon=10,1;12,1;12,3 percent=40
+//     slow polygon=10,1;12,1;12,3 max_speed_mps=0.3
 //
 // Without `after`, an edit is made as soon as its scan and its local map exist. x_m, y_m and yaw_deg are the
 // pose of the robot at the scan in the frame of the local map; window_m and window_deg are half-widths of the
 // search window. `match` also works without these five. attempt=final_search forces a match that only the
 // final loop search finds. Older files call it attempt=last_pass.
+//
+// The edits from `erase` on change the drawn map, see MapEdit. They are made in the order of their lines,
+// after the last scan. Their points are metres in the frame of the exported map.
 #pragma once
 
 #include <cstddef>
@@ -25,6 +35,7 @@
 #include <vector>
 
 #include "psi_slam/loop_record.h"
+#include "rendering/map_edits.h"
 
 namespace psi_slam {
 
@@ -50,12 +61,15 @@ struct TimedEdit {
 
 class EditJournal {
  public:
-  /// All edits, in the order in which they are made.
+  /// All edits of loops, in the order in which they are made.
   const std::vector<TimedEdit>& edits() const { return edits_; }
-  bool empty() const { return edits_.empty(); }
+  /// Edits of the drawn map, in their order.
+  const std::vector<MapEdit>& map_edits() const { return map_edits_; }
+  bool empty() const { return edits_.empty() && map_edits_.empty(); }
 
   /// Inserts an edit by its time, after the edits of the same time.
   void add(const TimedEdit& edit);
+  void add(const MapEdit& edit) { map_edits_.push_back(edit); }
   /// Adds all edits of another journal.
   void add(const EditJournal& others);
 
@@ -77,7 +91,8 @@ class EditJournal {
 
   /// Returns these edits of one run, renumbered for a map of several runs. The run has `scans` scans,
   /// numbered from `first_scan`, and local maps numbered from `first_local_map`. Edits at the end of the run
-  /// are made after its last scan.
+  /// are made after its last scan. Edits of the drawn map are kept only for the first run, whose frame the
+  /// map has.
   EditJournal of_run(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
 
   /// Returns the edits as the text of a file.
@@ -91,6 +106,7 @@ class EditJournal {
 
  private:
   std::vector<TimedEdit> edits_;
+  std::vector<MapEdit> map_edits_;
   std::size_t taken_ = 0;  ///< number of edits that take_due() has returned or enter() has entered
 };
 

@@ -69,6 +69,7 @@ struct MappingSession::Members {
   Mapper::AfterFinish after_finish = Mapper::AfterFinish::kNothing;
   EditJournal edits;
   std::vector<std::string> edit_complaints;
+  std::vector<std::string> map_edit_complaints;  ///< those of the last export
   Observer observer;
   State state = State::kReading;
   MappingResult result;

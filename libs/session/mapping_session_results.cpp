@@ -4,12 +4,14 @@
 #include <utility>
 
 #include "base/file_checksum.h"
+#include "exports/zone_files.h"
 #include "frames/discarded_ranges.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
 #include "report/output_folder.h"
+#include "session/map_frame.h"
 #include "session/mapping_session_members.h"
 #include "session/session_file.h"
 #include "session/session_input.h"
@@ -42,6 +44,7 @@ void keep_first(std::size_t scans, SessionFacts& facts) {
   const EditJournal edits = std::exchange(facts.edits, {});
   for (const TimedEdit& edit : edits.edits())
     if (edit.edit.frame < lost->scan) facts.edits.add(edit);
+  for (const MapEdit& edit : edits.map_edits()) facts.edits.add(edit);
   facts.runs.erase(lost, facts.runs.end());
 }
 
@@ -54,13 +57,19 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   m.result.stages.resize(m.stages_of_mapping);
   StageClock drawing_clock("draw map");
   StageClock writing_clock("write results");
+  const ExportedPoses exported(m.result, export_T_map(m.result, m.settings.map_frame));
+  const std::vector<MapEdit>& map_edits = m.edits.map_edits();
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
-  drawing_clock.time([&] { grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map); });
+  drawing_clock.time([&] {
+    grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map);
+    m.map_edit_complaints = apply_map_edits(map_edits, *grid);
+  });
   m.result.stages.push_back(drawing_clock.timing());
   writing_clock.time([&] {
     write_g2o(m.result.graph, folder.path() / "graph.g2o");
     m.write_edits(folder.path() / "loops.edits");
     export_results(m.result, *grid, folder, m.settings.map_files);
+    write_zone_files(folder.path(), *grid, map_edits);
   });
   m.result.stages.push_back(writing_clock.timing());
   clock.stop();

@@ -45,6 +45,7 @@ std::vector<std::string> MappingSession::warnings_of_logs_before() const {
 std::vector<std::string> MappingSession::unmet_edits() const {
   std::vector<std::string> unmet = m_->edit_complaints;
   unmet.insert(unmet.end(), m_->result.unmet_edits.begin(), m_->result.unmet_edits.end());
+  unmet.insert(unmet.end(), m_->map_edit_complaints.begin(), m_->map_edit_complaints.end());
   return unmet;
 }
 

@@ -140,6 +140,17 @@ void describe_map_files(OptionTable& table, MapFileOptions& files) {
                  "Direction of the map's x axis in map.tif, counter-clockwise from east.");
 }
 
+void describe_map_frame(OptionTable& table, MapFrameOptions& frame) {
+  table
+      .text("align", frame.align,
+            "Turns the finished map, with all poses. none: x points ahead of the robot at its first scan. "
+            "walls: most walls are parallel to the axes. An angle in degrees: turns counter-clockwise.")
+      .number("origin_x_m", frame.origin_x_m, between(-1e6, 1e6), "m",
+              "Coordinate x of the point of the turned map that becomes its origin.")
+      .number("origin_y_m", frame.origin_y_m, between(-1e6, 1e6), "m",
+              "Coordinate y of the point of the turned map that becomes its origin.");
+}
+
 void describe_live(OptionTable& table, Settings& settings) {
   table.section("live", "Mapping while the robot drives")
       .integer("latency_nodes", settings.mapper.latency_nodes, between(0, 1000), "nodes",
@@ -190,6 +201,7 @@ void describe(OptionTable& table, Settings& settings) {
   describe_mapper(table, settings.mapper);
   describe_map(table, settings.map);
   describe_map_files(table, settings.map_files);
+  describe_map_frame(table, settings.map_frame);
   describe_localization(table, settings.localization);
   describe_live(table, settings);
   describe_run(table, settings.run);
@@ -247,6 +259,10 @@ void check_values(const Settings& settings) {
                   {"loop_closure.max_sigma_m", back_end.loop_matcher.max_sigma_m});
   require_at_most({"psi.psi_1", back_end.psi.psi_1}, {"psi.psi_2", back_end.psi.psi_2});
   check_log_options(log_options(settings));
+  const std::string& align = settings.map_frame.align;
+  if (align != MapFrameOptions::kNone && align != MapFrameOptions::kWalls && !parse_degrees(align))
+    throw UserError("map.align = " + align +
+                    ": expected walls, none or an angle in degrees, such as 12.5. Correct map.align");
 }
 
 LogOptions log_options(const Settings& settings) {

@@ -36,12 +36,25 @@ struct LiveOptions {
   double journal_period_s = 0.5;  ///< time between two chunks of the journal
 };
 
+/// Frame of the exported map.
+struct MapFrameOptions {
+  static constexpr const char* kNone = "none";
+  static constexpr const char* kWalls = "walls";
+
+  /// kNone: the frame of the mapper. kWalls: most walls are parallel to the axes, after a turn of at most 45
+  /// degrees. Otherwise the angle in degrees by which the map is turned counter-clockwise.
+  std::string align = kNone;
+  double origin_x_m = 0;  ///< point of the turned map that becomes the origin
+  double origin_y_m = 0;
+};
+
 struct Settings {
   LogOptions log;  ///< without robot_T_laser: log_options() takes it from `laser_mount`
   LaserMount laser_mount;
   MapperOptions mapper;  ///< without seed and threads: mapper_options() takes them from `run`
   GridMapOptions map;
   MapFileOptions map_files;
+  MapFrameOptions map_frame;
   /// Without the options that localizer_options() takes from `mapper` and `run`.
   LocalizerOptions localization;
   LiveOptions live;

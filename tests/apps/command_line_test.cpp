@@ -54,6 +54,11 @@ TEST(CommandLine, knows_its_commands) {
   EXPECT_EQ(check.log, "my.log");
   EXPECT_EQ(check.config, "my.ini");
   EXPECT_TRUE(check.json);
+  const CommandLine diff = parsed({"diff", "may", "june", "--aligned", "--tolerance-m", "0.2", "-o", "out"});
+  EXPECT_EQ(diff.command, Command::kDiff);
+  EXPECT_THAT(diff.inputs, ElementsAre("may", "june"));
+  EXPECT_TRUE(diff.diff.aligned);
+  EXPECT_EQ(diff.diff.tolerance_m, "0.2");
   EXPECT_EQ(parsed({"options"}).command, Command::kOptions);
   EXPECT_TRUE(parsed({"options", "--markdown"}).markdown);
   EXPECT_EQ(parsed({"--dump-config", "-c", "my.ini"}).command, Command::kDumpConfig);

@@ -288,7 +288,7 @@ TEST_F(PsiSlamApp, rejects_a_file_without_edits) {
   const AppRun run = map(room_log(), "out", {"--edits", file});
   EXPECT_EQ(run.code, 2);
   EXPECT_THAT(run.err,
-              HasSubstr("mine.edits:1: unknown edit \"forget\": expected delete, force, match or restore"));
+              HasSubstr("mine.edits:1: unknown edit \"forget\": expected delete, force, match, restore, erase"));
   EXPECT_FALSE(fs::exists(output("out")));
 }
 

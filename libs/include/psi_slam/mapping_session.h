@@ -111,7 +111,8 @@ class MappingSession {
   void plan(const std::vector<TimedEdit>& edits);
   /// All edits, made and planned. Equal logs, settings and edits give equal maps.
   const EditJournal& edits() const;
-  /// Edits that could not be made, one sentence each. The list is complete after finish().
+  /// Edits that could not be made, one sentence each. The list is complete after finish(), and for edits of
+  /// the drawn map after export_to().
   std::vector<std::string> unmet_edits() const;
 
   /// What the reader assumed because the log does not state it, such as the mount of a laser, and scans

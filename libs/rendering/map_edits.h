@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Edits of a drawn grid map, and zones that restrict robots. All points are in the frame of the exported map,
+// in metres.
+#pragma once
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/math/TPoint2D.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace psi_slam {
+
+struct MapEdit {
+  enum class Kind {
+    kErase,    ///< the polygon becomes free
+    kUnknown,  ///< the polygon becomes unknown
+    kWall,     ///< the line becomes a wall
+    kCrop,     ///< only the polygon is kept; the map shrinks to it
+    kKeepOut,  ///< zone that robots must not enter; the map stays as it is
+    kSlow,     ///< zone in which robots must be slow; the map stays as it is
+  };
+
+  Kind kind = Kind::kErase;
+  std::vector<mrpt::math::TPoint2D> points;  ///< corners of the polygon, or points of the line
+  double width_m = 0;                        ///< of a wall; at least one cell is drawn
+  double percent = 0;                        ///< of a slow zone: share of the largest speed; 0: none given
+  double max_speed_mps = 0;                  ///< of a slow zone: largest speed; 0: none given
+
+  bool is_zone() const { return kind == Kind::kKeepOut || kind == Kind::kSlow; }
+};
+
+/// Calls `visit(x, y)` for each cell of the grid that the edit covers: cells with their centre in the
+/// polygon, or within half the width of the line. Returns the number of these cells.
+std::size_t for_each_cell_of(const MapEdit& edit, const mrpt::maps::COccupancyGridMap2D& grid,
+                             const std::function<void(int x, int y)>& visit);
+
+/// Applies the edits in their order. Zones change nothing. Returns one sentence, without full stop, for each
+/// edit that covers no cell of the map.
+std::vector<std::string> apply_map_edits(const std::vector<MapEdit>& edits,
+                                         mrpt::maps::COccupancyGridMap2D& grid);
+
+}  // namespace psi_slam

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rendering/wall_direction.h"
+
+#include <mrpt/math/TPoint2D.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+
+constexpr double kRightAngle = M_PI / 2;
+constexpr std::size_t kBins = 360;    // of the histogram over 90 degrees
+constexpr std::size_t kPeakBins = 8;  // bins on both sides of the peak that count for the direction
+constexpr double kPiece_m = 0.5;      // least length of a straight piece
+constexpr double kStep_m = 0.3;       // largest distance between neighbouring returns of a piece
+constexpr double kStraight_m = 0.02;  // largest deviation of its middle from a straight line
+
+/// Returns whether the point in the middle of a piece lies on the line between its ends.
+bool is_straight(const TPoint2D& from, const TPoint2D& middle, const TPoint2D& to) {
+  const TPoint2D along = to - from;
+  const TPoint2D aside = middle - from;
+  return std::abs(along.x * aside.y - along.y * aside.x) <= kStraight_m * along.norm();
+}
+
+/// Histogram of directions modulo 90 degrees, weighted by length.
+class DirectionHistogram {
+ public:
+  void add_scan(const LaserScan& scan, const TPose2D& map_T_robot) {
+    const TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
+    std::vector<TPoint2D> piece;
+    for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+      const auto range_m = static_cast<double>(scan.ranges_m[i]);
+      if (!std::isfinite(range_m)) {
+        piece.clear();
+        continue;
+      }
+      const auto bearing_rad = static_cast<double>((*scan.bearings_rad)[i]);
+      const TPoint2D point = map_T_laser.composePoint(
+          TPoint2D(range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)));
+      if (!piece.empty() && (point - piece.back()).norm() > kStep_m) piece.clear();
+      piece.push_back(point);
+      if (piece.size() < 3 || (point - piece.front()).norm() < kPiece_m) continue;
+      if (is_straight(piece.front(), piece[piece.size() / 2], point)) add(point - piece.front());
+      piece.clear();
+    }
+  }
+
+  /// Returns the direction of the peak.
+  double peak_rad() const {
+    std::size_t peak = 0;
+    double most = 0;
+    for (std::size_t bin = 0; bin < kBins; ++bin) {
+      const double sum = std::hypot(around(bin).x, around(bin).y);
+      if (sum > most) most = sum, peak = bin;
+    }
+    const TPoint2D mean = around(peak);
+    return std::atan2(mean.y, mean.x) / 4;
+  }
+
+ private:
+  void add(const TPoint2D& piece) {
+    const double direction_rad = std::atan2(piece.y, piece.x);
+    const double turns = direction_rad / kRightAngle;
+    const double share = turns - std::floor(turns);
+    TPoint2D& bin = bins_[std::min(kBins - 1, static_cast<std::size_t>(share * kBins))];
+    bin += TPoint2D(std::cos(4 * direction_rad), std::sin(4 * direction_rad)) * piece.norm();
+  }
+
+  /// Sum of the unit vectors at four times the direction, in the bins around a bin.
+  TPoint2D around(std::size_t bin) const {
+    TPoint2D sum(0, 0);
+    for (std::size_t i = kBins - kPeakBins; i <= kBins + kPeakBins; ++i) sum += bins_[(bin + i) % kBins];
+    return sum;
+  }
+
+  std::array<TPoint2D, kBins> bins_{};
+};
+
+}  // namespace
+
+double wall_direction_rad(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot) {
+  DirectionHistogram histogram;
+  for (std::size_t i = 0; i < log.size(); ++i) histogram.add_scan(log[i].scan, map_T_robot.at(i));
+  return histogram.peak_rad();
+}
+
+}  // namespace psi_slam

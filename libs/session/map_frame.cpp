@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session/map_frame.h"
+
+#include "base/number_text.h"
+#include "exports/mapped_trajectory.h"
+#include "rendering/wall_direction.h"
+
+namespace psi_slam {
+namespace {
+
+/// Sets the poses of all scans and nodes.
+void set_poses(MappingResult& result, const std::vector<mrpt::math::TPose2D>& map_T_robot,
+               const std::vector<mrpt::math::TPose2D>& map_T_node) {
+  for (std::size_t i = 0; i < map_T_robot.size(); ++i) result.frames[i].map_T_robot = map_T_robot[i];
+  for (std::size_t i = 0; i < map_T_node.size(); ++i) result.graph.set_pose(i, map_T_node[i]);
+}
+
+std::vector<mrpt::math::TPose2D> moved(std::vector<mrpt::math::TPose2D> poses,
+                                       const mrpt::math::TPose2D& export_T_map) {
+  for (mrpt::math::TPose2D& pose : poses) pose = export_T_map + pose;
+  return poses;
+}
+
+}  // namespace
+
+mrpt::math::TPose2D export_T_map(const MappingResult& result, const MapFrameOptions& options) {
+  double turn_rad = 0;
+  if (options.align == MapFrameOptions::kWalls)
+    turn_rad = -wall_direction_rad(result.log, mapped_poses(result));
+  else if (options.align != MapFrameOptions::kNone)
+    turn_rad = parse_degrees(options.align).value_or(0);
+  return {-options.origin_x_m, -options.origin_y_m, turn_rad};
+}
+
+ExportedPoses::ExportedPoses(MappingResult& result, const mrpt::math::TPose2D& export_T_map)
+    : result_(result) {
+  if (export_T_map == mrpt::math::TPose2D(0, 0, 0)) return;
+  map_T_robot_ = mapped_poses(result);
+  map_T_node_ = result.graph.poses();
+  set_poses(result, moved(map_T_robot_, export_T_map), moved(map_T_node_, export_T_map));
+}
+
+ExportedPoses::~ExportedPoses() {
+  set_poses(result_, map_T_robot_, map_T_node_);
+}
+
+}  // namespace psi_slam

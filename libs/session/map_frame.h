@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The frame of the exported map. The mapper's frame is the robot's first pose. The exported map can be turned
+// square to its walls, and its origin can be moved: map.align, map.origin_x_m and map.origin_y_m.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <vector>
+
+#include "psi_slam/mapping_result.h"
+#include "session/settings.h"
+
+namespace psi_slam {
+
+/// Returns the pose of the mapper's frame in the exported map.
+mrpt::math::TPose2D export_T_map(const MappingResult& result, const MapFrameOptions& options);
+
+/// Moves all poses in the map of a finished result to the exported frame: those of the scans and those of the
+/// pose graph. The destructor restores the former poses bit for bit.
+class ExportedPoses {
+ public:
+  ExportedPoses(MappingResult& result, const mrpt::math::TPose2D& export_T_map);
+  ~ExportedPoses();
+  ExportedPoses(const ExportedPoses&) = delete;
+  ExportedPoses& operator=(const ExportedPoses&) = delete;
+
+ private:
+  MappingResult& result_;
+  std::vector<mrpt::math::TPose2D> map_T_robot_;
+  std::vector<mrpt::math::TPose2D> map_T_node_;
+};
+
+}  // namespace psi_slam

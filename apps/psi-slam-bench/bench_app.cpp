@@ -24,6 +24,7 @@
 #include "simulate/simulate_benchmark.h"
 #include "simulate/simulated_log_file.h"
 #include "sparse/sparse_benchmark.h"
+#include "verdict/verdict_benchmark.h"
 
 namespace psi_slam {
 namespace {
@@ -139,6 +140,18 @@ void add_robustness_command(CLI::App& app, const Streams& streams) {
         RobustnessBenchmark benchmark = run_robustness_benchmark(chosen.logs, seeds, progress);
         benchmark.without_relations = chosen.without_relations;
         return robustness_report(benchmark, seeds, machine_text());
+      });
+}
+
+void add_verdict_command(CLI::App& app, const Streams& streams) {
+  const auto arguments = std::make_shared<Arguments<SeedRange>>();
+  CLI::App& command =
+      *app.add_subcommand("verdict", "Judge simulated maps with known faults and compare with their errors");
+  add_seeds_option(command, arguments->options, "Seeds of the buildings, runs and faults");
+  run_on_logs(
+      command, arguments, streams, [](const BenchArguments&) { return 0; },
+      [](int, const SeedRange& seeds, const ProgressObserver& progress) {
+        return verdict_report(run_verdict_benchmark(seeds, progress), seeds, machine_text());
       });
 }
 
@@ -370,6 +383,7 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_simulate_command(app, streams);
     add_false_loops_command(app, streams);
     add_robustness_command(app, streams);
+    add_verdict_command(app, streams);
     add_sparse_command(app, streams);
     add_paper_command(app, streams);
     add_psi_command(app, streams);

@@ -217,6 +217,7 @@ Json verdict_json(const MapVerdict& verdict) {
   return {{"state", text_of(verdict.state)},
           {"sentence", verdict_sentence(verdict)},
           {"error_m", number(verdict.error_m, 4)},
+          {"predicted_m", number(verdict.predicted_m, 4)},
           {"wall_thickness_m", number(verdict.wall_thickness_m, 4)},
           {"checked_share", number(verdict.checked_share, 4)},
           {"hot_spots", std::move(spots)}};

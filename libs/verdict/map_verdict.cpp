@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
+#include "pose_graph/path_covariance.h"
 #include "verdict/loop_residuals.h"
 #include "verdict/path_suspects.h"
 
@@ -38,8 +40,10 @@ class Judge {
                      [](const HotSpot& a, const HotSpot& b) { return weight(a) > weight(b); });
     if (verdict.hot_spots.size() > options_.most_hot_spots) verdict.hot_spots.resize(options_.most_hot_spots);
     measure_walls(verdict);
+    verdict.error_m = mean_error_m() + unconfirmed_error_m(verdict.hot_spots);
+    verdict.predicted_m = mean_prediction_m();
     const bool is_broken =
-        verdict.error_m >= options_.broken_error_m ||
+        (verdict.error_m >= options_.broken_error_m && !verdict.hot_spots.empty()) ||
         std::any_of(verdict.hot_spots.begin(), verdict.hot_spots.end(),
                     [](const HotSpot& spot) { return spot.kind == HotSpot::Kind::kUnplacedRun; });
     verdict.state = is_broken                   ? MapState::kBroken
@@ -74,7 +78,9 @@ class Judge {
     const Suspect::Kind kind = suspect.kind == Kind::kUnmatched ? Suspect::Kind::kUnmatched
                                : suspect.kind == Kind::kLost    ? Suspect::Kind::kLost
                                                                 : Suspect::Kind::kUnplaced;
-    return stretch(kind, suspect.first_frame, suspect.last_frame);
+    Suspect cause = stretch(kind, suspect.first_frame, suspect.last_frame);
+    if (kind != Suspect::Kind::kUnmatched) cause.at = place_of(suspect.first_frame);
+    return cause;
   }
 
   /// Blames each step between successive views for the displacements of all pairs of views across it. Pairs
@@ -131,10 +137,10 @@ class Judge {
     std::size_t first = 0;
     std::size_t last = 0;
     const auto close = [&] {
-      if (worst == nullptr) return;
-      spots.push_back(spot_of(*worst, kind_of(*worst)));
+      const PassCheck* check = std::exchange(worst, nullptr);
+      if (check == nullptr || last == first) return;  // furniture or a door may move; walls are longer
+      spots.push_back(spot_of(*check, kind_of(*check)));
       spots.back().length_m = std::abs(views_[last].travelled_m - views_[first].travelled_m);
-      worst = nullptr;
     };
     for (const PassCheck& check : checks_) {
       if (check.same_pass || check.error_m < options_.spot_error_m) continue;
@@ -147,12 +153,26 @@ class Judge {
     close();
   }
 
+  /// Makes one hot spot of each series of at least two scans that do not fit the scans before them.
   void add_misfits(std::vector<HotSpot>& spots) const {
-    std::size_t clear = 0;  // first view that no hot spot covers
+    const PassCheck* before = nullptr;
+    bool is_series = false;
     for (const PassCheck& check : checks_) {
-      if (!check.same_pass || check.error_m < options_.misfit_m || check.other < clear) continue;
-      spots.push_back(spot_of(check, HotSpot::Kind::kMisfit));
-      clear = check.view + 1;
+      if (!check.same_pass) continue;
+      if (check.error_m < options_.misfit_m) {
+        before = nullptr;
+        is_series = false;
+        continue;
+      }
+      if (before != nullptr && !is_series) {
+        spots.push_back(spot_of(*before, HotSpot::Kind::kMisfit));
+        is_series = true;
+      }
+      if (is_series) {
+        spots.back().length_m += options_.views.step_m;
+        spots.back().error_m = std::max(spots.back().error_m, check.error_m);
+      }
+      before = &check;
     }
   }
 
@@ -180,21 +200,62 @@ class Judge {
         spots.push_back({HotSpot::Kind::kUnplacedRun, cause.at, options_.passes.unknown_m, 0, cause});
       if (suspect.kind == PathSuspect::Kind::kUnmatched && suspect.doubt_m >= options_.unconfirmed_m &&
           !is_confirmed(suspect))
-        spots.push_back({HotSpot::Kind::kUnmatched, cause.at, 0.1 * suspect.doubt_m, 0, cause});
+        spots.push_back(
+            {HotSpot::Kind::kUnmatched, cause.at, options_.unmatched_error * suspect.doubt_m, 0, cause});
     }
   }
 
-  void measure_walls(MapVerdict& verdict) const {
+  /// Mean error over the views that other passes or successive scans check.
+  double mean_error_m() const {
+    std::vector<std::optional<double>> errors = errors_;
+    for (const PassCheck& check : checks_)
+      if (check.same_pass && check.error_m >= options_.misfit_m)
+        errors[check.view] = std::max(errors[check.view].value_or(0), check.error_m);
     double sum_m = 0;
     std::size_t checked = 0;
-    for (const std::optional<double>& error_m : errors_) {
-      if (!error_m) continue;
-      sum_m += *error_m;
-      ++checked;
+    for (const std::optional<double>& error_m : errors) {
+      sum_m += error_m.value_or(0);
+      checked += error_m ? 1 : 0;
     }
-    if (checked > 0) verdict.error_m = sum_m / static_cast<double>(checked);
-    if (!views_.empty())
-      verdict.checked_share = static_cast<double>(checked) / static_cast<double>(views_.size());
+    return checked == 0 ? 0 : sum_m / static_cast<double>(checked);
+  }
+
+  /// Mean error if the two parts of the map before and after `frame` are displaced by `apart_m`.
+  double error_of_parts_m(std::size_t frame, double apart_m) const {
+    const double share = static_cast<double>(frame) / static_cast<double>(result_.frames.size());
+    return 2 * share * (1 - share) * apart_m;
+  }
+
+  /// Largest mean error by stretches and runs that no pass confirms.
+  double unconfirmed_error_m(const std::vector<HotSpot>& spots) const {
+    double worst_m = 0;
+    for (const HotSpot& spot : spots) {
+      const bool is_lost =
+          spot.kind == HotSpot::Kind::kUnplacedRun ||
+          (spot.kind == HotSpot::Kind::kRunsDisagree && spot.suspect.kind == Suspect::Kind::kLost);
+      if (is_lost)
+        worst_m = std::max(worst_m, error_of_parts_m(spot.suspect.first_frame, options_.passes.unknown_m));
+      if (spot.kind == HotSpot::Kind::kUnmatched) worst_m = std::max(worst_m, spot.error_m);
+    }
+    return worst_m;
+  }
+
+  double mean_prediction_m() const {
+    if (views_.empty()) return 0;
+    PathCovarianceSearch search;
+    search.run(result_.graph, result_.graph.root());
+    double sum_m = 0;
+    for (const MapView& view : views_) {
+      const RelativeUncertainty uncertainty = search.of(view.node);
+      if (uncertainty.reached) sum_m += uncertainty.position_sigma_m();
+    }
+    return sum_m / static_cast<double>(views_.size());
+  }
+
+  void measure_walls(MapVerdict& verdict) const {
+    const auto checked = static_cast<double>(std::count_if(
+        errors_.begin(), errors_.end(), [](const auto& error_m) { return error_m.has_value(); }));
+    if (!views_.empty()) verdict.checked_share = checked / static_cast<double>(views_.size());
     std::vector<double> offsets_m;
     for (const PassCheck& check : checks_)
       if (!check.same_pass) offsets_m.push_back(check.scans.offset_m);

@@ -9,8 +9,8 @@
 
 #include <mrpt/math/TPoint2D.h>
 
+#include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,22 +68,32 @@ std::string text_of(MapState state);
 
 struct MapVerdict {
   MapState state = MapState::kGood;
-  /// Estimated mean error in metres: mean displacement between passes at places that several passes saw.
+  /// Estimated mean error in metres, from what the scans show: the mean displacement between passes and
+  /// between successive scans, and the doubt about stretches and runs that no pass confirms.
   double error_m = 0;
+  /// Mean standard deviation of the positions that the graph predicts, metres. It grows where no loop holds
+  /// the path, whether or not the scans show an error.
+  double predicted_m = 0;
   double wall_thickness_m = 0;     ///< 90th percentile of the distances between the walls of two passes
   double checked_share = 0;        ///< share of the path that another pass confirms or contradicts, in [0, 1]
   std::vector<HotSpot> hot_spots;  ///< the worst first
+
+  /// Figure by which maps can be ranked: error_m, and predicted_m beyond that of a map with many loops.
+  double doubt_m() const { return error_m + std::max(0.0, predicted_m - kUsualPrediction_m); }
+  static constexpr double kUsualPrediction_m = 0.1;
 };
 
 struct VerdictOptions {
   MapViewOptions views;
   PassCheckOptions passes;
-  double spot_error_m = 0.2;     ///< a displacement between passes from here on is a hot spot
-  double misfit_m = 0.35;        ///< a displacement between successive scans from here on is a hot spot
-  double conflict_chi = 6;       ///< a loop residual from here on is a conflict, standard deviations
-  double conflict_m = 0.3;       ///< a loop residual from here on is a conflict, metres
-  double unconfirmed_m = 1.0;    ///< unmatched motion from here on is a hot spot unless a pass confirms it
-  double broken_error_m = 0.12;  ///< mean displacement from which the map is broken
+  double spot_error_m = 0.2;  ///< a displacement between passes from here on is a hot spot
+  double misfit_m = 0.35;     ///< a displacement between successive scans from here on is a hot spot
+  double conflict_chi = 6;    ///< a loop residual from here on is a conflict, standard deviations
+  double conflict_m = 0.3;    ///< a loop residual from here on is a conflict, metres
+  /// Unmatched motion from here on is a hot spot unless a pass confirms it.
+  double unconfirmed_m = 1.0;
+  double unmatched_error = 0.1;  ///< expected error of unmatched motion, as a share of the motion
+  double broken_error_m = 0.12;  ///< MapVerdict::error_m from which the map is broken
   std::size_t most_hot_spots = 20;
 };
 

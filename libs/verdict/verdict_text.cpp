@@ -61,8 +61,7 @@ std::string verdict_sentence(const MapVerdict& verdict) {
   }
   const std::string worst = ", the worst: " + hot_spot_text(verdict.hot_spots.front());
   if (verdict.state == MapState::kBroken && !verdict.hot_spots.empty())
-    return "the map is broken: its passes differ by " + fixed_text(verdict.error_m, 2) + " m on average" +
-           worst;
+    return "the map is broken: the estimated mean error is " + fixed_text(verdict.error_m, 2) + " m" + worst;
   return "check " + counted(verdict.hot_spots.size(), "place") + " of the map" + worst;
 }
 

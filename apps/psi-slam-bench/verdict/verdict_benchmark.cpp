@@ -16,7 +16,7 @@ VerdictRow judged(const FaultyMap& map) {
   row.seed = map.seed;
   row.error_m = map.error_m;
   row.state = verdict.state;
-  row.score_m = verdict.error_m;
+  row.score_m = verdict.doubt_m();
   row.hot_spots = verdict.hot_spots.size();
   if (verdict.hot_spots.empty()) return row;
   const mrpt::math::TPoint2D& suspect = verdict.hot_spots.front().suspect.at;

@@ -27,7 +27,7 @@ struct VerdictRow {
   std::uint64_t seed = 1;
   double error_m = 0;  ///< true mean error of the positions
   MapState state = MapState::kGood;
-  double score_m = 0;  ///< MapVerdict::error_m
+  double score_m = 0;  ///< MapVerdict::doubt_m()
   std::size_t hot_spots = 0;
   /// Distance from the fault to the suspect of the worst hot spot; empty without a hot spot or without one
   /// place of the fault.

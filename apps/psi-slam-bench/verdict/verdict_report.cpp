@@ -46,7 +46,7 @@ ReportTable table_of_groups(const std::vector<Group>& groups) {
         [](const Group& group) {
           return cell(spread_over(group.rows, [](const VerdictRow& row) { return row.error_m; }).mean, 3);
         }},
-       {{"estimated error [m]", "score_m"},
+       {{"doubt [m]", "score_m"},
         [](const Group& group) {
           return cell(spread_over(group.rows, [](const VerdictRow& row) { return row.score_m; }).mean, 3);
         }},
@@ -84,7 +84,7 @@ ReportTable table_of_maps(const Rows& rows) {
        {{"seed", "seed"}, [](const VerdictRow& row) { return cell(static_cast<std::size_t>(row.seed)); }},
        column("error [m]", "error_m", &VerdictRow::error_m, 4),
        {{"verdict", "state", true}, [](const VerdictRow& row) { return cell(text_of(row.state)); }},
-       column("estimated [m]", "score_m", &VerdictRow::score_m, 4),
+       column("doubt [m]", "score_m", &VerdictRow::score_m, 4),
        column("hot spots", "hot_spots", &VerdictRow::hot_spots),
        {{"distance [m]", "distance_m"}, [](const VerdictRow& row) { return cell(row.distance_m, 2); }},
        column("time [ms]", "judge_ms", &VerdictRow::judge_ms, 1)},
@@ -100,7 +100,8 @@ std::string markdown_of(const Rows& rows, const SeedRange& seeds, const std::str
   text +=
       "- true error: mean distance of the scans from the truth, after the best rigid alignment of both "
       "paths\n"
-      "- estimated error: mean displacement between the walls that different passes saw\n"
+      "- doubt: the figure that ranks the maps, in metres: the estimated mean error, and the predicted "
+      "uncertainty where it is large\n"
       "- false loop, nearby loop, loop group: one false loop, one true loop moved by 1 to 3 m, or five false "
       "loops that agree, with full weight and without the defence of the mapper; one of 60 true loops is "
       "kept\n"

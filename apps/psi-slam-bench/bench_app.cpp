@@ -144,14 +144,20 @@ void add_robustness_command(CLI::App& app, const Streams& streams) {
 }
 
 void add_verdict_command(CLI::App& app, const Streams& streams) {
-  const auto arguments = std::make_shared<Arguments<SeedRange>>();
+  const auto arguments = std::make_shared<Arguments<VerdictBenchmarkOptions>>();
+  VerdictBenchmarkOptions& options = arguments->options;
   CLI::App& command =
       *app.add_subcommand("verdict", "Judge simulated maps with known faults and compare with their errors");
-  add_seeds_option(command, arguments->options, "Seeds of the buildings, runs and faults");
+  add_seeds_option(command, options.seeds, "Seeds of the buildings, runs and faults");
+  command
+      .add_option("--path-m", options.path_m,
+                  "Length of the shortest paths in metres; the longest are 1.75 times as long")
+      ->check(CLI::Range(20.0, 10'000.0))
+      ->capture_default_str();
   run_on_logs(
       command, arguments, streams, [](const BenchArguments&) { return 0; },
-      [](int, const SeedRange& seeds, const ProgressObserver& progress) {
-        return verdict_report(run_verdict_benchmark(seeds, progress), seeds, machine_text());
+      [](int, const VerdictBenchmarkOptions& how, const ProgressObserver& progress) {
+        return verdict_report(run_verdict_benchmark(how, progress), how, machine_text());
       });
 }
 

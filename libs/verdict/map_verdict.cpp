@@ -28,6 +28,9 @@ class Judge {
         residuals_(loop_residuals(result)),
         path_suspects_(path_suspects(result)) {
     sum_blame();
+    for (const PathSuspect& suspect : path_suspects_)
+      if (suspect.kind == PathSuspect::Kind::kLost && is_contradicted(suspect))
+        contradicted_.push_back(&suspect);
   }
 
   MapVerdict verdict() const {
@@ -102,14 +105,38 @@ class Judge {
     return residual.chi >= options_.conflict_chi && residual.residual_m >= options_.conflict_m;
   }
 
+  /// Whether a check compares views on both sides of the first frame of a stretch.
+  bool spans(const PassCheck& check, const PathSuspect& suspect) const {
+    const auto [first, last] = std::minmax(views_[check.view].frame, views_[check.other].frame);
+    return first < suspect.first_frame && last >= suspect.first_frame;
+  }
+
+  /// Whether the scans after an interruption see through the walls of those before it. The share counts over
+  /// all their checks: a robot that was placed into a similar corridor fits well at most places.
+  bool is_contradicted(const PathSuspect& suspect) const {
+    std::size_t same = 0;
+    std::size_t seen_through = 0;
+    for (const PassCheck& check : checks_) {
+      if (check.same_pass || !spans(check, suspect)) continue;
+      same += check.scans.same;
+      seen_through += check.scans.seen_through;
+    }
+    return static_cast<double>(seen_through) >
+           options_.contradiction * static_cast<double>(same + seen_through);
+  }
+
   /// The most likely cause of a displacement between two views.
   Suspect cause_between(std::size_t view, std::size_t other) const {
     if (!residuals_.empty() && is_conflict(residuals_.front())) return suspect_of(residuals_.front());
     const auto [first, last] = std::minmax(view, other);
+    const std::size_t first_frame = views_[first].frame;
+    const std::size_t last_frame = views_[last].frame;
+    for (const PathSuspect* lost : contradicted_)
+      if (lost->first_frame > first_frame && lost->first_frame <= last_frame) return suspect_of(*lost);
     const PathSuspect* worst = nullptr;
     for (const PathSuspect& suspect : path_suspects_)
-      if (suspect.last_frame > views_[first].frame && suspect.first_frame <= views_[last].frame &&
-          (worst == nullptr || suspect.doubt_m > worst->doubt_m))
+      if (suspect.kind == PathSuspect::Kind::kUnmatched && suspect.last_frame > first_frame &&
+          suspect.first_frame <= last_frame && (worst == nullptr || suspect.doubt_m > worst->doubt_m))
         worst = &suspect;
     if (worst != nullptr) return suspect_of(*worst);
     const auto at = [&](std::size_t step) { return blame_.begin() + static_cast<std::ptrdiff_t>(step); };
@@ -136,17 +163,25 @@ class Judge {
     const PassCheck* worst = nullptr;
     std::size_t first = 0;
     std::size_t last = 0;
+    std::size_t count = 0;
     const auto close = [&] {
       const PassCheck* check = std::exchange(worst, nullptr);
-      if (check == nullptr || last == first) return;  // furniture or a door may move; walls are longer
+      if (check == nullptr) return;
+      const double length_m = std::abs(views_[last].travelled_m - views_[first].travelled_m);
+      // Doors and furniture move, too; misplaced walls are longer.
+      if (length_m < options_.least_length_m || count < options_.least_checks) return;
       spots.push_back(spot_of(*check, kind_of(*check)));
-      spots.back().length_m = std::abs(views_[last].travelled_m - views_[first].travelled_m);
+      spots.back().length_m = length_m;
     };
     for (const PassCheck& check : checks_) {
       if (check.same_pass || check.error_m < options_.spot_error_m) continue;
       if (worst != nullptr && (check.view > last + kLargestGap || views_[check.view].run != views_[last].run))
         close();
-      if (worst == nullptr) first = check.view;
+      if (worst == nullptr) {
+        first = check.view;
+        count = 0;
+      }
+      ++count;
       if (worst == nullptr || check.error_m > worst->error_m) worst = &check;
       last = check.view;
     }
@@ -198,6 +233,8 @@ class Judge {
       const Suspect cause = suspect_of(suspect);
       if (suspect.kind == PathSuspect::Kind::kUnplaced)
         spots.push_back({HotSpot::Kind::kUnplacedRun, cause.at, options_.passes.unknown_m, 0, cause});
+      if (std::count(contradicted_.begin(), contradicted_.end(), &suspect) > 0)
+        spots.push_back({HotSpot::Kind::kRunsDisagree, cause.at, options_.passes.unknown_m, 0, cause});
       if (suspect.kind == PathSuspect::Kind::kUnmatched && suspect.doubt_m >= options_.unconfirmed_m &&
           !is_confirmed(suspect))
         spots.push_back(
@@ -272,7 +309,8 @@ class Judge {
   std::vector<std::optional<double>> errors_;  // of each view
   std::vector<LoopResidual> residuals_;
   std::vector<PathSuspect> path_suspects_;
-  std::vector<double> blame_;  // of the step after each view
+  std::vector<const PathSuspect*> contradicted_;  // interruptions after which the robot was misplaced
+  std::vector<double> blame_;                     // of the step after each view
 };
 
 }  // namespace

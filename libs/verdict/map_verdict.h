@@ -86,10 +86,15 @@ struct MapVerdict {
 struct VerdictOptions {
   MapViewOptions views;
   PassCheckOptions passes;
-  double spot_error_m = 0.2;  ///< a displacement between passes from here on is a hot spot
-  double misfit_m = 0.35;     ///< a displacement between successive scans from here on is a hot spot
-  double conflict_chi = 6;    ///< a loop residual from here on is a conflict, standard deviations
-  double conflict_m = 0.3;    ///< a loop residual from here on is a conflict, metres
+  double spot_error_m = 0.2;     ///< a displacement between passes from here on is a hot spot
+  double least_length_m = 1.0;   ///< shortest path along which displaced walls are a hot spot
+  std::size_t least_checks = 4;  ///< least number of displaced comparisons of such a hot spot
+  /// Share of the walls seen through, over all scans after an interruption, from which the place where the
+  /// robot was found again is doubtful.
+  double contradiction = 0.05;
+  double misfit_m = 0.35;   ///< a displacement between successive scans from here on is a hot spot
+  double conflict_chi = 6;  ///< a loop residual from here on is a conflict, standard deviations
+  double conflict_m = 0.3;  ///< a loop residual from here on is a conflict, metres
   /// Unmatched motion from here on is a hot spot unless a pass confirms it.
   double unconfirmed_m = 1.0;
   double unmatched_error = 0.1;  ///< expected error of unmatched motion, as a share of the motion

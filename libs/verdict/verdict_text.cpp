@@ -47,7 +47,7 @@ std::string text_of(const Suspect& suspect) {
     case Suspect::Kind::kStretch:
       break;
   }
-  return scans_text(suspect) + ", which no loop holds";
+  return scans_text(suspect) + ", where the passes part";
 }
 
 std::string verdict_sentence(const MapVerdict& verdict) {

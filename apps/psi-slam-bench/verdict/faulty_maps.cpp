@@ -22,8 +22,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kLeastPath_m = 80;
-constexpr double kMostPath_m = 140;
+constexpr double kLongestPath = 1.75;  // length of the longest path, in shortest paths
 constexpr double kScanRate_hz = 5;
 constexpr std::size_t kLoopsKept = 60;  // every nth true loop of a map with false loops is kept
 
@@ -33,9 +32,9 @@ struct TrueRun {
   std::vector<TPose2D> world_T_robot;
 };
 
-TrueRun simulated_run(std::uint64_t seed, RandomDraws& draws) {
+TrueRun simulated_run(std::uint64_t seed, double path_m, RandomDraws& draws) {
   SimulatedLogOptions options =
-      simulated_log_options(kLeastPath_m + draws.share() * (kMostPath_m - kLeastPath_m), seed);
+      simulated_log_options(path_m * (1 + draws.share() * (kLongestPath - 1)), seed);
   options.path.scan_rate_hz = kScanRate_hz;
   options.people = draws.index(4);
   options.scan.noise_m = 0.005 + 0.015 * draws.share();
@@ -246,9 +245,9 @@ double aligned_error_m(const std::vector<TPose2D>& path, const std::vector<TPose
   return sum_m / count;
 }
 
-void make_faulty_maps(std::uint64_t seed, const std::function<void(FaultyMap&&)>& take) {
+void make_faulty_maps(std::uint64_t seed, double path_m, const std::function<void(FaultyMap&&)>& take) {
   RandomDraws draws(seed, "verdict", 0);
-  const TrueRun run = simulated_run(seed, draws);
+  const TrueRun run = simulated_run(seed, path_m, draws);
   const MappingResult plain = map_of(run.frames);
   for (const MapFault fault : {MapFault::kFalseLoop, MapFault::kNearbyLoop, MapFault::kLoopGroup})
     take(with_false_loops(fault, seed, plain, run));

@@ -48,8 +48,8 @@ struct FaultyMap {
 double aligned_error_m(const std::vector<mrpt::math::TPose2D>& path,
                        const std::vector<mrpt::math::TPose2D>& truth);
 
-/// Simulates a building and a run, makes a map with each kind of fault, and hands each to `take`. Seeds draw
-/// building, path, people, noise and faults.
-void make_faulty_maps(std::uint64_t seed, const std::function<void(FaultyMap&&)>& take);
+/// Simulates a building and a run of path_m to 1.75 path_m, makes a map with each kind of fault, and hands
+/// each to `take`. Seeds draw building, path, people, noise and faults.
+void make_faulty_maps(std::uint64_t seed, double path_m, const std::function<void(FaultyMap&&)>& take);
 
 }  // namespace psi_slam

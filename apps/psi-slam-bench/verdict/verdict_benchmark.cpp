@@ -27,11 +27,12 @@ VerdictRow judged(const FaultyMap& map) {
   return row;
 }
 
-std::vector<VerdictRow> run_verdict_benchmark(const SeedRange& seeds, const ProgressObserver& observer) {
-  const auto all = static_cast<double>(seeds.count() * kMapFaults.size());
+std::vector<VerdictRow> run_verdict_benchmark(const VerdictBenchmarkOptions& options,
+                                              const ProgressObserver& observer) {
+  const auto all = static_cast<double>(options.seeds.count() * kMapFaults.size());
   std::vector<VerdictRow> rows;
-  for (const std::uint64_t seed : seeds.all())
-    make_faulty_maps(seed, [&](const FaultyMap& map) {
+  for (const std::uint64_t seed : options.seeds.all())
+    make_faulty_maps(seed, options.path_m, [&](const FaultyMap& map) {
       rows.push_back(judged(map));
       observer("building " + std::to_string(seed) + ", " + name_of(map.fault),
                static_cast<double>(rows.size()), all);

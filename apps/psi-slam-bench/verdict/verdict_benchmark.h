@@ -22,6 +22,11 @@ inline constexpr double kWrongMap_m = 0.25;
 /// A suspect is right if it is at most this far from the fault.
 inline constexpr double kLocated_m = 2.0;
 
+struct VerdictBenchmarkOptions {
+  SeedRange seeds;
+  double path_m = 80;  ///< length of the shortest paths; the longest are 1.75 times as long
+};
+
 struct VerdictRow {
   MapFault fault = MapFault::kNone;
   std::uint64_t seed = 1;
@@ -39,7 +44,8 @@ struct VerdictRow {
 VerdictRow judged(const FaultyMap& map);
 
 /// Judges maps of simulated buildings, eight for each seed.
-std::vector<VerdictRow> run_verdict_benchmark(const SeedRange& seeds, const ProgressObserver& observer);
+std::vector<VerdictRow> run_verdict_benchmark(const VerdictBenchmarkOptions& options,
+                                              const ProgressObserver& observer);
 
 /// Area under the ROC curve: the probability that a random wrong map has a higher score than a random right
 /// one. Equal scores count half. Empty without right or without wrong maps.
@@ -49,7 +55,7 @@ std::optional<double> area_under_curve(const std::vector<VerdictRow>& rows);
 bool is_fault_to_locate(const VerdictRow& row);
 
 /// The report of the `verdict` command. JSON has an object for each map in "maps".
-BenchReport verdict_report(const std::vector<VerdictRow>& rows, const SeedRange& seeds,
+BenchReport verdict_report(const std::vector<VerdictRow>& rows, const VerdictBenchmarkOptions& options,
                            const std::string& machine);
 
 }  // namespace psi_slam

@@ -91,12 +91,14 @@ ReportTable table_of_maps(const Rows& rows) {
       rows);
 }
 
-std::string markdown_of(const Rows& rows, const SeedRange& seeds, const std::string& machine) {
+std::string markdown_of(const Rows& rows, const VerdictBenchmarkOptions& options,
+                        const std::string& machine) {
   const std::optional<double> area = area_under_curve(rows);
   std::string text =
       "# How far the verdict can be trusted\n\nThis page shows how well psi-slam judges its maps without "
       "ground truth. The maps are of simulated buildings, so their true errors are known.\n\n" +
-      measured_by(machine) + "; " + seeds_text(seeds) + ", " + std::to_string(rows.size()) + " maps.\n\n";
+      measured_by(machine) + "; " + seeds_text(options.seeds) + ", " + std::to_string(rows.size()) +
+      " maps of paths from " + fixed_text(options.path_m, 0) + " m on.\n\n";
   text +=
       "- true error: mean distance of the scans from the truth, after the best rigid alignment of both "
       "paths\n"
@@ -124,13 +126,13 @@ std::string markdown_of(const Rows& rows, const SeedRange& seeds, const std::str
 
 }  // namespace
 
-BenchReport verdict_report(const std::vector<VerdictRow>& rows, const SeedRange& seeds,
+BenchReport verdict_report(const std::vector<VerdictRow>& rows, const VerdictBenchmarkOptions& options,
                            const std::string& machine) {
   const ReportTable maps = table_of_maps(rows);
   return {"verdict.md",
-          markdown_of(rows, seeds, machine),
-          json_file_text(
-              report_json("psi-slam-verdict", machine, {{"seeds", seeds.all()}, {"maps", maps.json()}})),
+          markdown_of(rows, options, machine),
+          json_file_text(report_json("psi-slam-verdict", machine,
+                                     {{"seeds", options.seeds.all()}, {"maps", maps.json()}})),
           maps.csv(),
           {}};
 }

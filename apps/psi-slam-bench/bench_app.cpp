@@ -24,6 +24,7 @@
 #include "simulate/simulate_benchmark.h"
 #include "simulate/simulated_log_file.h"
 #include "sparse/sparse_benchmark.h"
+#include "verdict/verdict_benchmark.h"
 
 namespace psi_slam {
 namespace {
@@ -139,6 +140,24 @@ void add_robustness_command(CLI::App& app, const Streams& streams) {
         RobustnessBenchmark benchmark = run_robustness_benchmark(chosen.logs, seeds, progress);
         benchmark.without_relations = chosen.without_relations;
         return robustness_report(benchmark, seeds, machine_text());
+      });
+}
+
+void add_verdict_command(CLI::App& app, const Streams& streams) {
+  const auto arguments = std::make_shared<Arguments<VerdictBenchmarkOptions>>();
+  VerdictBenchmarkOptions& options = arguments->options;
+  CLI::App& command =
+      *app.add_subcommand("verdict", "Judge simulated maps with known faults and compare with their errors");
+  add_seeds_option(command, options.seeds, "Seeds of the buildings, runs and faults");
+  command
+      .add_option("--path-m", options.path_m,
+                  "Length of the shortest paths in metres; the longest are 1.75 times as long")
+      ->check(CLI::Range(20.0, 10'000.0))
+      ->capture_default_str();
+  run_on_logs(
+      command, arguments, streams, [](const BenchArguments&) { return 0; },
+      [](int, const VerdictBenchmarkOptions& how, const ProgressObserver& progress) {
+        return verdict_report(run_verdict_benchmark(how, progress), how, machine_text());
       });
 }
 
@@ -370,6 +389,7 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_simulate_command(app, streams);
     add_false_loops_command(app, streams);
     add_robustness_command(app, streams);
+    add_verdict_command(app, streams);
     add_sparse_command(app, streams);
     add_paper_command(app, streams);
     add_psi_command(app, streams);

@@ -121,7 +121,7 @@ PoseGraph SharedErrors::model() {
   measure_local_maps();
   for (const mrpt::math::TPose2D& pose : graph_.poses()) model_.add_node(pose);
   for (const std::size_t middle : middles_) model_.add_node(graph_.pose(middle));
-  if (graph_.num_nodes() > 0) model_.set_root(graph_.root());
+  if (graph_.root() != 0) model_.set_root(graph_.root());
   add_independent_constraints();
   add_scans();
   add_drift();
@@ -259,6 +259,7 @@ PoseGraph graph_with_shared_errors(const PoseGraph& graph, const SharedErrorOpti
 }
 
 std::vector<Matrix3d> pose_covariances(const PoseGraph& graph, const SharedErrorOptions& options) {
+  if (graph.num_nodes() == 0) return {};
   MarginalCovariance of_model;
   of_model.update(graph_with_shared_errors(graph, options));
   std::vector<Matrix3d> covariances = of_model.marginals();

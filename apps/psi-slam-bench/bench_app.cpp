@@ -213,6 +213,14 @@ void add_simulate_command(CLI::App& app, const Streams& streams) {
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("SHARE")
       ->capture_default_str();
+  simulate.add_option("--max-range-m", options.max_range_m, "Largest range of the laser in metres")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->capture_default_str();
+  simulate
+      .add_option("--range-noise-m", options.range_noise_m,
+                  "Standard deviation of the noise of a range in metres")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   simulate
       .add_option("--threads", options.threads, "Number of threads that match loops; it changes times only")
       ->check(CLI::Range(1, 256))

@@ -18,6 +18,7 @@ std::string files_list(std::size_t runs) {
   add("map.gridmap.gz", "the map for MRPT");
   add("map.simplemap.gz", "nodes and scans for MRPT");
   add("trajectory.tum", "the path in TUM format, for evo");
+  add("trajectory.csv", "the path with the covariance of each pose");
   if (runs <= 1) add("trajectory.carmen", "the corrected log");
   for (std::size_t run = 1; runs > 1 && run <= runs; ++run) {
     const std::string name = "trajectory-" + std::to_string(run);

@@ -35,6 +35,12 @@ struct GridMapOptions {
   /// about four bytes while drawing and one byte afterwards. The limit keeps a badly distorted map from
   /// exhausting the memory.
   std::size_t max_cells = 100'000'000;
+  /// Draws people, carts and doors that moved, too. Otherwise, obstacles that were not there at other times
+  /// are free space.
+  bool keep_moving = false;
+  /// Least number of beams that must have seen an obstacle or free space, from 1 to 3. A beam counts as two
+  /// where a neighbouring beam of its scan reaches as far. What fewer beams saw stays unknown.
+  int min_beams = 2;
 };
 
 /// Draws the scans of each frame of `log` at the robot pose with the same index. A cell holds the probability

@@ -37,7 +37,7 @@ TBoundingBox bounds_of_log(const std::vector<Frame>& log, const std::vector<TPos
   return bounds;
 }
 
-/// Beams that a beam stands for which a neighbouring beam supports: itself and its neighbour.
+/// A beam counts as this many beams if a neighbouring beam of its scan supports it.
 constexpr unsigned kSupportedBeams = 2;
 constexpr unsigned kMostBeams = 3;
 

@@ -2,77 +2,82 @@
 // Finds the obstacles of a map that were not there at other times: people, carts and doors that moved.
 //
 // The scans are divided into intervals of a second. In each interval, an occupied cell of the map is seen
-// occupied if any beam ended within 0.15 m of it. Otherwise it is seen free if any beam crossed it and ended
-// at least 0.3 m beyond. The tolerances absorb errors of poses and ranges, and beams that graze a wall. Each
-// visit counts for at most five intervals of either kind, so a person who stands for ten minutes weighs no
-// more than one who stands for five seconds.
+// occupied if any beam ended within 0.15 m of it. Otherwise it is seen free if a beam crossed it and ended at
+// least 0.3 m beyond. The tolerances absorb errors of poses and ranges. Where the obstacle is straight, only
+// beams that cross it at 30 degrees or more count, because the others may graze a wall. Each visit counts for
+// at most five intervals of either kind, so a person who stands for ten minutes weighs no more than one who
+// stands for five seconds. A moving thing was seen free in at least three of ten counted intervals.
+//
+// Obstacles longer than two metres stay if the beams hit them as one surface: a wall in two places after an
+// error of the poses, or a barrier that beams hit only from some directions.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/math/TPose2D.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "psi_slam/frame.h"
 #include "psi_slam/grid_map.h"
+#include "rendering/digital_line.h"
 #include "rendering/grid_layout.h"
 #include "rendering/scan_rays.h"
 
 namespace psi_slam {
 
-struct MovingThingsOptions {
-  double interval_s = 1;
-  double near_m = 0.15;
-  double beyond_m = 0.3;
-  double max_range_m = 10;
-  int most_of_run = 5;
-  std::size_t gap = 10;
-  int patch = 2;
-  double share = 0.3;
-  double least = 2;
-};
-
 class MovingThings {
  public:
-  /// `grid` is the map of all scans.
+  /// `grid` is the map of all scans, with this layout.
   MovingThings(const mrpt::maps::COccupancyGridMap2D& grid, const GridLayout& layout,
-               const GridMapOptions& options, const MovingThingsOptions& moving = {});
+               const GridMapOptions& options);
 
-  /// Adds what a frame saw. Call with the frames in the order of time.
+  /// Adds what a frame saw. Call with the drawn frames in their order. Throws as RayMaker::fans() does.
   void add(const Frame& frame, const mrpt::math::TPose2D& map_T_robot);
 
-  /// Makes the cells of moving things free in the map.
+  /// Makes the cells of moving things free in the map. Call once, after all frames.
   void remove_from(mrpt::maps::COccupancyGridMap2D& grid);
 
+ private:
   /// What the intervals say about an occupied cell of the map.
   struct Sightings {
-    std::int64_t index = 0;       ///< of the cell in the map
-    std::uint32_t hit_in = 0;     ///< last interval with a beam that ended close by
-    std::uint32_t passed_in = 0;  ///< last interval with a beam that crossed the cell
-    std::uint32_t seen_in = 0;    ///< last interval that counted
-    std::uint16_t occupied = 0;   ///< number of intervals, with a limit for each visit
-    std::uint16_t free = 0;       ///< number of intervals, with a limit for each visit
-    std::int16_t run = 0;         ///< counted intervals of this visit: positive if occupied, negative if free
+    std::int32_t x = 0;  ///< column and row of the cell in the map
+    std::int32_t y = 0;
+    float normal_x = 0;  ///< unit vector across a straight obstacle; 0 if the obstacle is not straight
+    float normal_y = 0;
+    std::uint32_t hit_in = 0;      ///< last interval with a beam that ended close by
+    std::uint32_t surface_in = 0;  ///< last interval in which that beam was one of a large surface
+    std::uint32_t passed_in = 0;   ///< last interval with a beam that crossed the cell
+    std::uint32_t seen_in = 0;     ///< last interval that saw the cell
+    std::uint16_t occupied = 0;    ///< number of counted intervals
+    std::uint16_t surface = 0;     ///< number of these in which a large surface was hit
+    std::uint16_t free = 0;        ///< number of counted intervals
+    std::int16_t run = 0;  ///< counted intervals of this visit: positive if occupied, negative if free
   };
 
- private:
+  void find_obstacles(const mrpt::maps::COccupancyGridMap2D& grid);
+  void find_normal(Sightings& cell) const;
+  void mark_hits(const Fan& fan, const CellBox& map);
+  void mark_hit(const mrpt::math::TPoint2D& end, bool of_surface);
+  void mark_passes(const Fan& fan, const CellBox& map);
+  void mark_seen(std::int32_t found);
   void end_interval();
-  void see(Sightings& cell, bool is_free);
-  void mark_hit(const mrpt::math::TPoint2D& end);
+  void see(Sightings& cell);
   bool is_moving(const Sightings& cell) const;
+  void keep_large_surfaces(std::vector<bool>& is_moving) const;
+
+  /// Calls `visit` with the index in cells_ of each obstacle at most `reach` columns and rows from (x, y).
+  template <class Visit>
+  void for_each_around(std::int64_t x, std::int64_t y, std::int64_t reach, const Visit& visit) const;
 
   GridLayout layout_;
-  MovingThingsOptions options_;
   RayMaker maker_;
-  std::int64_t reach_ = 0;           ///< near_m in cells
+  std::int64_t near_ = 0;            ///< reach of a hit, in cells
   std::vector<Sightings> cells_;     ///< of the occupied cells of the map
   std::vector<std::int32_t> find_;   ///< index in cells_, or minus the distance to an occupied cell, in cells
-  std::vector<std::uint32_t> seen_;  ///< cells hit or passed in this interval
-  std::uint32_t interval_ = 1;
+  std::vector<std::uint32_t> seen_;  ///< indices of the cells that this interval saw
+  std::uint32_t interval_ = 0;       ///< number of this interval; 0 before the first frame
   TimeUs interval_start_us_ = 0;
-  bool any_ = false;
 };
 
 }  // namespace psi_slam

@@ -10,6 +10,9 @@
 /// otherwise as a pass if any beam crossed it. A hit weighs three times a pass. The counts of a cell saturate
 /// only after thousands of frames. A cell is occupied if more than a quarter of its counts are hits. The map
 /// does not depend on the number of beams. A standstill of 10 s or more counts as at most 64 frames.
+///
+/// Obstacles that frames at other times saw through are free, unless GridMapOptions::keep_moving is set. What
+/// fewer beams than GridMapOptions::min_beams saw is unknown.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>

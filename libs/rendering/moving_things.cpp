@@ -165,6 +165,7 @@ void MovingThings::mark_hit(const TPoint2D& end, bool of_surface) {
     mark_seen(found);
     Sightings& cell = cells_[static_cast<std::size_t>(found)];
     cell.hit_in = interval_;
+    if (std::abs(cell.x - x) <= 1 && std::abs(cell.y - y) <= 1) cell.touched_in = interval_;
     if (of_surface) cell.surface_in = interval_;
   });
 }
@@ -206,18 +207,27 @@ void MovingThings::end_interval() {
   ++interval_;
 }
 
-/// Counts this interval for a cell, unless the visit has counted enough of the same kind in succession.
+/// Counts this interval for a cell that it saw.
 void MovingThings::see(Sightings& cell) {
-  const bool is_free = cell.hit_in != interval_;
-  const bool goes_on = (cell.run < 0) == is_free && interval_ - cell.seen_in <= kGapOfVisits;
-  if (!goes_on) cell.run = 0;
-  cell.seen_in = interval_;
-  if (std::abs(cell.run) == kMostOfVisit) return;
-  cell.run = static_cast<std::int16_t>(cell.run + (is_free ? -1 : 1));
   constexpr std::uint16_t kMost = 60'000;
-  if (cell.free + cell.occupied == kMost) return;
-  ++(is_free ? cell.free : cell.occupied);
-  if (!is_free && cell.surface_in == interval_) ++cell.surface;
+  const bool is_new_visit = interval_ - cell.seen_in > kGapOfVisits;
+  cell.seen_in = interval_;
+  const bool is_hit = cell.hit_in == interval_;
+  cell.near.count(!is_hit, is_new_visit);
+  if (is_hit && cell.hits < kMost) {
+    ++cell.hits;
+    if (cell.surface_in == interval_) ++cell.surface;
+  }
+  const bool is_touched = cell.touched_in == interval_;
+  if (is_touched || cell.passed_in == interval_) cell.close.count(!is_touched, is_new_visit);
+}
+
+void MovingThings::Tally::count(bool is_free, bool is_new_visit) {
+  constexpr std::uint16_t kMost = 60'000;
+  if (is_new_visit || (run < 0) != is_free) run = 0;
+  if (std::abs(run) == kMostOfVisit || free + occupied == kMost) return;
+  run = static_cast<std::int16_t>(run + (is_free ? -1 : 1));
+  ++(is_free ? free : occupied);
 }
 
 /// Judges a cell together with the obstacles around it.
@@ -227,10 +237,26 @@ bool MovingThings::is_moving(const Sightings& cell) const {
   int occupied = 0;
   for_each_around(cell.x, cell.y, kPatch, [&](std::int32_t found) {
     ++cells;
-    free += cells_[static_cast<std::size_t>(found)].free;
-    occupied += cells_[static_cast<std::size_t>(found)].occupied;
+    free += cells_[static_cast<std::size_t>(found)].near.free;
+    occupied += cells_[static_cast<std::size_t>(found)].near.occupied;
   });
   return free >= kLeastFree * cells && free >= kLeastFreeShare * (free + occupied);
+}
+
+/// Spreads the cells that count as moving to cells within near_ cells of them, for example of a door beside
+/// its frame. They must have been seen free as often by the narrower measure.
+void MovingThings::spread(std::vector<bool>& is_moving) const {
+  const std::vector<bool> core = is_moving;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const Tally& close = cells_[i].close;
+    if (core[i] || close.free < kLeastFree || close.free < kLeastFreeShare * (close.free + close.occupied))
+      continue;
+    bool is_beside = false;
+    for_each_around(cells_[i].x, cells_[i].y, near_ + 1, [&](std::int32_t found) {
+      is_beside = is_beside || core[static_cast<std::size_t>(found)];
+    });
+    is_moving[i] = is_beside;
+  }
 }
 
 /// Finds the connected parts of the cells that count as moving. Resets those parts that are longer than a
@@ -241,14 +267,14 @@ void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
     if (!is_moving[first] || is_found[first]) continue;
     is_found[first] = true;
     std::vector<std::size_t> part{first};
-    int surface = 0;
-    int occupied = 0;
+    std::int64_t surface = 0;
+    std::int64_t hits = 0;
     Sightings low = cells_[first];
     Sightings high = low;
     for (std::size_t i = 0; i < part.size(); ++i) {
       const Sightings& cell = cells_[part[i]];
       surface += cell.surface;
-      occupied += cell.occupied;
+      hits += cell.hits;
       low.x = std::min(low.x, cell.x);
       low.y = std::min(low.y, cell.y);
       high.x = std::max(high.x, cell.x);
@@ -261,7 +287,7 @@ void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
       });
     }
     const double length_m = std::hypot(high.x - low.x + 1, high.y - low.y + 1) * layout_.resolution_m;
-    if (length_m <= kLargeSurface_m || 2 * surface <= occupied) continue;
+    if (length_m <= kLargeSurface_m || 2 * surface <= hits) continue;
     for (const std::size_t cell : part) is_moving[cell] = false;
   }
 }
@@ -270,6 +296,7 @@ void MovingThings::remove_from(COccupancyGridMap2D& grid) {
   end_interval();
   std::vector<bool> is_moving(cells_.size());
   for (std::size_t i = 0; i < cells_.size(); ++i) is_moving[i] = this->is_moving(cells_[i]);
+  spread(is_moving);
   keep_large_surfaces(is_moving);
   for (std::size_t i = 0; i < cells_.size(); ++i)
     if (is_moving[i]) grid.getRow(cells_[i].y)[cells_[i].x] = cell_value(kPassEvidence);

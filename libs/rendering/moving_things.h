@@ -39,20 +39,31 @@ class MovingThings {
   void remove_from(mrpt::maps::COccupancyGridMap2D& grid);
 
  private:
+  /// Number of intervals that saw a place occupied or free, with a limit for each visit.
+  struct Tally {
+    std::uint16_t occupied = 0;
+    std::uint16_t free = 0;
+    std::int16_t run = 0;  ///< counted intervals of this visit: positive if occupied, negative if free
+
+    /// Counts an interval. `is_new_visit` is false if the last interval that saw the place was close in time.
+    void count(bool is_free, bool is_new_visit);
+  };
+
   /// What the intervals say about an occupied cell of the map.
   struct Sightings {
     std::int32_t x = 0;  ///< column and row of the cell in the map
     std::int32_t y = 0;
     float normal_x = 0;  ///< unit vector across a straight obstacle; 0 if the obstacle is not straight
     float normal_y = 0;
-    std::uint32_t hit_in = 0;      ///< last interval with a beam that ended close by
+    std::uint32_t hit_in = 0;      ///< last interval with a beam that ended within near_ cells
+    std::uint32_t touched_in = 0;  ///< last interval with a beam that ended in the cell or beside it
     std::uint32_t surface_in = 0;  ///< last interval in which that beam was one of a large surface
     std::uint32_t passed_in = 0;   ///< last interval with a beam that crossed the cell
     std::uint32_t seen_in = 0;     ///< last interval that saw the cell
-    std::uint16_t occupied = 0;    ///< number of counted intervals
+    std::uint16_t hits = 0;        ///< number of intervals with a beam that ended within near_ cells
     std::uint16_t surface = 0;     ///< number of these in which a large surface was hit
-    std::uint16_t free = 0;        ///< number of counted intervals
-    std::int16_t run = 0;  ///< counted intervals of this visit: positive if occupied, negative if free
+    Tally near;                    ///< occupied if a beam ended within near_ cells
+    Tally close;                   ///< occupied if a beam ended in the cell or beside it
   };
 
   void find_obstacles(const mrpt::maps::COccupancyGridMap2D& grid);
@@ -64,6 +75,7 @@ class MovingThings {
   void end_interval();
   void see(Sightings& cell);
   bool is_moving(const Sightings& cell) const;
+  void spread(std::vector<bool>& is_moving) const;
   void keep_large_surfaces(std::vector<bool>& is_moving) const;
 
   /// Calls `visit` with the index in cells_ of each obstacle at most `reach` columns and rows from (x, y).

@@ -50,10 +50,12 @@ class LiveFeed::Source : public FrameSource {
   std::vector<std::string> assumptions_;
 };
 
-LiveStream live_stream(const LiveInput& input) {
-  return {name_of(input), [input](const LogOptions& options, const LiveControl& control) {
+LiveStream live_stream(const LiveInput& input, std::filesystem::path journal) {
+  return {name_of(input),
+          [input](const LogOptions& options, const LiveControl& control) {
             return open_live(input, options, control);
-          }};
+          },
+          std::move(journal)};
 }
 
 SessionInput LiveFeed::input(const std::shared_ptr<LiveFeed>& feed) {

@@ -150,7 +150,7 @@ TrackedFrame impossible_frame() {
 TEST(BackEndThread, passes_exceptions_on) {
   for (const bool own_thread : {false, true}) {
     GraphBuilder builder{MapperOptions()};
-    BackEndThread thread(builder, own_thread, own_thread);
+    BackEndThread thread(builder, own_thread, own_thread ? ThreadPriority::kLow : ThreadPriority::kNormal);
     thread.hand_over({});
     thread.hand_over(impossible_frame());
     thread.hand_over({});

@@ -26,11 +26,11 @@ measure() {
 echo '| run | seed | of | poses | mean | median | beyond 95 % point |'
 echo '|---|---:|---|---:|---:|---:|---:|'
 for seed in 1 2 3; do
-  measure 'no people, no glass' $seed --people 0 --glass 0
-  measure '5 people for every 500 m, 10 % glass' $seed
+  measure 'no people, no glass' "$seed" --people 0 --glass 0
+  measure '5 people for every 500 m, 10 % glass' "$seed"
 done
 for seed in 1 2; do
-  measure '15 people for every 500 m, 30 % glass' $seed --people 15 --glass 0.3
-  measure 'laser with a range of 15 m' $seed --max-range-m 15
-  measure 'laser with a noise of 2 cm' $seed --range-noise-m 0.02
+  measure '15 people for every 500 m, 30 % glass' "$seed" --people 15 --glass 0.3
+  measure 'laser with a range of 15 m' "$seed" --max-range-m 15
+  measure 'laser with a noise of 2 cm' "$seed" --range-noise-m 0.02
 done

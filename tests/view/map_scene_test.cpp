@@ -76,6 +76,7 @@ TEST_F(MapSceneTest, draws_ellipses_of_uncertainty_true_to_scale) {
   const Eigen::Matrix3d covariance = Eigen::Vector3d(0.04, 0.01, 0.001).asDiagonal();
   snapshot->map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(
       std::vector<mrpt::math::TPose2D>{{0, 0, 0}, {0.5, 0, 0}, {3, 1, 0}});
+  snapshot->loops = std::make_shared<std::vector<LoopRecord>>();  // they refer to other nodes
   snapshot->node_covariances = std::make_shared<std::vector<Eigen::Matrix3d>>(
       std::vector<Eigen::Matrix3d>{Eigen::Matrix3d::Zero(), covariance, covariance});
   scene_.show(snapshot, map_);

@@ -26,6 +26,7 @@ constexpr std::int64_t kStraightReach = 6;  // reach of the cells whose line giv
 constexpr double kStraightRatio = 0.1;      // of the variances across and along a straight obstacle
 constexpr double kSurfaceGap_m = 0.5;       // largest distance between the ends of neighbouring beams
 constexpr double kLargeSurface_m = 2;
+constexpr std::int64_t kLink = 6;  // gap within one thing, in cells
 
 std::int64_t cells_in(double length_m, double resolution_m) {
   return static_cast<std::int64_t>(std::ceil(length_m / resolution_m - 1e-9));
@@ -279,7 +280,7 @@ void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
       low.y = std::min(low.y, cell.y);
       high.x = std::max(high.x, cell.x);
       high.y = std::max(high.y, cell.y);
-      for_each_around(cell.x, cell.y, kPatch, [&](std::int32_t found) {
+      for_each_around(cell.x, cell.y, kLink, [&](std::int32_t found) {
         const auto next = static_cast<std::size_t>(found);
         if (!is_moving[next] || is_found[next]) return;
         is_found[next] = true;

@@ -21,10 +21,11 @@ constexpr int kMostOfVisit = 5;
 constexpr std::uint32_t kGapOfVisits = 10;  // intervals that do not see the cell
 constexpr std::int64_t kPatch = 2;          // reach of the cells that are judged together, in cells
 constexpr int kLeastFree = 2;               // intervals per cell
-constexpr double kLeastFreeShare = 0.3;
-constexpr std::int64_t kStraightReach = 6;  // reach of the cells whose line gives the normal
-constexpr double kStraightRatio = 0.1;      // of the variances across and along a straight obstacle
-constexpr double kSurfaceGap_m = 0.5;       // largest distance between the ends of neighbouring beams
+constexpr double kLeastFreeShare = 0.2;
+constexpr double kLeastFreeShareBeside = 0.15;  // of cells beside moving ones
+constexpr std::int64_t kStraightReach = 6;      // reach of the cells whose line gives the normal
+constexpr double kStraightRatio = 0.1;          // of the variances across and along a straight obstacle
+constexpr double kSurfaceGap_m = 0.5;           // largest distance between the ends of neighbouring beams
 constexpr double kLargeSurface_m = 2;
 constexpr std::int64_t kLink = 6;  // gap within one thing, in cells
 
@@ -245,12 +246,13 @@ bool MovingThings::is_moving(const Sightings& cell) const {
 }
 
 /// Spreads the cells that count as moving to cells within near_ cells of them, for example of a door beside
-/// its frame. They must have been seen free as often by the narrower measure.
+/// its frame. They must have been seen free by the narrower measure.
 void MovingThings::spread(std::vector<bool>& is_moving) const {
   const std::vector<bool> core = is_moving;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Tally& close = cells_[i].close;
-    if (core[i] || close.free < kLeastFree || close.free < kLeastFreeShare * (close.free + close.occupied))
+    if (core[i] || close.free < kLeastFree ||
+        close.free < kLeastFreeShareBeside * (close.free + close.occupied))
       continue;
     bool is_beside = false;
     for_each_around(cells_[i].x, cells_[i].y, near_ + 1, [&](std::int32_t found) {

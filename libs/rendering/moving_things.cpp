@@ -21,11 +21,13 @@ constexpr int kMostOfVisit = 5;
 constexpr std::uint32_t kGapOfVisits = 10;  // intervals that do not see the cell
 constexpr std::int64_t kPatch = 2;          // reach of the cells that are judged together, in cells
 constexpr int kLeastFree = 2;               // intervals per cell
-constexpr double kLeastFreeShare = 0.3;
-constexpr std::int64_t kStraightReach = 6;  // reach of the cells whose line gives the normal
-constexpr double kStraightRatio = 0.1;      // of the variances across and along a straight obstacle
-constexpr double kSurfaceGap_m = 0.5;       // largest distance between the ends of neighbouring beams
+constexpr double kLeastFreeShare = 0.25;
+constexpr double kLeastFreeShareBeside = 0.15;  // of cells beside moving ones
+constexpr std::int64_t kStraightReach = 6;      // reach of the cells whose line gives the normal
+constexpr double kStraightRatio = 0.1;          // of the variances across and along a straight obstacle
+constexpr double kSurfaceGap_m = 0.5;           // largest distance between the ends of neighbouring beams
 constexpr double kLargeSurface_m = 2;
+constexpr std::int64_t kLink = 6;  // gap within one thing, in cells
 
 std::int64_t cells_in(double length_m, double resolution_m) {
   return static_cast<std::int64_t>(std::ceil(length_m / resolution_m - 1e-9));
@@ -244,12 +246,13 @@ bool MovingThings::is_moving(const Sightings& cell) const {
 }
 
 /// Spreads the cells that count as moving to cells within near_ cells of them, for example of a door beside
-/// its frame. They must have been seen free as often by the narrower measure.
+/// its frame. They must have been seen free by the narrower measure.
 void MovingThings::spread(std::vector<bool>& is_moving) const {
   const std::vector<bool> core = is_moving;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Tally& close = cells_[i].close;
-    if (core[i] || close.free < kLeastFree || close.free < kLeastFreeShare * (close.free + close.occupied))
+    if (core[i] || close.free < kLeastFree ||
+        close.free < kLeastFreeShareBeside * (close.free + close.occupied))
       continue;
     bool is_beside = false;
     for_each_around(cells_[i].x, cells_[i].y, near_ + 1, [&](std::int32_t found) {
@@ -279,7 +282,7 @@ void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
       low.y = std::min(low.y, cell.y);
       high.x = std::max(high.x, cell.x);
       high.y = std::max(high.y, cell.y);
-      for_each_around(cell.x, cell.y, kPatch, [&](std::int32_t found) {
+      for_each_around(cell.x, cell.y, kLink, [&](std::int32_t found) {
         const auto next = static_cast<std::size_t>(found);
         if (!is_moving[next] || is_found[next]) return;
         is_found[next] = true;

@@ -6,7 +6,7 @@
 // least 0.3 m beyond. The tolerances absorb errors of poses and ranges. Where the obstacle is straight, only
 // beams that cross it at 30 degrees or more count, because the others may graze a wall. Each visit counts for
 // at most five intervals of either kind, so a person who stands for ten minutes weighs no more than one who
-// stands for five seconds. A moving thing was seen free in at least three of ten counted intervals.
+// stands for five seconds. A moving thing was seen free in at least a quarter of the counted intervals.
 //
 // Obstacles longer than two metres stay if the beams hit them as one surface: a wall in two places after an
 // error of the poses, or a barrier that beams hit only from some directions.

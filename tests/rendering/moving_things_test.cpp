@@ -146,10 +146,7 @@ Kept compare(const PairOfLogs& logs) {
       } else if (end.last_s > 0 && !end.still) {
         ++kept.moving;
         kept.moving_kept += is_kept ? 1 : 0;
-        if (is_kept && std::getenv("SHOW") != nullptr) std::printf("kept %.2f %.2f\n", double(x), double(y));
       }
-      if (is_occupied(*still, x, y) && !is_kept && std::getenv("SHOW") != nullptr)
-        std::printf("lost %.2f %.2f\n", double(x), double(y));
     }
   return kept;
 }
@@ -179,8 +176,6 @@ PairOfLogs drive(std::uint64_t seed, double path_m, TrafficOptions traffic_optio
 
 /// Expects that at least 95 % of the cells of moving things are gone and at most 0.5 % of the walls lost.
 void expect_clean(const Kept& kept) {
-  std::printf("moving %d kept %d unknowable %d walls %d lost %d\n", kept.moving, kept.moving_kept,
-              kept.unknowable, kept.walls, kept.walls - kept.walls_kept);
   EXPECT_GT(kept.moving, 50);
   EXPECT_GT(kept.walls, 500);
   EXPECT_GE(kept.gone(), 0.95) << kept.moving_kept << " of " << kept.moving;

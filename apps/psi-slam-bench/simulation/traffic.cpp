@@ -58,15 +58,15 @@ Traffic::Traffic(const FloorPlan& plan, const TrafficOptions& options)
 TrafficNow Traffic::at(double time_s, const TPose2D& world_T_robot) const {
   TrafficNow now;
   now.people = people_.at(time_s);
-  const bool is_first_half = time_s < options_.duration_s / 2;
   for (const Thing& thing : things_) {
     const bool is_near =
         std::any_of(thing.outline.begin(), thing.outline.end(), [&](const PlanSegment& side) {
           const TPoint2D middle = (side.from + side.to) * 0.5;
           return std::hypot(middle.x - world_T_robot.x, middle.y - world_T_robot.y) < kAway_m;
         });
-    if (thing.is_first_half == is_first_half && !is_near)
-      now.things.insert(now.things.end(), thing.outline.begin(), thing.outline.end());
+    const bool is_there =
+        thing.leaves ? time_s < 0.75 * options_.duration_s : time_s > 0.25 * options_.duration_s;
+    if (is_there && !is_near) now.things.insert(now.things.end(), thing.outline.begin(), thing.outline.end());
   }
   const double stride_m = kStride_m * std::sin(2 * M_PI * kStridesPer_s * time_s);
   if (options_.has_operator)

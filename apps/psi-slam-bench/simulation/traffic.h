@@ -17,10 +17,10 @@ namespace psi_slam {
 
 struct TrafficOptions {
   std::uint64_t seed = 1;
-  double duration_s = 0;      ///< half of the carts and doors change after half of this time
-  std::size_t people = 0;     ///< people who walk up and down the corridors
-  std::size_t carts = 0;      ///< carts beside the walls of corridors, each there in one half of the time
-  bool doors = false;         ///< whether each door of a room is closed in one half of the time
+  double duration_s = 0;   ///< carts and doors change after a quarter or three quarters of this time
+  std::size_t people = 0;  ///< people who walk up and down the corridors
+  std::size_t carts = 0;   ///< carts beside the walls of corridors, each there in three quarters of the time
+  bool doors = false;      ///< whether each door of a room is closed in three quarters of the time
   bool has_operator = false;  ///< whether a person walks beside the robot, half a metre ahead
 };
 
@@ -39,10 +39,10 @@ class Traffic {
   TrafficNow at(double time_s, const mrpt::math::TPose2D& world_T_robot) const;
 
  private:
-  /// Outline of a thing that is there in one half of the time.
+  /// Outline of a thing that leaves after three quarters of the time or comes after one quarter.
   struct Thing {
     std::vector<PlanSegment> outline;
-    bool is_first_half = false;
+    bool leaves = false;
   };
 
   TrafficOptions options_;

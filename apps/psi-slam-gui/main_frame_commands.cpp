@@ -28,7 +28,8 @@ using Ask = FileQuestion::Kind;
 using Path = std::filesystem::path;
 
 const char* const kLogFiles =
-    "Logs and sessions|*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz;*.zst;*.zstd;*.session;*.journal|All files|*";
+    "Logs and sessions|*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz;*.zst;*.zstd;*.session;*.journal|All "
+    "files|*";
 const char* const kGrowingFiles = "CARMEN logs|*.log;*.clf|All files|*";
 const char* const kSettingsFiles = "Settings (*.ini)|*.ini|All files|*";
 
@@ -281,6 +282,10 @@ void MainFrame::open(SessionInput input, Edits edits) {
 
 void MainFrame::connect(const LiveInput& source, const Path& journal) {
   attempt([&] {
+    if (std::filesystem::exists(journal))
+      throw UserError(journal.string() +
+                      " exists and may hold a run that was not finished. Open it with File > Open, or choose "
+                      "another file");
     LiveStream stream = live_stream(source, journal);
     opened_ = stream.name;
     session_settings_.clear();

@@ -17,7 +17,7 @@ class FailureNotice {
   /// was written. Returns a sentence for the user, without full stop, if failures have begun or ended.
   std::optional<std::string> news(const std::optional<std::string>& failure) {
     if (std::exchange(fails_, failure.has_value()) == fails_) return std::nullopt;
-    return fails_ ? file_ + " is not written, which is tried again: " + *failure
+    return fails_ ? file_ + " is not written for now, and psi-slam tries again: " + *failure
                   : file_ + " is written again";
   }
 

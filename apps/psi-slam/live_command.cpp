@@ -40,7 +40,8 @@ SessionInput input_of(const CommandLine& line, const LiveInput& source, const Li
   const auto recording = read_resumed(line, bound, streams);
   if (recording->frames.empty()) return SessionInput(recording, name_of(source), open);
   return SessionInput(recording, name_of(source), [=](const LogOptions& options) {
-    return std::make_unique<LaterScans>(open(options), recording->frames.back().time_us, control);
+    return std::make_unique<LaterScans>(open(options), recording->frames.front().time_us,
+                                        recording->frames.back().time_us, control);
   });
 }
 

@@ -39,7 +39,8 @@ void LiveMapWriter::update(const Mapper& mapper) {
   poses_.take(frames);
   map_.update(mapper.log(),
               [&](std::size_t i) { return poses_.map_T_robot(i, frames, mapper.node_poses()); });
-  if (Clock::now() - last_ >= period_ && map_.work() != handed_work_ && map_.is_complete()) hand_over();
+  const bool has_news = map_.work() != handed_work_ || failure();
+  if (Clock::now() - last_ >= period_ && has_news && map_.is_complete()) hand_over();
 }
 
 void LiveMapWriter::hand_over() {

@@ -13,21 +13,26 @@
 
 namespace psi_slam {
 
-/// The scans of a source from the first one on that is later than a recording. The recorded log may be sent
-/// again from its beginning, so the scans before are skipped; a notice says so.
+/// The scans of a source from the first one on that is not of the time of a recording. The recorded log may
+/// be sent again from its beginning, so these scans are skipped; a notice says so. A clock that begins again
+/// before the recording, as on a robot without a battery for its clock, skips nothing.
 class LaterScans : public FrameSource {
  public:
-  /// `recorded_to_us`: time of the last recorded scan.
-  LaterScans(std::unique_ptr<FrameSource> source, TimeUs recorded_to_us, LiveControl control)
-      : source_(std::move(source)), recorded_to_us_(recorded_to_us), control_(std::move(control)) {}
+  /// `recorded_from_us`, `recorded_to_us`: times of the first and the last recorded scan.
+  LaterScans(std::unique_ptr<FrameSource> source, TimeUs recorded_from_us, TimeUs recorded_to_us,
+             LiveControl control)
+      : source_(std::move(source)),
+        recorded_from_us_(recorded_from_us),
+        recorded_to_us_(recorded_to_us),
+        control_(std::move(control)) {}
 
   std::optional<Frame> next() override {
     std::optional<Frame> frame = source_->next();
     if (begun_) return frame;
-    if (frame && frame->time_us <= recorded_to_us_)
+    if (frame && is_recorded(*frame))
       control_.notify("skipping scans up to " + format_seconds(recorded_to_us_) +
                       " s, the time of the last recorded scan");
-    while (frame && frame->time_us <= recorded_to_us_) frame = source_->next();
+    while (frame && is_recorded(*frame)) frame = source_->next();
     begun_ = true;
     return frame;
   }
@@ -36,7 +41,12 @@ class LaterScans : public FrameSource {
   std::vector<std::string> assumptions() const override { return source_->assumptions(); }
 
  private:
+  bool is_recorded(const Frame& frame) const {
+    return frame.time_us >= recorded_from_us_ && frame.time_us <= recorded_to_us_;
+  }
+
   std::unique_ptr<FrameSource> source_;
+  TimeUs recorded_from_us_;
   TimeUs recorded_to_us_;
   LiveControl control_;
   bool begun_ = false;  ///< a later scan has come

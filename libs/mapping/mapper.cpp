@@ -71,7 +71,6 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
     wait();
     serve_waiting_edits();
   }
-  if (waited_) ++missed_deadlines_;
   return added;
 }
 
@@ -85,6 +84,7 @@ void Mapper::Implementation::add_node(const FrontEndStep& step) {
 // Places the newest frame in the map and tells its pose.
 void Mapper::Implementation::give_pose() {
   take_due_results();
+  if (waited_) ++missed_deadlines_;
   FrameRecord& added = result_.frames.back();
   added.map_T_robot = map_T_local_ + added.front_end_T_robot;
   if (pose_observer_) pose_observer_(added);

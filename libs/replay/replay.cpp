@@ -326,7 +326,7 @@ void Replay::publish() {
                                            : SnapshotMaker::ActiveMaps::kNowAndThen);
     maker_->now.warnings = session_->warnings();
     if (const auto why = session_->journal_failure())
-      maker_->now.warnings.push_back("the journal is not written, which is tried again: " + *why);
+      maker_->now.warnings.push_back("the journal is not written for now, and psi-slam tries again: " + *why);
     if (stale_) painter_.request(maker_->sketch());
   }
   publish_as_it_is();

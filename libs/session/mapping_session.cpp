@@ -85,6 +85,8 @@ void MappingSession::set_observer(Observer observer) {
 }
 
 void MappingSession::set_pose_observer(Mapper::PoseObserver observer) {
+  if (!m_->mapper)
+    throw std::logic_error("MappingSession::set_pose_observer() after finish() needs stay_open()");
   m_->mapper->set_pose_observer(std::move(observer));
 }
 

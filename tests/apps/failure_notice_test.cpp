@@ -10,7 +10,8 @@ TEST(FailureNotice, tells_each_beginning_and_end_once) {
   FailureNotice notice("the journal");
   EXPECT_EQ(notice.news(std::nullopt), std::nullopt);
   for (int i = 0; i < 2; ++i) {
-    EXPECT_EQ(notice.news("no room"), "the journal is not written, which is tried again: no room");
+    EXPECT_EQ(notice.news("no room"),
+              "the journal is not written for now, and psi-slam tries again: no room");
     EXPECT_EQ(notice.news("no room"), std::nullopt);
     EXPECT_EQ(notice.news("no permission"), std::nullopt);
     EXPECT_EQ(notice.news(std::nullopt), "the journal is written again");

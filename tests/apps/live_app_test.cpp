@@ -191,7 +191,8 @@ TEST_F(LiveApp, tells_at_once_that_the_journal_cannot_be_written_and_completes_i
   append(20, 25);
   EXPECT_TRUE(soon([&] {
     append(25, 26);  // the next scan tells
-    return tells("the journal is not written, which is tried again: cannot write " + journal.string());
+    return tells("the journal is not written for now, and psi-slam tries again: cannot write " +
+                 journal.string());
   })) << err();
   ASSERT_EQ(::prlimit(process.pid(), RLIMIT_FSIZE, &before, nullptr), 0);
   EXPECT_TRUE(soon([&] {

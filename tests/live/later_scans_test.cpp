@@ -11,11 +11,11 @@ namespace {
 
 using testing::ElementsAre;
 
-/// Times of the scans at `times_us` that follow a recording that ends at 5 s.
+/// Times of the scans at `times_us` that follow a recording from 1 s to 5 s.
 std::vector<TimeUs> later_us(const std::vector<TimeUs>& times_us, Notices& notices) {
   std::vector<Frame> frames;
   for (const TimeUs time_us : times_us) frames.emplace_back().time_us = time_us;
-  LaterScans later(std::make_unique<FramesInMemory>(frames), 5'000'000,
+  LaterScans later(std::make_unique<FramesInMemory>(frames), 1'000'000, 5'000'000,
                    {[] { return false; }, [&](const std::string& notice) { notices.add(notice); }});
   std::vector<TimeUs> later_us;
   while (const auto frame = later.next()) later_us.push_back(frame->time_us);
@@ -28,6 +28,12 @@ TEST(LaterScans, begin_after_the_recorded_ones) {
               ElementsAre(6'000'000, 7'000'000));
   EXPECT_EQ(notices.text(), "skipping scans up to 5.000000 s, the time of the last recorded scan\n");
   EXPECT_THAT(later_us({1'000'000}, notices), ElementsAre());
+}
+
+TEST(LaterScans, are_all_scans_of_a_clock_that_began_again) {
+  Notices notices;
+  EXPECT_THAT(later_us({0, 2'000'000, 6'000'000}, notices), ElementsAre(0, 2'000'000, 6'000'000));
+  EXPECT_EQ(notices.text(), "");
 }
 
 TEST(LaterScans, are_all_scans_of_a_robot_that_went_on) {

@@ -11,7 +11,7 @@
 /// only after thousands of frames. A cell is occupied if more than a quarter of its counts are hits. The map
 /// does not depend on the number of beams. A standstill of 10 s or more counts as at most 64 frames.
 ///
-/// Obstacles that frames at other times saw through are free, unless GridMapOptions::keep_moving is set. What
+/// Obstacles that frames at other times saw through are free if GridMapOptions::keep_moving is false. What
 /// fewer beams than GridMapOptions::min_beams saw is unknown.
 #pragma once
 
@@ -39,8 +39,8 @@ struct GridMapOptions {
   /// exhausting the memory.
   std::size_t max_cells = 100'000'000;
   /// Draws people, carts and doors that moved, too. Otherwise, obstacles that were not there at other times
-  /// are free space.
-  bool keep_moving = false;
+  /// are free space. Pieces of walls may vanish, too.
+  bool keep_moving = true;
   /// Least number of beams that must have seen an obstacle or free space, from 1 to 3. A beam counts as two
   /// where a neighbouring beam of its scan reaches as far. What fewer beams saw stays unknown.
   int min_beams = 2;

@@ -69,8 +69,8 @@ class Mapper {
   using PoseObserver = std::function<void(const FrameRecord&)>;
   /// Sets an observer that add() calls before it draws the scan into local maps. Drawing takes a part of the
   /// time of add(), and often less is left until the next scan. With latency_nodes = 0, the observer is
-  /// called after the loops of the frame are closed. The observer may only call frames() and
-  /// missed_deadlines().
+  /// called after the loops of the frame are closed. The observer may only call frames(), active_local_maps()
+  /// and missed_deadlines().
   void set_pose_observer(PoseObserver observer);
 
   /// Maps one frame and returns its record. Call it for all frames in the order of the log. finish()

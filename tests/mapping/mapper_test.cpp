@@ -165,14 +165,17 @@ TEST(Mapper, tells_the_pose_of_a_scan_before_drawing_it) {
   std::vector<TPose2D> told;
   mapper.set_pose_observer([&](const FrameRecord& record) {
     told.push_back(record.map_T_robot);
-    if (record.node && *record.node > 0)
+    if (record.node && *record.node > 0) {
       EXPECT_LT(mapper.active_local_maps().front().last_node, *record.node);
+    }
   });
   for (std::size_t i = 0; i < 60; ++i) {
     const FrameRecord& record = mapper.add(office_drive().frames[i]);
     ASSERT_EQ(told.size(), i + 1);
     EXPECT_EQ(told.back(), record.map_T_robot);
-    if (record.node) EXPECT_EQ(mapper.active_local_maps().front().last_node, *record.node);
+    if (record.node) {
+      EXPECT_EQ(mapper.active_local_maps().front().last_node, *record.node);
+    }
   }
   EXPECT_GT(mapper.keyframes().nodes.size(), 20U);
 }

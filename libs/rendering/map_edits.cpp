@@ -109,7 +109,7 @@ std::size_t for_each_cell_of(const MapEdit& edit, const Grid& grid,
                              const std::function<void(int x, int y)>& visit) {
   const bool is_line = edit.kind == Kind::kWall;
   const double reach_m =
-      is_line ? 0.5 * std::max(edit.width_m, static_cast<double>(grid.getResolution())) : 0;
+      is_line ? 0.5 * std::max(edit.width_m, M_SQRT2 * static_cast<double>(grid.getResolution())) : 0;
   const CellRectangle around = cells_around(edit.points, reach_m, grid);
   mrpt::math::TPolygon2D polygon;
   polygon.assign(edit.points.begin(), edit.points.end());

@@ -23,11 +23,11 @@ Shown shown(const Grid& grid, double x_m, double y_m) {
                                      : Shown::kUnknown;
 }
 
-/// Free space with one wall at x = 1 m. The lower left corner is at (-2, -1) m.
+/// Free space with one wall at x = 1.025 m. The lower left corner is at (-2, -1) m.
 Grid walled_map() {
   Grid grid(-2, 4, -1, 3, 0.05F);
   grid.fill(0.97F);
-  for (double y = -0.975; y < 3; y += 0.05) grid.setCell(grid.x2idx(1.0), grid.y2idx(y), 0.02F);
+  for (double y = -0.975; y < 3; y += 0.05) grid.setCell(grid.x2idx(1.01), grid.y2idx(y), 0.02F);
   return grid;
 }
 

@@ -32,7 +32,8 @@ struct MapEdit {
 };
 
 /// Calls `visit(x, y)` for each cell of the grid that the edit covers: cells with their centre in the
-/// polygon, or within half the width of the line. Returns the number of these cells.
+/// polygon, or within half the width of the line, at least half the diagonal of a cell. Returns the number of
+/// these cells.
 std::size_t for_each_cell_of(const MapEdit& edit, const mrpt::maps::COccupancyGridMap2D& grid,
                              const std::function<void(int x, int y)>& visit);
 

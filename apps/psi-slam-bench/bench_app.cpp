@@ -24,6 +24,7 @@
 #include "simulate/simulate_benchmark.h"
 #include "simulate/simulated_log_file.h"
 #include "sparse/sparse_benchmark.h"
+#include "verdict/verdict_benchmark.h"
 
 namespace psi_slam {
 namespace {
@@ -142,6 +143,24 @@ void add_robustness_command(CLI::App& app, const Streams& streams) {
       });
 }
 
+void add_verdict_command(CLI::App& app, const Streams& streams) {
+  const auto arguments = std::make_shared<Arguments<VerdictBenchmarkOptions>>();
+  VerdictBenchmarkOptions& options = arguments->options;
+  CLI::App& command =
+      *app.add_subcommand("verdict", "Judge simulated maps with known faults and compare with their errors");
+  add_seeds_option(command, options.seeds, "Seeds of the buildings, runs and faults");
+  command
+      .add_option("--path-m", options.path_m,
+                  "Length of the shortest paths in metres; the longest are 1.75 times as long")
+      ->check(CLI::Range(20.0, 10'000.0))
+      ->capture_default_str();
+  run_on_logs(
+      command, arguments, streams, [](const BenchArguments&) { return 0; },
+      [](int, const VerdictBenchmarkOptions& how, const ProgressObserver& progress) {
+        return verdict_report(run_verdict_benchmark(how, progress), how, machine_text());
+      });
+}
+
 struct SimulateArguments : Arguments<SimulateOptions> {
   std::string log;
 };
@@ -193,6 +212,14 @@ void add_simulate_command(CLI::App& app, const Streams& streams) {
                   "Share of the front walls of rooms and of the outer walls that is glass")
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("SHARE")
+      ->capture_default_str();
+  simulate.add_option("--max-range-m", options.max_range_m, "Largest range of the laser in metres")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->capture_default_str();
+  simulate
+      .add_option("--range-noise-m", options.range_noise_m,
+                  "Standard deviation of the noise of a range in metres")
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   simulate
       .add_option("--threads", options.threads, "Number of threads that match loops; it changes times only")
@@ -370,6 +397,7 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_simulate_command(app, streams);
     add_false_loops_command(app, streams);
     add_robustness_command(app, streams);
+    add_verdict_command(app, streams);
     add_sparse_command(app, streams);
     add_paper_command(app, streams);
     add_psi_command(app, streams);

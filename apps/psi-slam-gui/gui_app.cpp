@@ -33,6 +33,7 @@ struct Arguments {
   std::string config;                 ///< settings file; empty: the defaults
   std::vector<std::string> settings;  ///< "section.key=value", in the order given
   LiveArguments live;
+  std::string journal;  ///< journal of the live run; empty: not written
 };
 
 /// Parses the arguments with `app`. Throws CLI::ParseError for --help, --version and syntax errors, and
@@ -45,6 +46,9 @@ Arguments parse(const std::vector<std::string>& arguments, CLI::App& app) {
   app.add_option("--edits", line.edits, "File of loop edits, as saved with Edit > Save loop edits")
       ->type_name("FILE");
   add_source_options(app, line.live);
+  add_value(app, "--journal", line.journal,
+            "Record the live run in this file, to open after a crash; deleted when the run is closed",
+            "FILE");
   add_settings_options(app, line.config, line.settings);
   app.set_version_flag("--version", "psi-slam-gui " PSI_SLAM_VERSION, "Print the version and exit");
   add_document_options(app, default_settings());
@@ -55,7 +59,13 @@ Arguments parse(const std::vector<std::string>& arguments, CLI::App& app) {
     throw UserError(unknown_argument_text(unknown.front(), app, "psi-slam-gui"));
   if (!line.edits.empty() && line.log.empty())
     throw UserError("--edits needs a log: name the log that the edits belong to");
-  if (live_input(line.live) && !line.log.empty()) throw UserError("name a log or a live source, not both");
+  const bool is_live = live_input(line.live).has_value();
+  if (is_live && !line.log.empty()) throw UserError("name a log or a live source, not both");
+  if (!line.journal.empty() && !is_live)
+    throw UserError("--journal needs a live source, such as --tcp PORT or --follow FILE");
+  if (std::filesystem::exists(line.journal))
+    throw UserError("--journal " + line.journal + ": the file exists. Open it with psi-slam-gui " +
+                    line.journal + ", or delete it");
   return line;
 }
 
@@ -74,7 +84,7 @@ class GuiApp : public wxApp {
     auto* frame = new MainFrame();  // wxWidgets deletes the frame when it is closed
     frame->Show();
     frame->start(line_.log, line_.config, line_.settings, line_.edits);
-    if (const auto source = live_input(line_.live)) frame->connect(*source);
+    if (const auto source = live_input(line_.live)) frame->connect(*source, line_.journal);
     if (when_shown_) frame->CallAfter([this, frame] { when_shown_(*frame); });
     return true;
   }

@@ -66,9 +66,9 @@ class MainFrame : public wxFrame {
                 const std::function<void(BoundSettings&)>& overrule = {});
   /// Calls open_log(), but asks first if edits or a live map would be lost.
   void open_other_log(const std::filesystem::path& log);
-  /// Maps what a live source sends.
-  void connect(const LiveInput& source);
-  /// Calls connect(), but asks first if edits or another live map would be lost.
+  /// Maps what a live source sends, and records it in the file `journal` unless that path is empty.
+  void connect(const LiveInput& source, const std::filesystem::path& journal);
+  /// Asks for the journal and calls connect(). Asks first if edits or another live map would be lost.
   void connect_other(const LiveInput& source);
   /// Opens a file that was dropped on the window: settings, loop edits, a log or a session.
   void open_dropped(const std::filesystem::path& file);

@@ -279,9 +279,9 @@ void MainFrame::open(SessionInput input, Edits edits) {
   show_run();
 }
 
-void MainFrame::connect(const LiveInput& source) {
+void MainFrame::connect(const LiveInput& source, const Path& journal) {
   attempt([&] {
-    LiveStream stream = live_stream(source);
+    LiveStream stream = live_stream(source, journal);
     opened_ = stream.name;
     session_settings_.clear();
     clear_run();
@@ -292,7 +292,10 @@ void MainFrame::connect(const LiveInput& source) {
 }
 
 void MainFrame::connect_other(const LiveInput& source) {
-  ask_before_loss("Connect anyway?", "Connect", [this, source] { connect(source); });
+  const auto journal = ask_for_file_({Ask::kSave, "Record the run in a journal, in case the program crashes",
+                                      "Journals (*.journal)|*.journal", "session.journal"});
+  if (!journal) return;
+  ask_before_loss("Connect anyway?", "Connect", [this, source, journal] { connect(source, *journal); });
 }
 
 void MainFrame::clear_run() {

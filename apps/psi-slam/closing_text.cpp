@@ -22,7 +22,18 @@ std::string closing_text(const RunSummary& summary, const std::string& log_name,
   lines += mrpt::format("It took %.1f s", summary.wall_s);
   if (summary.real_time_factor > 0)
     lines += mrpt::format(", real-time factor %.1f", summary.real_time_factor);
-  return lines + mrpt::format(", and %.0f MiB of memory.\n", summary.peak_memory_mib);
+  lines += mrpt::format(", and %.0f MiB of memory.\n", summary.peak_memory_mib);
+  if (summary.verdict && summary.verdict->state == MapState::kGood)
+    lines += "Verdict: " + verdict_sentence(*summary.verdict) + ".\n";
+  return lines;
+}
+
+std::optional<std::string> doubtful_map_text(const RunSummary& summary) {
+  if (!summary.verdict || summary.verdict->state == MapState::kGood) return std::nullopt;
+  std::string text = verdict_sentence(*summary.verdict);
+  if (!summary.verdict->hot_spots.empty())
+    text += ". Try: " + advice_text(summary.verdict->hot_spots.front());
+  return text;
 }
 
 std::string interrupted_text(std::size_t scans) {

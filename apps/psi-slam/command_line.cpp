@@ -93,6 +93,8 @@ CLI::App* add_live(CLI::App& app, CommandLine& line) {
   add_live_options(*live, line.live);
   add_value(*live, "-o,--output", line.output, kFolderHelp, "DIR");
   add_value(*live, "--save-session", line.save_session, "Save the run to this file, for --resume", "FILE");
+  add_value(*live, "--resume", line.resume, "Continue a saved or crashed run with the scans of the source",
+            "FILE");
   add_run_options(*live, line);
   return live;
 }
@@ -184,7 +186,7 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
   refuse(!maps && !merges && !localizes && !is_live && !compares && !line.output.empty(),
          "-o has no effect on this command, because nothing is written. Leave -o out");
   refuse(!maps && !line.edits.empty(), "--edits is only for mapping a log");
-  refuse(!maps && !line.resume.empty(), "--resume is only for mapping a log");
+  refuse(!maps && !is_live && !line.resume.empty(), "--resume is only for mapping");
   refuse(!maps && !line.journal.empty(), "--journal is only for mapping a log");
   refuse(!maps && !merges && !is_live && !line.save_session.empty(),
          "--save-session is only for mapping and merging logs");

@@ -2,6 +2,7 @@
 // The commands of psi-slam that read logs. Each returns the exit code and throws UserError for invalid input.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -50,6 +51,11 @@ void warn_of_lost_end(const SessionRecording& recording, const Streams& streams)
 /// warns, unless --quiet is given, if another version of the program recorded the session.
 void load_recorded_settings(const CommandLine& line, const std::string& file, const SessionFacts& facts,
                             BoundSettings& bound, const Streams& streams);
+
+/// Reads the session of --resume. Loads its settings into `bound` as load_recorded_settings() does, and then
+/// those of the command line. Throws UserError if these change the map of the session.
+std::shared_ptr<const SessionRecording> read_resumed(const CommandLine& line, BoundSettings& bound,
+                                                     const Streams& streams);
 
 /// Calibrates the log of `input` if log.calibrate is true. Shows the progress on a terminal, unless --quiet
 /// is given. Throws SystemFailure after an interrupt.

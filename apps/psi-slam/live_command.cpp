@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
 #include <ostream>
 
+#include "base/scope_exit.h"
 #include "commands.h"
-#include "exports/live_map_writer.h"
+#include "live/later_scans.h"
+#include "live_mapping.h"
 #include "live_run.h"
 #include "psi_slam/user_error.h"
 #include "session/session_input.h"
@@ -10,82 +13,71 @@
 namespace psi_slam {
 namespace {
 
-/// Lets the source of a session end before the session is destroyed, also after an error.
-class Leaving {
- public:
-  explicit Leaving(LiveRun& run) : run_(run) {}
-  ~Leaving() { run_.leave(); }
-  Leaving(const Leaving&) = delete;
-  Leaving& operator=(const Leaving&) = delete;
-
- private:
-  LiveRun& run_;
-};
-
-LivePose last_pose(const Mapper& mapper) {
-  const FrameRecord& record = mapper.frames().back();
-  return {record.time_us, record.map_T_robot, mapper.frames().size() - 1,
-          record.match == ScanMatch::kMatched};
+LivePose live_pose(const FrameRecord& record, std::size_t frame) {
+  return {record.time_us, record.map_T_robot, frame, record.match == ScanMatch::kMatched};
 }
 
-/// Returns the journal of a live run, which lies in the folder of its results. Throws UserError if the folder
-/// has a journal of a run that was not finished.
-std::filesystem::path journal_in(const std::filesystem::path& folder) {
-  const std::filesystem::path journal = folder / "session.journal";
-  if (std::filesystem::exists(journal))
-    throw UserError(journal.string() +
-                    " holds a run that was not finished. Finish it with psi-slam --resume " +
-                    journal.string() + " -o ANOTHER_FOLDER, or delete it");
-  return journal;
+/// Throws UserError if the folder of the results has a journal of a run that was not finished, unless that
+/// run is resumed.
+void check_journal(const CommandLine& line) {
+  namespace fs = std::filesystem;
+  const fs::path journal = journal_of_live_run(line.output);
+  std::error_code ignored;
+  if (!fs::exists(journal) || (!line.resume.empty() && fs::equivalent(journal, line.resume, ignored))) return;
+  throw UserError(journal.string() + " holds a run that was not finished. Finish it with psi-slam --resume " +
+                  journal.string() + " -o ANOTHER_FOLDER, or delete it");
 }
 
-/// Maps until the source ends. Returns why the map could not be written the last time; empty if it was.
-std::optional<std::string> map_to_the_end(MappingSession& session, const OutputFolder& folder,
-                                          const Settings& settings,
-                                          const std::function<void(const Mapper&)>& after_scan) {
-  LiveMapWriter map(folder.path(), settings.map, settings.live.map_period_s);
-  while (session.step()) {
-    after_scan(session.mapper());
-    map.update(session.mapper());
+/// Returns the input of a live run: the source, or the session of --resume and then the source. Loads the
+/// settings of the run into `bound`.
+SessionInput input_of(const CommandLine& line, const LiveInput& source, const LiveControl& control,
+                      BoundSettings& bound, const Streams& streams) {
+  const auto open = [=](const LogOptions& options) { return open_live(source, options, control); };
+  if (line.resume.empty()) {
+    load_settings(line, bound, streams);
+    return SessionInput(name_of(source), open);
   }
-  return map.failure();
+  const auto recording = read_resumed(line, bound, streams);
+  if (recording->frames.empty()) return SessionInput(recording, name_of(source), open);
+  return SessionInput(recording, name_of(source), [=](const LogOptions& options) {
+    return std::make_unique<LaterScans>(open(options), recording->frames.back().time_us, control);
+  });
 }
 
 }  // namespace
 
 int map_live(const CommandLine& line, const Streams& streams) {
-  BoundSettings bound;
-  load_settings(line, bound, streams);
-  bound.settings.mapper.back_end_thread = bound.settings.mapper.back_end_yields = true;
   const LiveInput source = live_input(line.live).value();
   const std::optional<PoseFormat> poses = pose_format(line.live);
   // Only poses go to standard output if there are any.
   const Streams texts{poses ? streams.err : streams.out, streams.err, streams.err_is_terminal};
-  const std::filesystem::path journal = journal_in(line.output);
+  check_journal(line);
   OutputFolder::check(line.output, line.force);
   check_sessions_to_write(line);
   LiveRun run(texts, streams.err_is_terminal && !line.quiet,
               "mapping the scans that came before, then finishing the map. Interrupt again to finish it "
               "without more loops");
-  MappingSession session(
-      SessionInput(name_of(source),
-                   [&](const LogOptions& options) { return open_live(source, options, run.control()); }),
-      bound.settings);
-  const Leaving leaving(run);
+  BoundSettings bound;
+  const SessionInput input = input_of(line, source, run.control(), bound, texts);
+  const std::size_t resumed_scans = input.recording() ? input.recording()->frames.size() : 0;
+  MappingSession session(input, bound.settings);
+  const ScopeExit leave([&] { run.leave(); });  // the source ends before the session, also after an error
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
   session.set_observer([&](const SessionProgress& progress) { run.show(progress); });
-
-  session.start_journal(journal);
-  std::optional<std::string> unwritten;
-  try {
-    unwritten = map_to_the_end(session, folder, bound.settings, [&](const Mapper& mapper) {
-      if (poses) print_pose(streams.out, last_pose(mapper), *poses);
+  if (poses)
+    session.set_pose_observer([&](const FrameRecord& record) {
+      const std::size_t frame = session.mapper().frames().size() - 1;
+      if (frame >= resumed_scans) print_pose(streams.out, live_pose(record, frame), *poses);
     });
+  try {
+    LiveMapping mapping(session, folder.path(), bound.settings, run.control().notify);
+    while (mapping.step()) {
+    }
   } catch (...) {
-    if (session.mapper().frames().empty()) session.remove_journal();  // nothing could be resumed
+    if (resumed_scans == 0 && session.mapper().frames().empty())
+      session.remove_journal();  // nothing could be resumed
     throw;
   }
-  if (unwritten) streams.err << "psi-slam: the map was not written while mapping: " << *unwritten << '\n';
   run.end();
   session.finish(run.cuts_short());
   return save_and_export(session, folder, line, texts, run.progress_line());

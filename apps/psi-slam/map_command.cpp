@@ -12,6 +12,7 @@
 #include "exports/interruptions.h"
 #include "exports/run_summary.h"
 #include "exports/unmatched_scans.h"
+#include "failure_notice.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/user_error.h"
 #include "report/output_folder.h"
@@ -38,13 +39,7 @@ SessionInput input_of(const CommandLine& line, BoundSettings& bound, const Strea
     load_settings(line, bound, streams);
     return SessionInput(line.log);
   }
-  const auto recording = std::make_shared<const SessionRecording>(read_session_file(line.resume));
-  warn_of_lost_end(*recording, streams);
-  load_recorded_settings(line, line.resume, recording->facts, bound, streams);
-  const auto kept = kept_settings(bound.table);
-  load_settings(line, bound, streams);
-  require_kept(kept, bound.table, line.resume);
-  return SessionInput(recording, line.log);
+  return SessionInput(read_resumed(line, bound, streams), line.log);
 }
 
 void print_result(const MappingSession& session, const RunSummary& summary, const OutputFolder& folder,
@@ -104,6 +99,17 @@ void load_recorded_settings(const CommandLine& line, const std::string& file, co
     streams.err << "psi-slam: " << *other << '\n';
 }
 
+std::shared_ptr<const SessionRecording> read_resumed(const CommandLine& line, BoundSettings& bound,
+                                                     const Streams& streams) {
+  auto recording = std::make_shared<const SessionRecording>(read_session_file(line.resume));
+  warn_of_lost_end(*recording, streams);
+  load_recorded_settings(line, line.resume, recording->facts, bound, streams);
+  const auto kept = kept_settings(bound.table);
+  load_settings(line, bound, streams);
+  require_kept(kept, bound.table, line.resume);
+  return recording;
+}
+
 void calibrate(SessionInput& input, const Settings& settings, const CommandLine& line,
                const InterruptSignals& signals, const Streams& streams) {
   check(settings);
@@ -119,12 +125,17 @@ void calibrate(SessionInput& input, const Settings& settings, const CommandLine&
 void watch(MappingSession& session, const InterruptSignals& signals, const CommandLine& line,
            const Streams& streams, std::optional<ProgressLine>& progress_line) {
   if (streams.err_is_terminal && !line.quiet) progress_line.emplace(streams.err);
-  session.set_observer([&, reported = false](const SessionProgress& progress) mutable {
+  const auto print = [&](const std::string& sentence) {
+    if (progress_line) progress_line->clear();
+    streams.err << "psi-slam: " << sentence << '\n';
+  };
+  session.set_observer([&, print, reported = false,
+                        journal = FailureNotice("the journal")](const SessionProgress& progress) mutable {
     if (!reported && progress.phase == SessionProgress::Phase::kFinalSearch && signals.came()) {
       reported = true;
-      if (progress_line) progress_line->clear();
-      streams.err << "psi-slam: " << interrupted_text(progress.scans) << '\n';
+      print(interrupted_text(progress.scans));
     }
+    if (const auto news = journal.news(session.journal_failure())) print(*news);
     if (progress_line) progress_line->show(progress);
   });
 }
@@ -153,9 +164,9 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   if (const auto coarser = coarser_cells_text(summary.map)) warn(*coarser);
   if (const auto unmatched = unmatched_scans_text(session.result())) warn(*unmatched);
   for (const std::string& interruption : interruption_texts(session.result())) warn(interruption);
+  if (const auto doubtful = doubtful_map_text(summary)) warn(*doubtful);
   for (const std::string& warning : session.warnings_of_logs_before()) warn(warning);
   if (session.broken_off()) warn(broken_off_text(*session.broken_off(), session.result().frames.size()));
-  if (const auto why = session.journal_failure()) warn("the journal is incomplete: " + *why);
   if (failure) std::rethrow_exception(failure);
   session.remove_journal();
   return session.breaks_off() ? kExitWrongUsageOrInput : kExitDone;

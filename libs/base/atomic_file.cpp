@@ -16,6 +16,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/descriptor.h"
 #include "base/text_parts.h"
 #include "psi_slam/user_error.h"
 
@@ -65,11 +66,10 @@ bool is_old(const fs::path& path) {
 // Waits until the disk holds a file or the entries of a folder, so that a power failure cannot undo what was
 // reported as written. `path` is named in the exception.
 void wait_for_disk(const fs::path& written, const fs::path& path) {
-  const int descriptor = ::open(written.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return;  // the folder may be writable but not readable
-  const int failed = ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
-  ::close(descriptor);
-  if (failed != 0) throw cannot_write(path, std::strerror(failed));
+  const Descriptor descriptor(::open(written.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!descriptor.is_open()) return;  // the folder may be writable but not readable
+  if (::fsync(descriptor.number()) != 0 && errno != EINVAL && errno != EROFS)
+    throw cannot_write(path, std::strerror(errno));
 }
 
 // The folder that holds the entry of a file.

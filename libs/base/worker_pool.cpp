@@ -6,9 +6,13 @@
 
 namespace psi_slam {
 
-WorkerPool::WorkerPool(int threads) {
+WorkerPool::WorkerPool(int threads, ThreadPriority priority) {
   try {
-    for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
+    for (int i = 1; i < threads; ++i)
+      workers_.emplace_back([this, priority] {
+        set_priority_of_this_thread(priority);
+        work();
+      });
   } catch (const std::system_error&) {
     // The system provides no further threads; the existing ones do all the work.
   }

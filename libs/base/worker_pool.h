@@ -10,12 +10,15 @@
 #include <thread>
 #include <vector>
 
+#include "base/thread_priority.h"
+
 namespace psi_slam {
 
 class WorkerPool {
  public:
   /// `threads` includes the thread that calls run(), so 1 starts no other thread. Values below 1 count as 1.
-  explicit WorkerPool(int threads);
+  /// `priority` is that of the other threads.
+  explicit WorkerPool(int threads, ThreadPriority priority = ThreadPriority::kNormal);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;

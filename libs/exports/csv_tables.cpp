@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "base/number_text.h"
+#include "pose_graph/shared_errors.h"
 
 namespace psi_slam {
 namespace {
@@ -14,6 +15,9 @@ constexpr const char* kFramesHeader =
     "map_x_m,map_y_m,map_theta_rad,node,response,window_x_m,window_y_m,window_theta_rad,"
     "psi,eta,mean_loops,loops_tried,loops_accepted,matcher,loop_evaluations,evaluations,front_end_ms,"
     "loop_matching_ms,loop_closing_ms,pose_graph_ms,matched,searched_loops";
+constexpr const char* kTrajectoryHeader =
+    "time_s,x_m,y_m,theta_rad,cov_xx_m2,cov_xy_m2,cov_xtheta_m_rad,cov_yy_m2,cov_ytheta_m_rad,"
+    "cov_thetatheta_rad2\n";
 constexpr const char* kLoopsHeader =
     "frame,node,local_map,anchor,verdict,reason,matcher,in_last_pass,by_hand,x_m,y_m,theta_rad,std_x_m,"
     "std_y_m,std_theta_rad,window_x_m,window_y_m,window_theta_rad,response,ambiguity,observed_share,"
@@ -84,6 +88,24 @@ std::string frames_csv(const std::vector<FrameRecord>& frames) {
   std::string text = frames_header();
   text.reserve(text.size() + frames.size() * 220);
   for (std::size_t i = 0; i < frames.size(); ++i) text += frame_row(i, frames[i]);
+  return text;
+}
+
+std::string trajectory_csv(const MappingResult& result) {
+  const std::vector<Eigen::Matrix3d> covariances = pose_covariances(result.graph);
+  std::string text = kTrajectoryHeader;
+  text.reserve(text.size() + result.frames.size() * 130);
+  std::size_t node = 0;
+  for (std::size_t i = 0; i < result.frames.size(); ++i) {
+    while (node + 1 < result.node_frames.size() && result.node_frames[node + 1] <= i) ++node;
+    const Eigen::Matrix3d covariance =
+        covariances.empty() ? Eigen::Matrix3d(Eigen::Matrix3d::Zero()) : covariances[node];
+    text += format_seconds(result.frames[i].time_us) + values(result.frames[i].map_T_robot) +
+            values({covariance(0, 0), covariance(0, 1), covariance(0, 2), covariance(1, 1), covariance(1, 2),
+                    covariance(2, 2)},
+                   10) +
+            '\n';
+  }
   return text;
 }
 

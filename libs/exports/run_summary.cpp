@@ -191,6 +191,38 @@ Json interruptions_json(const std::vector<Interruption>& interruptions) {
   return list;
 }
 
+Json suspect_json(const Suspect& suspect) {
+  Json json = {{"text", text_of(suspect)},
+               {"first_scan", suspect.first_frame},
+               {"last_scan", suspect.last_frame},
+               {"x_m", number(suspect.at.x, 3)},
+               {"y_m", number(suspect.at.y, 3)}};
+  if (suspect.kind == Suspect::Kind::kLoop) {
+    json["loop"] = suspect.loop;
+    json["local_map"] = suspect.local_map;
+  }
+  return json;
+}
+
+Json verdict_json(const MapVerdict& verdict) {
+  Json spots = Json::array();
+  for (const HotSpot& spot : verdict.hot_spots)
+    spots.push_back({{"kind", text_of(spot.kind)},
+                     {"x_m", number(spot.at.x, 3)},
+                     {"y_m", number(spot.at.y, 3)},
+                     {"error_m", number(spot.error_m, 3)},
+                     {"length_m", number(spot.length_m, 3)},
+                     {"suspect", suspect_json(spot.suspect)},
+                     {"advice", advice_text(spot)}});
+  return {{"state", text_of(verdict.state)},
+          {"sentence", verdict_sentence(verdict)},
+          {"error_m", number(verdict.error_m, 4)},
+          {"predicted_m", number(verdict.predicted_m, 4)},
+          {"wall_thickness_m", number(verdict.wall_thickness_m, 4)},
+          {"checked_share", number(verdict.checked_share, 4)},
+          {"hot_spots", std::move(spots)}};
+}
+
 Json stages_json(const std::vector<StageTiming>& stages) {
   Json list = Json::array();
   for (const StageTiming& stage : stages)
@@ -300,6 +332,7 @@ std::string summary_json(const MappingResult& result, const RunInfo& info, const
                {"mean_response", number(summary.mean_response, 4)},
                {"unmatched_scans", unmatched_json(summary.unmatched)},
                {"interruptions", interruptions_json(result.interruptions)},
+               {"verdict", summary.verdict ? verdict_json(*summary.verdict) : Json(nullptr)},
                {"evaluations", summary.evaluations},
                {"map", map_json(summary.map)},
                {"wall_s", number(summary.wall_s)},

@@ -16,6 +16,7 @@
 #include "psi_slam/mapping_result.h"
 #include "psi_slam/time_stamp.h"
 #include "rendering/map_drawing.h"
+#include "verdict/map_verdict.h"
 
 namespace psi_slam {
 
@@ -90,6 +91,7 @@ struct RunSummary {
   std::size_t local_maps = 0;
   LoopCounts loops;
   UnmatchedScans unmatched;
+  std::optional<MapVerdict> verdict;  ///< set by the caller; empty: the map was not judged
   double mean_response = 0;      ///< mean response of the matched frames
   std::int64_t evaluations = 0;  ///< number of poses scored, including the final search
   MapExtent map;

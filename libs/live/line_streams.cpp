@@ -15,9 +15,9 @@
 #include <string_view>
 #include <utility>
 
+#include "base/descriptor.h"
 #include "base/text_parts.h"
 #include "frames/log_format.h"
-#include "live/descriptor.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

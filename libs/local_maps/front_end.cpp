@@ -76,7 +76,13 @@ FrontEnd::FrontEnd(const FrontEndOptions& options)
       constant_velocity_(options.constant_velocity),
       doubtful_corrections_(options.doubtful_corrections) {}
 
-FrontEndStep FrontEnd::add(const Frame& frame, bool may_be_lost) {
+FrontEndStep FrontEnd::add(const Frame& frame) {
+  FrontEndStep step = track(frame);
+  draw(step, step.straightened ? *step.straightened : frame);
+  return step;
+}
+
+FrontEndStep FrontEnd::track(const Frame& frame, bool may_be_lost) {
   if (auto standing = step_of_standing_robot(frame)) return *std::move(standing);
   FrontEndStep step;
   const TPose2D during_sweep = straighten_by_prediction(frame, step);
@@ -100,8 +106,7 @@ FrontEndStep FrontEnd::add(const Frame& frame, bool may_be_lost) {
   const double travel_m = motion.measured ? motion.length_m : std::max(motion.length_m, motion.sigma_m);
   unmatched_travel_m_ = step.matched ? 0 : unmatched_travel_m_ + travel_m;
   propagate_covariances(step, motion);
-  if (active_.empty() || moved_enough(step.local_T_robot))
-    insert(step, step.straightened ? *step.straightened : frame);
+  if (active_.empty() || moved_enough(step.local_T_robot)) step.node = next_node_++;
   last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}, frame.has_odometry};
   // A wrong prediction bends a scan about the middle of its sweep, where the match is therefore right. Speeds
   // from the poses at the beginnings of sweeps would amplify the errors of predictions.
@@ -463,17 +468,17 @@ void FrontEnd::end_local_maps(FrontEndStep& step, std::size_t count) {
   active_.erase(active_.begin(), end);
 }
 
-void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
-  const std::size_t node = next_node_++;
-  step.node = node;
+void FrontEnd::draw(FrontEndStep& step, const Frame& frame) {
+  if (!step.node) return;
+  const std::size_t node = *step.node;
   const double moved_m = node == 0 ? 0 : length_m(step.local_T_robot - last_node_local_T_robot_);
   last_node_local_T_robot_ = step.local_T_robot;
 
   for (const PlacedLocalMap& active : active_)
     step.memberships.push_back(
         {active.id, active.anchor, step.local_T_robot - active.local_T_map, active.covariance});
-  // misses_ does not count this scan yet. A match would have set the travel to 0, so this scan is unmatched.
-  const bool strays = unmatched_travel_m_ >= options_.max_unmatched_travel_m && misses_ > 0;
+  // A match would have set the travel to 0, so this scan is unmatched.
+  const bool strays = unmatched_travel_m_ >= options_.max_unmatched_travel_m && misses_ > 1;
   const bool leaves = unmatched_travel_m_ >= options_.local_map_travel_m;
   if (strays || leaves) {
     end_local_maps(step, active_.size());
@@ -499,6 +504,7 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
     begin_local_map(node, step.local_T_robot);
     active_.back().map->insert(drawing_beams(frame, TPose2D(0, 0, 0), drawing));
   }
+  active_.front().map->scores();  // updated now, so that the match of the next scan need not wait for it
 }
 
 void FrontEnd::begin_run() {

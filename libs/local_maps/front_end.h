@@ -141,10 +141,19 @@ class FrontEnd {
  public:
   explicit FrontEnd(const FrontEndOptions& options);
 
-  /// Predicts, matches and inserts one scan. If the robot has stood still for long, only checks that the scan
+  /// Tracks the robot to one scan and draws the scan: track() and draw().
+  FrontEndStep add(const Frame& frame);
+
+  /// Predicts and matches one scan. If the robot has stood still for long, only checks that the scan
   /// fits; a frame whose ranges were discarded fits. If `may_be_lost` is true, an interruption that nothing
-  /// explains sets FrontEndStep::lost. Then call finish() and begin_run(), and add the scan again.
-  FrontEndStep add(const Frame& frame, bool may_be_lost = false);
+  /// explains sets FrontEndStep::lost. Then call finish() and begin_run(), and track the scan again.
+  /// Otherwise call draw() before the next scan.
+  FrontEndStep track(const Frame& frame, bool may_be_lost = false);
+
+  /// Draws the scan of a new node into the active local maps, and sets the memberships and finished maps of
+  /// the step. Does nothing if the scan became no node. `frame` is FrontEndStep::straightened if that is not
+  /// empty. The pose does not need this, so it can be given before.
+  void draw(FrontEndStep& step, const Frame& frame);
 
   /// Ends the local maps that are still active and returns them, older first.
   std::vector<PlacedLocalMap> finish();
@@ -216,7 +225,6 @@ class FrontEnd {
   void propagate_covariances(const FrontEndStep& step, const Motion& motion);
   void end_local_maps(FrontEndStep& step, std::size_t count);
   bool moved_enough(const mrpt::math::TPose2D& local_T_robot) const;
-  void insert(FrontEndStep& step, const Frame& frame);
   void begin_local_map(std::size_t node, const mrpt::math::TPose2D& local_T_robot);
 
   FrontEndOptions options_;

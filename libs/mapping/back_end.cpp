@@ -15,7 +15,7 @@ BackEnd::BackEnd(const BackEndOptions& options)
       closer_(options.loop_closure, options.seed),
       consensus_(options.loop_consensus),
       ledger_({options.loop_sigma_m, options.loop_sigma_rad}),
-      pool_(options.threads) {}
+      pool_(options.threads, options.priority) {}
 
 NodeLoops BackEnd::close(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph) {
   NodeLoops loops;

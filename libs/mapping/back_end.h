@@ -42,6 +42,9 @@ struct BackEndOptions {
   double max_loop_chi = 5.0;  ///< residual in standard deviations above which a loop is switched off
   std::uint64_t seed = 1;     ///< seed of all random numbers
   int threads = 1;            ///< number of threads for matching, without effect on the results
+  /// Priority of the threads of the back end. If it is low, the front end answers first on a shared
+  /// processor.
+  ThreadPriority priority = ThreadPriority::kNormal;
 };
 
 /// Result of a node's search for loops.

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapping/back_end_thread.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <system_error>
 #include <utility>
 
 namespace psi_slam {
 
-BackEndThread::BackEndThread(GraphBuilder& builder, bool own_thread, bool yields) : builder_(builder) {
+BackEndThread::BackEndThread(GraphBuilder& builder, bool own_thread, ThreadPriority priority)
+    : builder_(builder) {
   if (!own_thread) return;
   try {
-    thread_ = std::thread([this, yields] { work(yields); });
+    thread_ = std::thread([this, priority] {
+      set_priority_of_this_thread(priority);
+      work();
+    });
   } catch (const std::system_error&) {
     // The results are the same without the thread.
   }
@@ -53,12 +54,7 @@ BackEndStep BackEndThread::take() {
   return step;
 }
 
-void BackEndThread::work(bool yields) {
-  // A larger difference would let other programs of the robot stop the thread for which the front end waits.
-  constexpr int kYieldedNiceness = 2;
-  // On Linux, this affects one thread only. The threads that match loops keep their priority.
-  const auto thread = static_cast<id_t>(gettid());
-  if (yields) setpriority(PRIO_PROCESS, thread, getpriority(PRIO_PROCESS, thread) + kYieldedNiceness);
+void BackEndThread::work() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!failure_) {
     changed_.wait(lock, [&] { return stop_ || !waiting_.empty(); });

@@ -10,15 +10,16 @@
 #include <mutex>
 #include <thread>
 
+#include "base/thread_priority.h"
 #include "mapping/graph_builder.h"
 
 namespace psi_slam {
 
 class BackEndThread {
  public:
-  /// Without `own_thread`, or if no thread can be started, hand_over() does the work itself. A thread that
-  /// `yields` has a lower priority than the others. `builder` must outlive this object.
-  BackEndThread(GraphBuilder& builder, bool own_thread, bool yields = false);
+  /// Without `own_thread`, or if no thread can be started, hand_over() does the work itself. `builder` must
+  /// outlive this object.
+  BackEndThread(GraphBuilder& builder, bool own_thread, ThreadPriority priority = ThreadPriority::kNormal);
   /// Ends the thread after the frame it works on. Later frames are dropped.
   ~BackEndThread();
   BackEndThread(const BackEndThread&) = delete;
@@ -29,6 +30,8 @@ class BackEndThread {
 
   /// Number of frames that were handed over and whose results were not taken.
   std::size_t in_work() const { return handed_over_ - taken_; }
+  /// Number of frames whose results were taken.
+  std::size_t taken() const { return taken_; }
   /// Whether take() would not have to wait.
   bool is_ready() const;
   /// Returns the result of the oldest frame in work, and waits for it if necessary. Throws what the builder
@@ -36,7 +39,7 @@ class BackEndThread {
   BackEndStep take();
 
  private:
-  void work(bool yields);
+  void work();
   void work_off(std::unique_lock<std::mutex>& lock);
 
   GraphBuilder& builder_;

@@ -27,7 +27,7 @@ Mapper::Implementation::Implementation(const MapperOptions& options)
     : options_(options),
       front_end_(options.front_end),
       builder_(options),
-      back_end_(builder_, options.back_end_thread, options.back_end_yields) {
+      back_end_(builder_, options.back_end_thread, options.back_end.priority) {
   result_.psi = {options.back_end.psi.psi_1, options.back_end.psi.psi_2};
 }
 
@@ -38,11 +38,11 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
 
   bool has_map = !front_end_.active().empty();
   FrontEndStep step;
-  record.front_end_ms = front_end_clock_.time([&] { step = front_end_.add(frame, options_.close_loops); });
+  record.front_end_ms = tracking_clock_.time([&] { step = front_end_.track(frame, options_.close_loops); });
   if (step.lost) {
     begin_unplaced_run();
     has_map = false;
-    record.front_end_ms += front_end_clock_.time([&] { step = front_end_.add(frame); });
+    record.front_end_ms += tracking_clock_.time([&] { step = front_end_.track(frame); });
   }
   record.odom_T_robot = frame.has_odometry ? frame.odom_T_robot : step.local_T_robot;
   const double odometry_m = follow_odometry(record);
@@ -60,10 +60,13 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   thin_standstill(step);
   result_.frames.push_back(record);
   if (step.node) add_node(step);
+  // With a latency, the pose does not depend on this scan's own loops.
+  const bool is_early = options_.latency_nodes > 0;
+  if (is_early) give_pose();
+  draw(step);
   back_end_.hand_over({result_.frames.size() - 1, odometry_m, std::move(step)});
-  take_due_results();
-  FrameRecord& added = result_.frames.back();
-  added.map_T_robot = map_T_local_ + added.front_end_T_robot;
+  if (!is_early) give_pose();
+  const FrameRecord& added = result_.frames.back();
   if (added.node && !waiting_edits_.empty()) {
     wait();
     serve_waiting_edits();
@@ -72,11 +75,25 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   return added;
 }
 
-// Records the node and the finished local maps of a step.
+// Records the node of a step.
 void Mapper::Implementation::add_node(const FrontEndStep& step) {
   odom_T_start_.reset();
   result_.node_frames.push_back(result_.frames.size() - 1);
   map_T_node_.push_back(map_T_local_ + step.local_T_robot);
+}
+
+// Places the newest frame in the map and tells its pose.
+void Mapper::Implementation::give_pose() {
+  take_due_results();
+  FrameRecord& added = result_.frames.back();
+  added.map_T_robot = map_T_local_ + added.front_end_T_robot;
+  if (pose_observer_) pose_observer_(added);
+}
+
+// Draws the newest frame into the local maps, and records the local maps that it finished.
+void Mapper::Implementation::draw(FrontEndStep& step) {
+  result_.frames.back().front_end_ms +=
+      drawing_clock_.time([&] { front_end_.draw(step, result_.log.back()); });
   for (const PlacedLocalMap& finished : step.finished) record_local_map(finished);
 }
 
@@ -86,7 +103,7 @@ void Mapper::Implementation::take_due_results() {
   const std::vector<std::size_t>& nodes = result_.node_frames;
   const std::size_t latency = options_.latency_nodes;
   // Results that came early complete the records of earlier frames at once, so that they do not pile up.
-  while (latency > 0 && back_end_.in_work() > 1 && back_end_.is_ready()) complete_record(back_end_.take());
+  while (latency > 0 && back_end_.in_work() > 0 && back_end_.is_ready()) complete_record(back_end_.take());
   if (latency > 0 && (!result_.frames.back().node || nodes.size() <= latency)) return;
   const std::size_t due_nodes = nodes.size() - latency;
   take_results(latency == 0 ? result_.frames.size() : nodes[due_nodes - 1] + 1);
@@ -95,7 +112,7 @@ void Mapper::Implementation::take_due_results() {
 
 // Completes the records of the frames before `end`, and waits for their results if necessary.
 void Mapper::Implementation::take_results(std::size_t end) {
-  while (result_.frames.size() - back_end_.in_work() < end) {
+  while (back_end_.taken() < end) {
     waited_ = waited_ || !back_end_.is_ready();
     complete_record(back_end_.take());
   }
@@ -140,7 +157,7 @@ void Mapper::Implementation::apply_corrections(std::size_t end_node) {
 }
 
 void Mapper::Implementation::wait() {
-  take_results(result_.frames.size());
+  take_results(back_end_.taken() + back_end_.in_work());
 }
 
 // Waits for the back end and applies all its results, for a change by hand or a new run.
@@ -293,7 +310,7 @@ MappingResult Mapper::Implementation::finish(const std::function<bool(double)>& 
   result_.graph = builder_.graph();
   result_.loops = after == AfterFinish::kReopen ? loops() : builder_.take_loops();
   result_.stages = builder_.back_end().stages();
-  result_.stages.insert(result_.stages.begin(), front_end_clock_.timing());
+  result_.stages.insert(result_.stages.begin(), {tracking_clock_.timing(), drawing_clock_.timing()});
   return std::move(result_);
 }
 
@@ -307,6 +324,9 @@ Mapper::~Mapper() = default;
 Mapper::Mapper(Mapper&& other) noexcept = default;
 Mapper& Mapper::operator=(Mapper&& other) noexcept = default;
 
+void Mapper::set_pose_observer(PoseObserver observer) {
+  implementation_->set_pose_observer(std::move(observer));
+}
 const FrameRecord& Mapper::add(Frame frame) {
   return implementation_->add(std::move(frame));
 }

@@ -19,6 +19,7 @@ class Mapper::Implementation {
  public:
   explicit Implementation(const MapperOptions& options);
 
+  void set_pose_observer(PoseObserver observer) { pose_observer_ = std::move(observer); }
   const FrameRecord& add(Frame frame);
   void begin_run(const RunStart& start);
   LoopEditOutcome edit(const LoopEdit& edit);
@@ -57,6 +58,8 @@ class Mapper::Implementation {
   void straighten_last_scan(const Frame& next, const FrontEndStep& step);
   void thin_standstill(const FrontEndStep& step);
   void add_node(const FrontEndStep& step);
+  void draw(FrontEndStep& step);
+  void give_pose();
   void record_local_map(const PlacedLocalMap& finished);
   void take_due_results();
   void take_results(std::size_t end);
@@ -92,7 +95,9 @@ class Mapper::Implementation {
   std::optional<Frame> bent_last_;    ///< last frame before the motion during its sweep was removed
   std::deque<std::size_t> repeated_;  ///< scans that lose their ranges if the robot stands a little longer
   MappingResult result_;
-  StageClock front_end_clock_{"match and insert scan"};
+  PoseObserver pose_observer_;
+  StageClock tracking_clock_{"match scan"};
+  StageClock drawing_clock_{"draw scan"};
 };
 
 }  // namespace psi_slam

@@ -23,8 +23,6 @@ struct MapperOptions {
   std::size_t latency_nodes = 5;
   /// Whether loops are closed in a thread of their own, beside the front end. Has no effect on the results.
   bool back_end_thread = false;
-  /// Whether that thread has a lower priority, so that the front end answers first if both share a processor.
-  bool back_end_yields = false;
 };
 
 }  // namespace psi_slam

@@ -17,7 +17,7 @@
 #include "mapping/mapper_options.h"
 #include "mrpt/entry_frames.h"
 #include "observations/mrpt_objects.h"
-#include "pose_graph/marginal_covariance.h"
+#include "pose_graph/shared_errors.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/user_error.h"
 #include "rendering/live_grid_map.h"
@@ -73,7 +73,6 @@ struct CMetricMapBuilderPsi::Implementation {
     graph_ = {};
     node_frames_.clear();
     node_observations_.clear();
-    marginals_ = {};
     newest_marginal_.reset();
     LiveGridOptions live;
     live.map = options_.map;
@@ -137,10 +136,7 @@ struct CMetricMapBuilderPsi::Implementation {
     const std::pair<std::size_t, std::size_t> state(graph().num_nodes(), graph().num_constraints());
     if (!newest_marginal_ || marginal_state_ != state) {
       newest_marginal_ = Eigen::Matrix3d::Zero();
-      if (state.first > 1) {
-        marginals_.update(graph());
-        newest_marginal_ = marginals_.marginal(state.first - 1);
-      }
+      if (state.first > 1) newest_marginal_ = pose_covariance(graph(), state.first - 1);
       marginal_state_ = state;
     }
     return *newest_marginal_;
@@ -227,7 +223,6 @@ struct CMetricMapBuilderPsi::Implementation {
   PoseGraph graph_;
   bool finished_ = false;
 
-  mutable MarginalCovariance marginals_;
   mutable std::optional<Eigen::Matrix3d> newest_marginal_;
   // Numbers of nodes and constraints when newest_marginal_ was computed.
   mutable std::pair<std::size_t, std::size_t> marginal_state_;

@@ -176,4 +176,35 @@ BlockCholesky::InverseColumns BlockCholesky::inverse_columns(std::size_t k) cons
   return result;
 }
 
+// With Z = A^-1, Z L = L^-T is upper triangular. Its columns give those of Z from the last to the first. The
+// rows of a column of L, except the first, are among those of the columns of L with these numbers. So all
+// blocks of Z that a column needs are known.
+std::vector<Matrix3d> BlockCholesky::inverse_diagonal_blocks() const {
+  std::vector<Matrix3d> diagonal(size());
+  std::vector<Matrix3d> below(blocks_.size());  // blocks of Z at the places of the blocks of L
+  for (std::size_t j = size(); j-- > 0;) {
+    const std::size_t begin = column_begin_[j];
+    const std::size_t end = column_begin_[j + 1];
+    for (std::size_t p = begin; p < end; ++p) below[p].setZero();
+    for (std::size_t q = begin; q < end; ++q) {
+      const std::uint32_t k = rows_[q];
+      below[q].noalias() -= diagonal[k] * blocks_[q];
+      std::size_t z = column_begin_[k];
+      for (std::size_t p = q + 1; p < end; ++p) {
+        while (rows_[z] != rows_[p]) ++z;
+        below[p].noalias() -= below[z] * blocks_[q];
+        below[q].noalias() -= below[z].transpose() * blocks_[p];
+      }
+    }
+    Matrix3d sum = inverse_diagonal_[j].transpose();
+    for (std::size_t p = begin; p < end; ++p) {
+      below[p] = Matrix3d(below[p] * inverse_diagonal_[j]);
+      sum.noalias() -= below[p].transpose() * blocks_[p];
+    }
+    const Matrix3d block = sum * inverse_diagonal_[j];
+    diagonal[j] = (block + block.transpose()) / 2;
+  }
+  return diagonal;
+}
+
 }  // namespace psi_slam

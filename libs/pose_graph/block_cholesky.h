@@ -60,6 +60,11 @@ class BlockCholesky {
   };
   InverseColumns inverse_columns(std::size_t k) const;
 
+  /// Diagonal blocks of the inverse of A + D, in the order of the block rows. Computes only the blocks of the
+  /// inverse where L has blocks (Takahashi, Fagan and Chen, "Formation of a sparse bus impedance matrix and
+  /// its application to short circuit study", PICA 1973), in about the time of a factorisation.
+  std::vector<Eigen::Matrix3d> inverse_diagonal_blocks() const;
+
   std::size_t size() const { return parent_.size(); }
   /// Number of block products of a factorisation. A better order of elimination needs fewer.
   std::size_t num_products() const { return num_products_; }

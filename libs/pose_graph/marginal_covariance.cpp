@@ -66,6 +66,18 @@ Eigen::Matrix3d MarginalCovariance::marginal(std::size_t node) const {
   return product(columns, columns);
 }
 
+std::vector<Eigen::Matrix3d> MarginalCovariance::marginals() const {
+  const std::vector<Eigen::Matrix3d> of_variables = equations_.factor().inverse_diagonal_blocks();
+  std::vector<Eigen::Matrix3d> covariances;
+  covariances.reserve(poses_.size());
+  for (std::size_t node = 0; node < poses_.size(); ++node) {
+    const std::uint32_t variable = equations_.variable_of(node);
+    covariances.push_back(variable == NormalEquations::kHeld ? Eigen::Matrix3d(Eigen::Matrix3d::Zero())
+                                                             : of_variables[variable]);
+  }
+  return covariances;
+}
+
 Matrix6d MarginalCovariance::joint(std::size_t a, std::size_t b) const {
   return joint_of(columns_of(a), columns_of(b));
 }

@@ -25,6 +25,9 @@ class MarginalCovariance {
   /// 3x3 covariance of the pose of a node, in the axes of the map. Zero for the root.
   Eigen::Matrix3d marginal(std::size_t node) const;
 
+  /// Returns marginal(node) for all nodes, in about the time of update().
+  std::vector<Eigen::Matrix3d> marginals() const;
+
   /// 6x6 covariance of the poses of nodes a and b, in the axes of the map.
   Eigen::Matrix<double, 6, 6> joint(std::size_t a, std::size_t b) const;
 

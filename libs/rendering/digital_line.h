@@ -38,9 +38,9 @@ inline CellBox cell_box(const mrpt::math::TBoundingBox& bounds, double resolutio
 }
 
 /// Steps along the longer axis of the line and computes the position across it at the middle of each step.
-/// Fixed-point arithmetic makes all machines choose the same cells.
+/// Fixed-point arithmetic makes all machines choose the same cells. `visit` returns how many steps to go on.
 template <class Visit>
-void walk_along(double along0, double across0, double along1, double across1, std::int64_t along_stride,
+void leap_along(double along0, double across0, double along1, double across1, std::int64_t along_stride,
                 std::int64_t across_stride, Visit visit) {
   constexpr int kFractionBits = 32;
   constexpr double kOne = 4294967296.0;
@@ -51,22 +51,34 @@ void walk_along(double along0, double across0, double along1, double across1, st
   const std::int64_t across_step = std::llround(slope * static_cast<double>(step) * kOne);
   std::int64_t across = std::llround((across0 + (static_cast<double>(first) + 0.5 - along0) * slope) * kOne);
   std::int64_t index = first * along_stride;
-  for (std::int64_t i = std::abs(last - first); i > 0; --i) {
-    visit(index + (across >> kFractionBits) * across_stride);
-    index += step * along_stride;
-    across += across_step;
+  for (std::int64_t i = std::abs(last - first); i > 0;) {
+    const std::int64_t steps = visit(index + (across >> kFractionBits) * across_stride);
+    i -= steps;
+    index += steps * step * along_stride;
+    across += steps * across_step;
   }
 }
 
-/// Calls `visit` with the index of each cell of the digital line from `start` to `end`, except the cell of
-/// `end`. Both points are in cells and not negative. Rows are `stride` cells apart; index 0 is cell (0, 0).
+/// Calls `visit` with the index of cells of the digital line from `start` to `end`, except the cell of `end`.
+/// `visit` returns how many cells to go on along the line, at least 1. Both points are in cells and not
+/// negative. Rows are `stride` cells apart; index 0 is cell (0, 0).
+template <class Visit>
+void leap_line(const mrpt::math::TPoint2D& start, const mrpt::math::TPoint2D& end, std::int64_t stride,
+               Visit visit) {
+  if (std::abs(end.x - start.x) >= std::abs(end.y - start.y))
+    leap_along(start.x, start.y, end.x, end.y, 1, stride, visit);
+  else
+    leap_along(start.y, start.x, end.y, end.x, stride, 1, visit);
+}
+
+/// Calls `visit` with the index of each cell that leap_line() can reach.
 template <class Visit>
 void walk_line(const mrpt::math::TPoint2D& start, const mrpt::math::TPoint2D& end, std::int64_t stride,
                Visit visit) {
-  if (std::abs(end.x - start.x) >= std::abs(end.y - start.y))
-    walk_along(start.x, start.y, end.x, end.y, 1, stride, visit);
-  else
-    walk_along(start.y, start.x, end.y, end.x, stride, 1, visit);
+  leap_line(start, end, stride, [&](std::int64_t index) {
+    visit(index);
+    return std::int64_t{1};
+  });
 }
 
 }  // namespace psi_slam

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace psi_slam {
 namespace {
@@ -53,6 +54,9 @@ void check_drawable(const GridMapOptions& options) {
     throw std::invalid_argument(
         "draw_grid_map: resolution_m and max_range_m must be positive, no_return_clears_m and margin_m must "
         "not be negative");
+  if (options.min_beams < 1 || options.min_beams > 3)
+    throw std::invalid_argument("draw_grid_map: min_beams is " + std::to_string(options.min_beams) +
+                                ", expected 1 to 3");
 }
 
 }  // namespace psi_slam

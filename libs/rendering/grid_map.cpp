@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "rendering/digital_line.h"
 #include "rendering/grid_layout.h"
+#include "rendering/moving_things.h"
 #include "rendering/scan_rays.h"
 #include "rendering/standing_views.h"
 
@@ -37,18 +37,23 @@ TBoundingBox bounds_of_log(const std::vector<Frame>& log, const std::vector<TPos
   return bounds;
 }
 
+/// A beam counts as this many beams if a neighbouring beam of its scan supports it.
+constexpr unsigned kSupportedBeams = 2;
+constexpr unsigned kMostBeams = 3;
+
 /// Evidence of all scans for each cell. Hits add to it, passes subtract from it. Beams without return add no
 /// evidence; they only clear cells that have no other evidence.
 class Evidence {
  public:
   Evidence(const GridLayout& layout, const GridMapOptions& options)
       : layout_(layout),
+        min_beams_(static_cast<unsigned>(options.min_beams)),
         maker_(options),
         cells_(static_cast<std::size_t>(layout.width * layout.height)),
         cleared_(cells_.size()) {}
 
   /// Adds the evidence of one frame. All lasers of the frame together count once per cell. Hits take
-  /// precedence over passes.
+  /// precedence over passes, and beams that a neighbour supports over others.
   void add(const Frame& frame, const TPose2D& map_T_robot) {
     const std::vector<const Fan*>& fans = maker_.fans(frame, map_T_robot);
     const CellBox box = cell_box(bounds_of(fans), layout_.resolution_m);
@@ -58,16 +63,18 @@ class Evidence {
       for (const Ray& ray : fan->rays) {
         const TPoint2D end = box.in_cells(ray.end);
         const std::int64_t row = static_cast<std::int64_t>(end.y) * layout_.width;
-        if (ray.hit) count(corner + row + static_cast<std::int64_t>(end.x), kHitEvidence);
+        if (ray.hit)
+          count(corner + row + static_cast<std::int64_t>(end.x), kHitEvidence,
+                ray.alone_from < 1 ? 1 : kSupportedBeams);
       }
     for (const Fan* fan : fans)
       for (const Ray& ray : fan->rays)
-        walk_line(box.in_cells(fan->start), box.in_cells(ray.end), layout_.width, [&](std::int64_t index) {
-          if (ray.returned)
-            count(corner + index, kPassEvidence);
-          else
-            cleared_[static_cast<std::size_t>(corner + index)] = true;
-        });
+        pass(corner, box.in_cells(fan->start), box.in_cells(alone_point(*fan, ray)), ray.returned,
+             kSupportedBeams);
+    for (const Fan* fan : fans)
+      for (const Ray& ray : fan->rays)
+        if (ray.alone_from < 1 && ray.returned)
+          pass(corner, box.in_cells(alone_point(*fan, ray)), box.in_cells(ray.end), true, 1);
   }
 
   COccupancyGridMap2D::Ptr grid() const {
@@ -76,9 +83,8 @@ class Evidence {
       auto* row = grid->getRow(static_cast<int>(y));
       for (std::int64_t x = 0; x < layout_.width; ++x) {
         const auto index = static_cast<std::size_t>(y * layout_.width + x);
-        int evidence = cells_[index].evidence;
-        if (cells_[index].last_scan == 0 && cleared_[index]) evidence = kPassEvidence;
-        row[x] = cell_value(evidence);
+        const bool is_cleared = cells_[index].last_scan == 0 && cleared_[index];
+        row[x] = cell_value(is_cleared ? kPassEvidence : enough_beams(x, y) ? cells_[index].evidence : 0);
       }
     }
     return grid;
@@ -87,31 +93,92 @@ class Evidence {
  private:
   struct Cell {
     std::int16_t evidence = 0;
-    std::uint16_t last_scan = 0;  ///< number of the last frame that counted in this cell; 0 if none did
+    std::uint16_t last_scan : 12;  ///< number of the last frame that counted in this cell; 0 if none did
+    std::uint16_t beams : 2;       ///< number of beams that ended in the cell or crossed it, at most 3
+    std::uint16_t hit_beams : 2;   ///< number of beams that ended in the cell, at most 3
+
+    Cell() : last_scan(0), beams(0), hit_beams(0) {}
   };
+  static constexpr std::uint16_t kLastScan = (1U << 12U) - 1;
 
   void next_scan() {
-    if (scan_ == std::numeric_limits<std::uint16_t>::max()) {
+    if (scan_ == kLastScan) {
       for (Cell& cell : cells_) cell.last_scan = cell.last_scan == 0 ? 0 : 1;
       scan_ = 1;
     }
     ++scan_;
   }
 
-  void count(std::int64_t index, int evidence) {
+  /// Point on a ray from which on it has no support.
+  static TPoint2D alone_point(const Fan& fan, const Ray& ray) {
+    return ray.alone_from < 1 ? fan.start + (ray.end - fan.start) * ray.alone_from : ray.end;
+  }
+
+  /// Counts a beam in all cells from `start` to `end`, except the cell of `end`.
+  void pass(std::int64_t corner, const TPoint2D& start, const TPoint2D& end, bool returned, unsigned beams) {
+    walk_line(start, end, layout_.width, [&](std::int64_t index) {
+      if (returned)
+        count(corner + index, kPassEvidence, beams);
+      else
+        cleared_[static_cast<std::size_t>(corner + index)] = true;
+    });
+  }
+
+  void count(std::int64_t index, int evidence, unsigned beams) {
     Cell& cell = cells_[static_cast<std::size_t>(index)];
     if (cell.last_scan == scan_) return;
-    cell.last_scan = scan_;
+    cell.last_scan = scan_ & kLastScan;
+    cell.beams = std::min(kMostBeams, cell.beams + beams) & kMostBeams;
+    if (evidence > 0) cell.hit_beams = std::min(kMostBeams, cell.hit_beams + beams) & kMostBeams;
     cell.evidence =
         static_cast<std::int16_t>(std::clamp(cell.evidence + evidence, -kMaxEvidence, kMaxEvidence));
   }
 
+  /// Whether enough beams saw what a cell shows. An obstacle counts the beams that ended in the eight cells
+  /// around it, too. The map has a margin of two cells, so they are within it.
+  bool enough_beams(std::int64_t x, std::int64_t y) const {
+    const std::int64_t index = y * layout_.width + x;
+    const Cell& cell = cells_[static_cast<std::size_t>(index)];
+    if (cell.evidence <= 0) return cell.beams >= min_beams_;
+    unsigned beams = 0;
+    for (const std::int64_t row : {index - layout_.width, index, index + layout_.width})
+      for (const std::int64_t around : {row - 1, row, row + 1})
+        beams += cells_[static_cast<std::size_t>(around)].hit_beams;
+    return beams >= min_beams_;
+  }
+
   GridLayout layout_;
+  unsigned min_beams_;
   RayMaker maker_;
   std::vector<Cell> cells_;
   std::vector<bool> cleared_;  // whether a beam without return passed the cell
   std::uint16_t scan_ = 0;
 };
+
+/// Calls `draw(frame, map_T_robot)` for each frame to draw, with at most 64 for a long standstill.
+template <class Draw>
+void for_each_drawn_frame(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
+                          const Draw& draw) {
+  std::size_t next = 0;
+  const auto draw_until = [&](std::size_t end) {
+    for (; next < end; ++next) draw(log[next], map_T_robot[next]);
+  };
+  for (const StandingSpan& span : standing_spans(log, map_T_robot)) {
+    draw_until(span.begin);
+    for (const StandingView& view : standing_views(log, span)) draw(view.frame, map_T_robot[view.index]);
+    next = span.end;
+  }
+  draw_until(log.size());
+}
+
+COccupancyGridMap2D::Ptr draw_everything(const std::vector<Frame>& log,
+                                         const std::vector<TPose2D>& map_T_robot, const GridLayout& layout,
+                                         const GridMapOptions& options) {
+  Evidence evidence(layout, options);
+  for_each_drawn_frame(log, map_T_robot,
+                       [&](const Frame& frame, const TPose2D& pose) { evidence.add(frame, pose); });
+  return evidence.grid();
+}
 
 }  // namespace
 
@@ -121,19 +188,14 @@ COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log, const std:
     throw std::invalid_argument("draw_grid_map: " + std::to_string(log.size()) + " scans but " +
                                 std::to_string(map_T_robot.size()) + " poses");
   check_drawable(options);
-  Evidence evidence(layout_for(bounds_of_log(log, map_T_robot, options), options), options);
-  std::size_t next = 0;
-  const auto draw_until = [&](std::size_t end) {
-    for (; next < end; ++next) evidence.add(log[next], map_T_robot[next]);
-  };
-  for (const StandingSpan& span : standing_spans(log, map_T_robot)) {
-    draw_until(span.begin);
-    for (const StandingView& view : standing_views(log, span))
-      evidence.add(view.frame, map_T_robot[view.index]);
-    next = span.end;
-  }
-  draw_until(log.size());
-  return evidence.grid();
+  const GridLayout layout = layout_for(bounds_of_log(log, map_T_robot, options), options);
+  const auto grid = draw_everything(log, map_T_robot, layout, options);
+  if (options.keep_moving) return grid;
+  MovingThings moving(*grid, layout, options);
+  for_each_drawn_frame(log, map_T_robot,
+                       [&](const Frame& frame, const TPose2D& pose) { moving.add(frame, pose); });
+  moving.remove_from(*grid);
+  return grid;
 }
 
 }  // namespace psi_slam

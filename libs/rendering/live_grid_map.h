@@ -3,9 +3,9 @@
 // for instance after a loop, instead of drawing the whole map. Each call does a bounded amount of work
 // besides the new scans, so a correction of the whole map is worked off over several calls.
 //
-// The map equals that of draw_grid_map() for the poses at which the scans are drawn, if the robot never
-// stands still for ten seconds and no cell counts 10,000 scans. Here every scan that has ranges counts once,
-// also in a standstill, and counts never saturate.
+// The map equals that of draw_grid_map() with keep_moving and min_beams = 1 for the poses at which the scans
+// are drawn, if the robot never stands still for ten seconds and no cell counts 10,000 scans. Here every scan
+// that has ranges counts once, also in a standstill, and counts never saturate.
 #pragma once
 
 #include <mrpt/math/TBoundingBox.h>

@@ -13,6 +13,28 @@ using mrpt::math::TBoundingBox;
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
+namespace {
+
+constexpr double kLeastAlone_m = 0.2;
+constexpr double kAloneSpacings = 4;
+
+/// Returns the share of a beam's length from which on it reaches farther than both neighbours, with a
+/// tolerance of 0.2 m and of four gaps between the beams at its end. So a surface that few beams hit supports
+/// its beams unless they graze it. A scan of one beam has no neighbours, and its beam counts as supported.
+double alone_from(const std::vector<double>& lengths_m, const std::vector<float>& bearings_rad,
+                  std::size_t beam) {
+  const std::size_t before = beam > 0 ? beam - 1 : beam + 1;
+  const std::size_t after = beam + 1 < lengths_m.size() ? beam + 1 : before;
+  if (before >= lengths_m.size()) return 1;
+  const double gap_rad = std::abs(static_cast<double>(bearings_rad[before] - bearings_rad[beam]));
+  const double length_m = lengths_m[beam];
+  const double supported_m =
+      std::max(lengths_m[before], lengths_m[after]) + kLeastAlone_m + kAloneSpacings * gap_rad * length_m;
+  return supported_m < length_m ? supported_m / length_m : 1;
+}
+
+}  // namespace
+
 const std::vector<const Fan*>& RayMaker::fans(const Frame& frame, const TPose2D& map_T_robot) {
   fans_.clear();
   for_each_scan(frame, map_T_robot, [&](const LaserScan& scan, const TPose2D& map_T_robot_then) {
@@ -44,15 +66,22 @@ void RayMaker::cast(const LaserScan& scan, const TPose2D& map_T_robot, Fan& fan)
   const double clear_m = std::min(options_.no_return_clears_m, static_cast<double>(scan.max_range_m));
   fan.start = {map_T_laser.x, map_T_laser.y};
   fan.rays.clear();
+  fan.lengths_m.resize(beams);
+  for (std::size_t i = 0; i < beams; ++i) {
+    const double range_m = static_cast<double>(scan.ranges_m[i]);
+    fan.lengths_m[i] =
+        std::isnan(range_m) ? 0 : std::min(std::isinf(range_m) ? clear_m : range_m, options_.max_range_m);
+  }
   for (std::size_t i = 0; i < beams; ++i) {
     const double range_m = static_cast<double>(scan.ranges_m[i]);
     if (std::isnan(range_m)) continue;
-    const double length = std::min(std::isinf(range_m) ? clear_m : range_m, options_.max_range_m);
+    const double length = fan.lengths_m[i];
     const TPoint2D& direction = fan.directions[i];
     fan.rays.push_back({{fan.start.x + length * (c * direction.x - s * direction.y),
                          fan.start.y + length * (s * direction.x + c * direction.y)},
                         range_m <= options_.max_range_m,
-                        std::isfinite(range_m)});
+                        std::isfinite(range_m),
+                        options_.min_beams > 1 ? alone_from(fan.lengths_m, *fan.bearings, i) : 1});
   }
 }
 

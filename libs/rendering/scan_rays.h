@@ -18,6 +18,9 @@ struct Ray {
   mrpt::math::TPoint2D end;
   bool hit = false;       // an obstacle is at the end point
   bool returned = false;  // if false, the beam may have crossed glass or met a black surface
+  /// Share of the ray's length from which on no neighbouring beam of the scan supports it: both end nearer.
+  /// 1: a neighbour ended as far away.
+  double alone_from = 1;
 };
 
 /// The rays of one scan. They all start at its laser.
@@ -26,6 +29,7 @@ struct Fan {
   std::vector<Ray> rays;
   BeamBearings bearings;                         // beam bearings of the laser's last scan
   std::vector<mrpt::math::TPoint2D> directions;  // unit vectors of the beams in the laser's frame
+  std::vector<double> lengths_m;                 // of the beams as drawn; 0 for an invalid reading
 };
 
 /// Turns scans into rays in the map's frame. Keeps the directions of each laser's beams from scan to scan.

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "session/read_ahead.h"
-
 namespace psi_slam {
 namespace {
 
@@ -52,17 +50,19 @@ class LiveFeed::Source : public FrameSource {
   std::vector<std::string> assumptions_;
 };
 
-LiveStream live_stream(const LiveInput& input) {
-  return {name_of(input), [input](const LogOptions& options, const LiveControl& control) {
+LiveStream live_stream(const LiveInput& input, std::filesystem::path journal) {
+  return {name_of(input),
+          [input](const LogOptions& options, const LiveControl& control) {
             return open_live(input, options, control);
-          }};
+          },
+          std::move(journal)};
 }
 
 SessionInput LiveFeed::input(const std::shared_ptr<LiveFeed>& feed) {
   return SessionInput(feed->stream_.name, [feed](const LogOptions& options) {
     const LiveControl control{[feed] { return feed->should_stop_.load(); },
                               [feed](const std::string& notice) { feed->note(notice); }};
-    return std::make_unique<ReadAhead>(std::make_unique<Source>(feed, feed->stream_.open(options, control)));
+    return std::make_unique<Source>(feed, feed->stream_.open(options, control));
   });
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -21,9 +22,11 @@ struct LiveStream {
   std::string name;  ///< names the log in reports
   /// Opens the source, as open_live() does.
   std::function<std::unique_ptr<FrameSource>(const LogOptions&, const LiveControl&)> open;
+  /// File that records the scans for the case of a crash, see MappingSession::start_journal(); empty: none.
+  std::filesystem::path journal{};
 };
 
-LiveStream live_stream(const LiveInput& input);
+LiveStream live_stream(const LiveInput& input, std::filesystem::path journal = {});
 
 /// How the mapping follows a live source.
 struct LiveFigures {
@@ -37,8 +40,8 @@ struct LiveFigures {
   std::string notice;                ///< the last notice, such as "listening on 127.0.0.1:5000"
 };
 
-/// Receives the frames of a live source in a thread of its own, and measures how the mapping follows them.
-/// Any thread may call any function.
+/// Frames of a live source for a session, which receives them in a thread of its own (see open_input()).
+/// Measures how the mapping follows them. Any thread may call any function.
 class LiveFeed {
  public:
   explicit LiveFeed(LiveStream stream) : stream_(std::move(stream)) {}
@@ -61,6 +64,8 @@ class LiveFeed {
   void note_pose(std::size_t missed_deadlines);
 
   LiveFigures figures() const;
+  /// See LiveStream::journal.
+  const std::filesystem::path& journal() const { return stream_.journal; }
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <new>
 
+#include "base/scope_exit.h"
 #include "replay/snapshot_maker.h"
 #include "report/output_folder.h"
 
@@ -30,26 +31,6 @@ std::string failure_of(const Action& action, const char* out_of_memory) {
   return {};
 }
 
-Settings settings_of_live_run(Settings settings) {
-  settings.mapper.back_end_thread = true;
-  return settings;
-}
-
-/// Lets a live source end before the session is destroyed, which waits for it.
-class EndOfFeed {
- public:
-  /// `feed` may be null.
-  explicit EndOfFeed(LiveFeed* feed) : feed_(feed) {}
-  ~EndOfFeed() {
-    if (feed_ != nullptr) feed_->end();
-  }
-  EndOfFeed(const EndOfFeed&) = delete;
-  EndOfFeed& operator=(const EndOfFeed&) = delete;
-
- private:
-  LiveFeed* feed_;
-};
-
 }  // namespace
 
 Replay::Replay(const std::filesystem::path& log, const Settings& settings, EditJournal edits)
@@ -61,7 +42,7 @@ Replay::Replay(LiveStream stream, const Settings& settings)
     : Replay(std::make_shared<LiveFeed>(std::move(stream)), settings) {}
 
 Replay::Replay(const std::shared_ptr<LiveFeed>& live, const Settings& settings)
-    : Replay(LiveFeed::input(live), settings_of_live_run(settings), live) {}
+    : Replay(LiveFeed::input(live), settings, live) {}
 
 Replay::Replay(SessionInput input, const Settings& settings, std::shared_ptr<LiveFeed> live)
     : input_(std::move(input)),
@@ -97,17 +78,40 @@ std::shared_ptr<const ReplaySnapshot> Replay::snapshot() const {
 void Replay::run() noexcept {
   maker_->now.failure = failure_of(
       [&] { work(); }, "Out of memory: the run has stopped. Close other programs or map a shorter log.");
-  if (!maker_->now.failure.empty()) phase_ = ReplayPhase::kFailed;
+  if (!maker_->now.failure.empty()) {
+    phase_ = ReplayPhase::kFailed;
+    if (is_recorded_)
+      maker_->now.failure += std::string(maker_->now.failure.back() == '.' ? "" : ".") +
+                             " The scans so far are recorded in " + live_->journal().string() +
+                             ". Open this file to map them again.";
+  }
   refuse_requests();
 }
 
 void Replay::work() {
   if (live_) live_->set_observer([this] { change([] {}); });
   MappingSession session(input_, settings_);
-  const EndOfFeed end_of_feed(live_.get());
+  const ScopeExit end_feed([this] {  // the session waits for it when it is destroyed
+    if (live_) live_->end();
+  });
   session.set_observer([&](const SessionProgress& progress) { observe(progress); });
+  if (live_)
+    session.set_pose_observer(
+        [&](const FrameRecord&) { live_->note_pose(session.mapper().missed_deadlines()); });
   session.stay_open();
   session_ = &session;
+  if (live_ && !live_->journal().empty()) session.start_journal(live_->journal());
+  try {
+    map_until_closed(session);
+  } catch (...) {
+    is_recorded_ = live_ && !live_->journal().empty() && scans_ > 0;
+    if (!is_recorded_) session.remove_journal();
+    throw;
+  }
+  session.remove_journal();
+}
+
+void Replay::map_until_closed(MappingSession& session) {
   if (!map_scans(session)) return;
   do {
     finish_map(session);
@@ -294,7 +298,6 @@ void Replay::observe(const SessionProgress& progress) {
 /// Publishes only now and then while scans wait, because a snapshot waits for the back end.
 void Replay::follow_live(std::size_t scans) {
   if (session_ == nullptr) return;
-  live_->note_pose(session_->mapper().missed_deadlines());
   if (live_->has_news(scans) && Clock::now() >= published_at_ + kBetweenSnapshotsInHaste) publish();
 }
 
@@ -322,6 +325,8 @@ void Replay::publish() {
                                            ? SnapshotMaker::ActiveMaps::kAtOnce
                                            : SnapshotMaker::ActiveMaps::kNowAndThen);
     maker_->now.warnings = session_->warnings();
+    if (const auto why = session_->journal_failure())
+      maker_->now.warnings.push_back("the journal is not written, which is tried again: " + *why);
     if (stale_) painter_.request(maker_->sketch());
   }
   publish_as_it_is();

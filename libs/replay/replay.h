@@ -44,7 +44,8 @@ class Replay {
   Replay(const std::filesystem::path& log, const Settings& settings, EditJournal edits = {});
   /// Replays a log or a recording, with the edits of the input.
   Replay(SessionInput input, const Settings& settings);
-  /// Maps what a live source sends, with the back end in a thread of its own.
+  /// Maps what a live source sends, with the back end in a thread of its own. The journal of the stream is
+  /// deleted when the run is closed. If the run fails, the journal is kept.
   Replay(LiveStream stream, const Settings& settings);
   /// Calls close() and waits for the threads.
   ~Replay();
@@ -182,6 +183,7 @@ class Replay {
   }
   void run() noexcept;
   void work();
+  void map_until_closed(MappingSession& session);
   bool map_scans(MappingSession& session);
   Turn next_turn();
   bool is_next_scan_due() const;
@@ -215,7 +217,8 @@ class Replay {
   bool final_search_stopped_ = false;  // an edit stopped the final loop search, so it must be repeated
   MappingSession* session_ = nullptr;  // null before the session opens and after the final loop search
   ReplayPhase phase_ = ReplayPhase::kOpening;
-  bool stale_ = false;  // the last snapshot is out of date
+  bool stale_ = false;        // the last snapshot is out of date
+  bool is_recorded_ = false;  // the journal keeps the scans of a run that failed
   LogPace::Clock::time_point published_at_;
   LogPace::Clock::duration publishing_took_{};
   int exports_ = 0;

@@ -92,6 +92,7 @@ void export_results(const MappingResult& result, const mrpt::maps::COccupancyGri
   write_tum(file("trajectory.tum"), trajectory_of(result.frames));
   write_runs(folder.path(), result);
   write_text_atomically(file("frames.csv"), frames_csv(result.frames));
+  write_text_atomically(file("trajectory.csv"), trajectory_csv(result));
   write_text_atomically(file("loops.csv"), loops_csv(result.loops));
   write_map_files(folder.path(), result, grid, map_files);
 }

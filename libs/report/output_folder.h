@@ -3,6 +3,7 @@
 //
 //     map.*  map_print.png                  the map, in the formats chosen by MapFileOptions
 //     trajectory.tum                        the robot's path
+//     trajectory.csv                        the robot's path with the covariance of each pose
 //     trajectory.carmen                     the corrected log of a single run
 //     trajectory-1.tum  trajectory-1.carmen path and corrected log of each run, if several were merged
 //     frames.csv  loops.csv  summary.json  report.html

@@ -18,6 +18,7 @@ std::string files_list(std::size_t runs) {
   add("map.gridmap.gz", "the map for MRPT");
   add("map.simplemap.gz", "nodes and scans for MRPT");
   add("trajectory.tum", "the path in TUM format, for evo");
+  add("trajectory.csv", "the path with the covariance of each pose");
   if (runs <= 1) add("trajectory.carmen", "the corrected log");
   for (std::size_t run = 1; runs > 1 && run <= runs; ++run) {
     const std::string name = "trajectory-" + std::to_string(run);
@@ -103,7 +104,9 @@ std::string report_html(const MappingResult& result, const RunInfo& info, const 
   if (const auto coarser = coarser_cells_text(summary.map)) html += banner(*coarser + '.');
   for (const std::string& warning : info.warnings) html += banner(escape_html(warning) + '.');
   html += key_figures(summary);
-  html += card("Map", "", report_map(result, summary.unmatched, grid));
+  if (summary.verdict)
+    html += card("Verdict", text_of(summary.verdict->state), verdict_section(*summary.verdict));
+  html += card("Map", "", report_map(result, summary, grid));
   html += card("Response of the front end", response_key(summary),
                response_plot(result, summary.unmatched) + unmatched_table(summary.unmatched));
   html += card("The factor Ψ and the searches that ran", psi_key(result), psi_plot(result));

@@ -130,6 +130,21 @@ std::string unmatched_layer(const MappingResult& result, const UnmatchedScans& u
   return layer("unmatched", svg);
 }
 
+/// Draws a ring at each hot spot, and a dashed line from it to its suspect.
+std::string hot_spot_layer(const std::vector<HotSpot>& spots, const MapPicture& picture) {
+  constexpr double kRing_m = 0.75;
+  if (spots.empty()) return {};
+  std::string svg;
+  for (const HotSpot& spot : spots) {
+    const Pixel at = pixel_of({spot.at.x, spot.at.y, 0}, picture);
+    const Pixel suspect = pixel_of({spot.suspect.at.x, spot.suspect.at.y, 0}, picture);
+    svg += "<g><title>" + escape_html(hot_spot_text(spot)) + "</title><path d=\"M" + text(at) + 'L' +
+           text(suspect) + "\"/><circle cx=\"" + fixed_text(at.x, 1) + "\" cy=\"" + fixed_text(at.y, 1) +
+           "\" r=\"" + fixed_text(kRing_m / picture.resolution_m, 1) + "\"/></g>\n";
+  }
+  return layer("hot-spots", svg);
+}
+
 std::string loop_title(const LoopRecord& loop) {
   std::string title = "node " + std::to_string(loop.node) + " to local map " +
                       std::to_string(loop.local_map) + ", response " + fixed_text(loop.response, 2) + ", " +
@@ -202,8 +217,10 @@ std::string toggle(const char* name, const std::string& label, bool shown, const
 
 }  // namespace
 
-std::string report_map(const MappingResult& result, const UnmatchedScans& unmatched,
+std::string report_map(const MappingResult& result, const RunSummary& summary,
                        const mrpt::maps::COccupancyGridMap2D& grid) {
+  const UnmatchedScans& unmatched = summary.unmatched;
+  const std::vector<HotSpot> spots = summary.verdict ? summary.verdict->hot_spots : std::vector<HotSpot>();
   MapPictureOptions options;
   options.max_side_px = kImageSide_px;
   options.min_side_px = 1;
@@ -227,6 +244,7 @@ std::string report_map(const MappingResult& result, const UnmatchedScans& unmatc
   toggles += toggle("grid", "map", true) + toggle("trajectory", "trajectory", true);
   if (unmatched.count > 0)
     toggles += toggle("unmatched", "unmatched scans (" + grouped(unmatched.count) + ')', true);
+  if (!spots.empty()) toggles += toggle("hot-spots", "places to check (" + grouped(spots.size()) + ')', true);
   add_loops("accepted", "closed loops", LoopVerdict::kAccepted);
   add_loops("switched-off", "switched-off loops", LoopVerdict::kSwitchedOff);
   add_loops("refused", "refused loops", LoopVerdict::kRefused);
@@ -240,7 +258,8 @@ std::string report_map(const MappingResult& result, const UnmatchedScans& unmatc
          width + "\" height=\"" + height + "\" href=\"data:image/png;base64," + base64(picture.png) +
          "\"/>\n" + path_layer("odometry", odometry) + path_layer("front-end", front_end) + loops +
          unmatched_layer(result, unmatched, picture) +
-         trajectory_layer(paths_of(result, &FrameRecord::map_T_robot, picture)) + scale_bar(picture) +
+         trajectory_layer(paths_of(result, &FrameRecord::map_T_robot, picture)) +
+         hot_spot_layer(spots, picture) + scale_bar(picture) +
          "</svg>\n</div>\n<p class=\"legend\"><span class=\"ramp\"></span> trajectory from <b>start</b> to "
          "<b>end</b>. " +
          (sampled ? "Shows at most " + std::to_string(kMaxLoopsDrawn) + " loops of each kind. " : "") +

@@ -19,9 +19,12 @@ extern const char* const kReportStyle;  ///< CSS of the page
 extern const char* const kReportScript;
 
 /// The map as an image, with layers that checkboxes show or hide without a script: trajectory coloured by
-/// time, unmatched scans, odometry, path of the front end, and loops of each verdict.
-std::string report_map(const MappingResult& result, const UnmatchedScans& unmatched,
+/// time, unmatched scans, odometry, path of the front end, loops of each verdict, and the hot spots of
+/// `summary.verdict` with their suspects.
+std::string report_map(const MappingResult& result, const RunSummary& summary,
                        const mrpt::maps::COccupancyGridMap2D& grid);
+/// The verdict about the map as a sentence, and a table of its hot spots.
+std::string verdict_section(const MapVerdict& verdict);
 
 /// Plot of the front end's response over time: mean and range of each stretch of time, unmatched scans, and
 /// the times at which loops were closed.

@@ -124,6 +124,23 @@ std::string log_table(const MappedLogFacts& log, const std::string& name) {
   return html + "</table>\n";
 }
 
+std::string verdict_section(const MapVerdict& verdict) {
+  const std::string sentence = verdict_sentence(verdict);
+  std::string html = "<p class=\"none\">" + escape_html(sentence) + ".</p>\n";
+  if (verdict.hot_spots.empty()) return html;
+  std::string rows;
+  for (const HotSpot& spot : verdict.hot_spots)
+    rows += "<tr>" +
+            cells({text_of(spot.kind), fixed_text(spot.at.x, 1), fixed_text(spot.at.y, 1),
+                   fixed_text(spot.error_m, 2)}) +
+            "<td class=\"text\">" + escape_html(text_of(spot.suspect)) + "</td><td class=\"text\">" +
+            escape_html(advice_text(spot)) + "</td></tr>\n";
+  return html +
+         table_begin("wide tall",
+                     {"Place to check", "x, m", "y, m", "error, m", "Suspect", "What would help"}) +
+         rows + kTableEnd;
+}
+
 std::string unmatched_table(const UnmatchedScans& unmatched) {
   if (unmatched.count == 0) return {};
   std::string rows;

@@ -32,6 +32,16 @@ bool has_return(const Frame& frame) {
   return any;
 }
 
+/// Returns the options of the mapper. In a live run, loops are closed in a thread beside the front end, which
+/// goes first.
+MapperOptions options_for(const SessionInput& input, const Settings& settings) {
+  MapperOptions options = mapper_options(settings);
+  if (!input.is_stream()) return options;
+  options.back_end_thread = true;
+  options.back_end.priority = ThreadPriority::kLow;
+  return options;
+}
+
 bool has_sweep(const Frame& frame) {
   return frame.scan.sweep_time_s != 0 ||
          std::any_of(frame.companions.begin(), frame.companions.end(),
@@ -56,7 +66,7 @@ MappingSession::MappingSession(const SessionInput& input, const Settings& settin
   m_->settings_text = settings_file_text(settings);
   m_->settings_warnings = std::move(settings_warnings);
   m_->read_from(open_input(input, settings));
-  m_->mapper = std::make_unique<Mapper>(mapper_options(settings));
+  m_->mapper = std::make_unique<Mapper>(options_for(input, settings));
   m_->edits = input.edits();
   m_->make_due_edits({});
   if (m_->recording) m_->later_runs = m_->recording->facts.runs;
@@ -72,6 +82,10 @@ void MappingSession::Members::enter(State next) {
 
 void MappingSession::set_observer(Observer observer) {
   m_->observer = std::move(observer);
+}
+
+void MappingSession::set_pose_observer(Mapper::PoseObserver observer) {
+  m_->mapper->set_pose_observer(std::move(observer));
 }
 
 bool MappingSession::step() {

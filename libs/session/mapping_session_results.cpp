@@ -16,6 +16,7 @@
 #include "session/session_file.h"
 #include "session/session_input.h"
 #include "session/work_clock.h"
+#include "verdict/map_verdict.h"
 
 namespace psi_slam {
 
@@ -56,6 +57,7 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   WorkClock clock(m.work_s);
   m.result.stages.resize(m.stages_of_mapping);
   StageClock drawing_clock("draw map");
+  StageClock judging_clock("judge map");
   StageClock writing_clock("write results");
   const ExportedPoses exported(m.result, export_T_map(m.result, m.settings.map_frame));
   const std::vector<MapEdit>& map_edits = m.edits.map_edits();
@@ -65,6 +67,9 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
     m.map_edit_complaints = apply_map_edits(map_edits, *grid);
   });
   m.result.stages.push_back(drawing_clock.timing());
+  MapVerdict verdict;
+  judging_clock.time([&] { verdict = judge_map(m.result); });
+  m.result.stages.push_back(judging_clock.timing());
   writing_clock.time([&] {
     write_g2o(m.result.graph, folder.path() / "graph.g2o");
     m.write_edits(folder.path() / "loops.edits");
@@ -75,6 +80,7 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   clock.stop();
   m.result.wall_s = m.work_s;
   RunSummary summary = summarize_run(m.result, *grid, m.settings.map);
+  summary.verdict = std::move(verdict);
   summary.log.spare_scans = skipped_lines().spare_scans;
   export_account(m.result, run_info(), summary, *grid, folder);
   return summary;

@@ -108,12 +108,36 @@ class RecordedSource : public FrameSource {
   std::size_t next_ = 0;
 };
 
+/// Recorded frames, followed by those of a stream, which is not read before. progress() is 0.
+class ResumedStream : public FrameSource {
+ public:
+  ResumedStream(std::shared_ptr<const SessionRecording> recording, std::unique_ptr<FrameSource> stream)
+      : recording_(std::move(recording)), stream_(std::move(stream)) {}
+
+  std::optional<Frame> next() override {
+    const std::vector<Frame>& recorded = recording_->frames;
+    if (next_ < recorded.size()) return recorded[next_++];
+    std::optional<Frame> frame = stream_->next();
+    if (!frame) return std::nullopt;
+    if (next_ == recorded.size()) frame->imu_heading_rad.reset();  // unrelated to the recorded headings
+    frame->index = next_++;
+    return frame;
+  }
+  double progress() const override { return 0; }
+  SkippedLines skipped_lines() const override { return stream_->skipped_lines(); }
+  std::vector<std::string> assumptions() const override { return stream_->assumptions(); }
+
+ private:
+  std::shared_ptr<const SessionRecording> recording_;
+  std::unique_ptr<FrameSource> stream_;
+  std::size_t next_ = 0;
+};
+
 }  // namespace
 
 SessionInput::SessionInput(std::filesystem::path log) : log_(std::move(log)), logs_{{name_of(log_), "", 0}} {}
 
-SessionInput::SessionInput(const std::string& name,
-                           std::function<std::unique_ptr<FrameSource>(const LogOptions&)> open)
+SessionInput::SessionInput(const std::string& name, OpenStream open)
     : open_stream_(std::move(open)), logs_{{name, "", 0}} {}
 
 SessionInput::SessionInput(std::shared_ptr<const SessionRecording> recording, std::filesystem::path log)
@@ -142,6 +166,15 @@ SessionInput::SessionInput(std::shared_ptr<const SessionRecording> recording, st
   next.calibration = continued(logs_.back(), next.name);
   keeps_calibration_ = next.calibration.has_value();
   logs_.push_back(std::move(next));
+}
+
+SessionInput::SessionInput(std::shared_ptr<const SessionRecording> recording, const std::string& name,
+                           OpenStream open)
+    : SessionInput(std::move(recording)) {
+  open_stream_ = std::move(open);
+  RecordedLog& last = logs_.back();
+  if (last.sha256.empty()) last.scans_left = false;  // a stream has no rest that could be read
+  logs_.push_back({name, "", 0});
 }
 
 SessionInput SessionInput::of_file(const std::filesystem::path& path) {
@@ -180,6 +213,7 @@ void SessionInput::check_kept_calibration(const LogOptions& options) {
 }
 
 std::unique_ptr<FrameSource> SessionInput::open(const LogOptions& options) const {
+  if (open_stream_ && recording_) return std::make_unique<ResumedStream>(recording_, open_stream_(options));
   if (open_stream_) return open_stream_(options);
   if (!recording_) return open_log(log_, options);
   return std::make_unique<RecordedSource>(recording_, log_.empty() ? nullptr : open_log(log_, options),
@@ -199,7 +233,8 @@ OpenedInput open_input(const SessionInput& input, const Settings& settings) {
   opened.calibration = calibrated.logs().back().calibration;
   opened.frames =
       input.open(calibrated_options(log_options(settings), opened.calibration.value_or(LogCalibration())));
-  if (worker_threads(settings.run) > 1) opened.frames = std::make_unique<ReadAhead>(std::move(opened.frames));
+  if (input.is_stream() || worker_threads(settings.run) > 1)
+    opened.frames = std::make_unique<ReadAhead>(std::move(opened.frames));
   return opened;
 }
 

@@ -21,17 +21,23 @@ struct Settings;
 
 class SessionInput {
  public:
+  /// Opens a stream of frames.
+  using OpenStream = std::function<std::unique_ptr<FrameSource>(const LogOptions&)>;
+
   /// Reads a log from its beginning.
   explicit SessionInput(std::filesystem::path log);
 
   /// Reads a stream that `open` opens when it is first read. Such an input can be opened once. `name` stands
   /// for the log in reports.
-  SessionInput(const std::string& name, std::function<std::unique_ptr<FrameSource>(const LogOptions&)> open);
+  SessionInput(const std::string& name, OpenStream open);
 
   /// Reads a recording, and then `log` unless that path is empty. If the checksum of `log` is that of the
   /// recording's last log, only the rest of that log is read, else all of `log`. Throws UserError if `log` is
   /// unreadable or is an earlier log of the recording.
   explicit SessionInput(std::shared_ptr<const SessionRecording> recording, std::filesystem::path log = {});
+
+  /// Reads a recording, and then a stream. The stream is opened with the recording, and read after it.
+  SessionInput(std::shared_ptr<const SessionRecording> recording, const std::string& name, OpenStream open);
 
   /// Returns the session in a file, or a log for any other file. Throws UserError as read_session_file().
   static SessionInput of_file(const std::filesystem::path& path);
@@ -49,6 +55,8 @@ class SessionInput {
   /// unreadable, or if it continues the recording but begins before the recording's end.
   std::unique_ptr<FrameSource> open(const LogOptions& options) const;
 
+  /// Whether a stream is read.
+  bool is_stream() const { return open_stream_ != nullptr; }
   /// The recording; null if there is none.
   const std::shared_ptr<const SessionRecording>& recording() const { return recording_; }
   /// Path of the log that is read; empty if there is none.
@@ -62,8 +70,7 @@ class SessionInput {
   void check_kept_calibration(const LogOptions& options);
 
   std::shared_ptr<const SessionRecording> recording_;
-  std::function<std::unique_ptr<FrameSource>(const LogOptions&)>
-      open_stream_;  ///< empty unless a stream is read
+  OpenStream open_stream_;  ///< empty unless a stream is read
   std::filesystem::path log_;
   std::vector<RecordedLog> logs_;
   EditJournal edits_;
@@ -77,8 +84,9 @@ struct OpenedInput {
   std::optional<LogCalibration> calibration;  ///< of the last log; see RecordedLog::calibration
 };
 
-/// Opens the input for a run, after log.calibrate. If run.threads allows several threads, an extra thread
-/// reads ahead. Throws UserError if settings contradict each other or if the input is unreadable.
+/// Opens the input for a run, after log.calibrate. An extra thread reads ahead if a stream is read or if
+/// run.threads allows several threads. Throws UserError if settings contradict each other or if the input is
+/// unreadable.
 OpenedInput open_input(const SessionInput& input, const Settings& settings);
 
 /// Returns the names of the logs: "first.log + second.log".

@@ -25,20 +25,14 @@ SystemFailure cannot_write(const fs::path& path) {
 
 }  // namespace
 
-OpenFile::~OpenFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-bool OpenFile::create(const fs::path& path) {
-  descriptor_ = ::open(path.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, kMode);
-  return descriptor_ >= 0;
-}
-
 SessionJournal::SessionJournal(fs::path path, const SessionFacts& facts, const std::vector<Frame>& frames,
                                double period_s)
     : path_(std::move(path)), period_(period_s) {
   write_atomically(path_, [&](const fs::path& temporary) {
-    if (file_.create(temporary)) write(chunks_.next(facts, frames));
+    file_ = Descriptor(::open(temporary.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, kMode));
+    if (!file_.is_open()) return;
+    unwritten_ = chunks_.next(facts, frames);
+    write_unwritten();
   });
   thread_ = std::thread([this] { work(); });
 }
@@ -49,7 +43,7 @@ SessionJournal::~SessionJournal() {
 
 void SessionJournal::add(Frame frame, SessionFacts facts) {
   const std::lock_guard lock(mutex_);
-  if (failure_) return;
+  if (stop_) return;
   frames_.push_back(std::move(frame));
   facts_ = std::move(facts);
   changed_.notify_all();
@@ -57,7 +51,7 @@ void SessionJournal::add(Frame frame, SessionFacts facts) {
 
 void SessionJournal::update(SessionFacts facts) {
   const std::lock_guard lock(mutex_);
-  if (failure_) return;
+  if (stop_) return;
   facts_ = std::move(facts);
   changed_.notify_all();
 }
@@ -66,7 +60,7 @@ void SessionJournal::remove() {
   end();
   struct stat mine {};
   struct stat named {};
-  const bool is_mine = ::fstat(file_.descriptor(), &mine) == 0 && ::stat(path_.c_str(), &named) == 0 &&
+  const bool is_mine = ::fstat(file_.number(), &mine) == 0 && ::stat(path_.c_str(), &named) == 0 &&
                        mine.st_dev == named.st_dev && mine.st_ino == named.st_ino;
   if (is_mine && ::unlink(path_.c_str()) != 0)
     throw SystemFailure("cannot delete " + path_.string() + ": " + std::strerror(errno));
@@ -89,34 +83,41 @@ void SessionJournal::end() {
 void SessionJournal::work() {
   std::unique_lock lock(mutex_);
   auto next = Clock::now();
-  while (true) {
-    changed_.wait(lock, [this] { return stop_ || facts_.has_value(); });
-    if (!facts_) return;
+  for (bool is_last = false; !is_last;) {
+    if (!failure_) changed_.wait(lock, [this] { return stop_ || facts_.has_value(); });
     changed_.wait_until(lock, next, [this] { return stop_; });
     next = Clock::now() + std::chrono::duration_cast<Clock::duration>(period_);
     const std::vector<Frame> frames = std::exchange(frames_, {});
-    SessionFacts facts = *std::exchange(facts_, std::nullopt);
+    std::optional<SessionFacts> facts = std::exchange(facts_, std::nullopt);
+    is_last = stop_;
     lock.unlock();
     std::optional<std::string> failure;
+    bool is_packed = false;
     try {
-      write(chunks_.next(std::move(facts), frames));
+      if (facts) unwritten_ += chunks_.next(*std::move(facts), frames);
+      is_packed = true;
+      write_unwritten();
     } catch (const std::exception& error) {
       failure = error.what();
     }
     lock.lock();
-    if (!failure) continue;
-    failure_ = failure;
-    return;
+    failure_ = std::move(failure);
+    if (!is_packed) is_last = stop_ = true;  // later chunks need this one
   }
 }
 
-void SessionJournal::write(const std::string& bytes) {
-  for (std::size_t written = 0; written < bytes.size();) {
-    const ssize_t count = ::write(file_.descriptor(), bytes.data() + written, bytes.size() - written);
+/// Writes the bytes that follow those of the disk. After a failure it begins with the same byte again,
+/// because the system may have dropped bytes that it accepted before.
+void SessionJournal::write_unwritten() {
+  for (std::size_t done = 0; done < unwritten_.size();) {
+    const ssize_t count = ::pwrite(file_.number(), unwritten_.data() + done, unwritten_.size() - done,
+                                   static_cast<off_t>(written_ + done));
     if (count < 0 && errno != EINTR) throw cannot_write(path_);
-    if (count > 0) written += static_cast<std::size_t>(count);
+    if (count > 0) done += static_cast<std::size_t>(count);
   }
-  if (::fdatasync(file_.descriptor()) != 0 && errno != EINVAL) throw cannot_write(path_);
+  if (::fdatasync(file_.number()) != 0 && errno != EINVAL) throw cannot_write(path_);
+  written_ += unwritten_.size();
+  unwritten_.clear();
 }
 
 }  // namespace psi_slam

@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <filesystem>
 #include <mutex>
 #include <optional>
@@ -18,28 +19,15 @@
 #include <thread>
 #include <vector>
 
+#include "base/descriptor.h"
 #include "session/journal_chunks.h"
 #include "session/session_recording.h"
 
 namespace psi_slam {
 
-/// A file descriptor that the destructor closes.
-class OpenFile {
- public:
-  OpenFile() = default;
-  ~OpenFile();
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  /// Creates a file for writing. Returns false if that is impossible.
-  bool create(const std::filesystem::path& path);
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_ = -1;
-};
-
 /// Writes a journal in a thread of its own, so that no function except the constructor waits for the disk.
+/// What cannot be written, because the disk is full for example, waits compressed in memory and is tried
+/// again every period. So the journal is complete again once the disk can be written.
 class SessionJournal {
  public:
   /// Creates the file `path`, whole or not at all, with a first chunk of `frames`; replaces an existing file.
@@ -47,7 +35,7 @@ class SessionJournal {
   /// if the file cannot be written.
   SessionJournal(std::filesystem::path path, const SessionFacts& facts, const std::vector<Frame>& frames,
                  double period_s);
-  /// Writes what is left, and keeps the file.
+  /// Writes what is left, trying once, and keeps the file.
   ~SessionJournal();
   SessionJournal(const SessionJournal&) = delete;
   SessionJournal& operator=(const SessionJournal&) = delete;
@@ -60,27 +48,30 @@ class SessionJournal {
   /// Ends the journal and deletes its file, unless another file, such as a saved session, has replaced it.
   void remove();
 
-  /// Why the journal is no longer written, a sentence without full stop; empty if it is. Mapping may go on.
+  /// Why the journal could not be written the last time, a sentence without full stop; empty if it was
+  /// written. Mapping may go on.
   std::optional<std::string> failure() const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
   void work();
-  void write(const std::string& bytes);
+  void write_unwritten();
   void end();
 
   const std::filesystem::path path_;
   const std::chrono::duration<double> period_;
-  OpenFile file_;
+  Descriptor file_;
   JournalChunks chunks_;
+  std::size_t written_ = 0;  ///< bytes of the file that the disk has
+  std::string unwritten_;    ///< bytes that follow them
 
   mutable std::mutex mutex_;  ///< protects the members below
   std::condition_variable changed_;
-  std::vector<Frame> frames_;          ///< frames that are not written yet
-  std::optional<SessionFacts> facts_;  ///< facts that are not written yet
+  std::vector<Frame> frames_;          ///< frames that no chunk has yet
+  std::optional<SessionFacts> facts_;  ///< facts that no chunk has yet
   std::optional<std::string> failure_;
-  bool stop_ = false;
+  bool stop_ = false;  ///< the thread ends or has ended
 
   std::thread thread_;
 };

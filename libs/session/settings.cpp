@@ -110,7 +110,16 @@ void describe_map(OptionTable& table, GridMapOptions& map) {
       .number("margin_m", map.margin_m, at_least(0).at_most(1000), "m",
               "Width of the unknown space around everything that was observed.")
       .integer("max_cells", map.max_cells, between(10'000, 1'000'000'000), "cells",
-               "Largest number of cells. A larger map gets coarser cells.");
+               "Largest number of cells. A larger map gets coarser cells.")
+      .flag(
+          "keep_moving", map.keep_moving,
+          "Draws people, carts and doors that moved. false: obstacles that scans at other times saw through "
+          "are free space in the finished map.")
+      .integer(
+          "min_beams", map.min_beams, between(1, 3), "beams",
+          "Least number of beams that must see an obstacle or free space. A beam counts as two if a "
+          "neighbouring beam of its scan reaches as far. What fewer beams saw stays unknown: single beams "
+          "through windows and past edges. 1: draws every beam.");
 }
 
 void describe_map_files(OptionTable& table, MapFileOptions& files) {

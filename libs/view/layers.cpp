@@ -6,6 +6,7 @@
 #include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/opengl/CTexturedPlane.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -151,6 +152,10 @@ constexpr double kClearLoops = 100;  // up to this many loops keep the full opac
 // down the window.
 constexpr std::size_t kMostLoopsOfFinalSearch = 3000;
 
+constexpr double kBetweenEllipses_m = 1;
+constexpr int kEllipseSides = 24;
+constexpr double kChiSquare95 = 5.991;  // 95 % point of the chi-square distribution, two degrees of freedom
+
 // Size of the arrow that shows the robot. It points along the robot's x axis.
 constexpr double kNose_m = 0.45;
 constexpr double kTail_m = -0.25;
@@ -242,6 +247,30 @@ void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot) {
     const LocalMapRecord& map = snapshot.local_maps[i];
     for (std::size_t node = map.first_node; node <= map.last_node && node < nodes.size(); ++node)
       if (node != map.anchor) join(*lines, nodes[map.anchor], nodes[node], height_m::kConstraints);
+  }
+  layer.insert(lines);
+}
+
+void draw_uncertainty(SceneLayer& layer, const ReplaySnapshot& snapshot) {
+  const std::vector<TPose2D>& nodes = *snapshot.map_T_node;
+  const std::vector<Eigen::Matrix3d>& covariances = *snapshot.node_covariances;
+  if (covariances.size() != nodes.size()) return;
+  auto lines = lines_of(palette::kUncertainty, 1.5F);
+  std::optional<TPoint2D> last;
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    const TPoint2D middle(nodes[node].x, nodes[node].y);
+    if (last && (middle - *last).norm() < kBetweenEllipses_m) continue;
+    last = middle;
+    const Eigen::Matrix2d position = covariances[node].topLeftCorner<2, 2>();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(position);
+    const Eigen::Matrix2d radii_m =
+        axes.eigenvectors() * (kChiSquare95 * axes.eigenvalues().cwiseMax(0)).cwiseSqrt().asDiagonal();
+    const auto corner = [&](int i) {
+      const double angle = 2 * M_PI * i / kEllipseSides;
+      const Eigen::Vector2d offset = radii_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      return TPoint2D(middle.x + offset.x(), middle.y + offset.y());
+    };
+    for (int i = 0; i < kEllipseSides; ++i) join(*lines, corner(i), corner(i + 1), height_m::kUncertainty);
   }
   layer.insert(lines);
 }

@@ -22,6 +22,7 @@ inline constexpr double kLocalMaps = 0.005;
 inline constexpr double kOdometry = 0.01;
 inline constexpr double kConstraints = 0.015;
 inline constexpr double kLoops = 0.02;
+inline constexpr double kUncertainty = 0.0225;
 inline constexpr double kTrajectory = 0.025;
 inline constexpr double kUnmatched = 0.0275;
 inline constexpr double kNodes = 0.03;
@@ -48,6 +49,9 @@ void draw_trajectory(SceneLayer& layer, const ReplaySnapshot& snapshot);
 void draw_nodes(SceneLayer& layer, const ReplaySnapshot& snapshot);
 /// Draws lines from each node to the anchors of the finished local maps that contain its scan.
 void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot);
+/// Draws the ellipses that contain the true positions of nodes with a probability of 95 %, true to scale, at
+/// nodes at least 1 m apart. Draws nothing unless the run is finished.
+void draw_uncertainty(SceneLayer& layer, const ReplaySnapshot& snapshot);
 void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style);
 /// Draws the selected loop and the window in which it was searched.
 void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop);

@@ -32,7 +32,8 @@ constexpr std::array<LayerFacts, kMapLayers> kLayers{{{"Grid map", kMaps, true},
                                                       {"Loops", kLines, true},
                                                       {"Scan", kMarks, true},
                                                       {"Robot", kMarks, true},
-                                                      {"Search windows", kMarks, true}}};
+                                                      {"Search windows", kMarks, true},
+                                                      {"Uncertainty (95 %)", kLines, false}}};
 
 bool active_maps_differ(const ReplaySnapshot& a, const ReplaySnapshot& b) {
   const auto& before = a.active_local_maps;
@@ -148,6 +149,7 @@ bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
   if (poses_changed) {
     redraw(MapLayer::kNodes, draw_nodes, snapshot);
     redraw(MapLayer::kConstraints, draw_constraints, snapshot);
+    redraw(MapLayer::kUncertainty, draw_uncertainty, snapshot);
   }
   const bool loops_changed =
       poses_changed || snapshot.loops != shown_.snapshot->loops || !(loop_style_ == shown_.loop_style);

@@ -27,8 +27,9 @@ enum class MapLayer {
   kScan,
   kRobot,
   kWindows,
+  kUncertainty,
 };
-inline constexpr std::size_t kMapLayers = 10;
+inline constexpr std::size_t kMapLayers = 11;
 
 /// Name of a layer for menus, such as "Grid map".
 const char* name_of(MapLayer layer);

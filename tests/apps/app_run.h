@@ -28,9 +28,9 @@ inline constexpr const char* kNeedsQuickstartLog = "needs the rawlogs of Debian'
 /// Names of all result files of a run with default settings, in alphabetical order.
 inline const std::vector<std::string>& result_names() {
   static const std::vector<std::string> kNames{
-      "frames.csv",  "graph.g2o",    "loops.csv",         "map.dxf",       "map.gridmap.gz",
-      "map.pgm",     "map.png",      "map.simplemap.gz",  "map.svg",       "map.yaml",
-      "report.html", "summary.json", "trajectory.carmen", "trajectory.tum"};
+      "frames.csv",  "graph.g2o",    "loops.csv",         "map.dxf",        "map.gridmap.gz",
+      "map.pgm",     "map.png",      "map.simplemap.gz",  "map.svg",        "map.yaml",
+      "report.html", "summary.json", "trajectory.carmen", "trajectory.csv", "trajectory.tum"};
   return kNames;
 }
 

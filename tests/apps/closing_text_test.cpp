@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "doubtful_map.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 
@@ -47,6 +48,22 @@ TEST_F(ClosingText, names_the_folder_without_map_png) {
 
 TEST_F(ClosingText, leaves_out_an_unknown_real_time_factor) {
   EXPECT_THAT(text(), Not(HasSubstr("factor")));
+}
+
+TEST_F(ClosingText, ends_with_the_verdict_about_a_good_map) {
+  EXPECT_THAT(text(), Not(HasSubstr("Verdict")));
+  summary_.verdict = MapVerdict();
+  summary_.verdict->checked_share = 0.5;
+  EXPECT_THAT(text(), HasSubstr("Verdict: the map is good: "));
+  EXPECT_FALSE(doubtful_map_text(summary_));
+}
+
+TEST_F(ClosingText, warns_of_a_doubtful_map) {
+  EXPECT_FALSE(doubtful_map_text(summary_)) << "not judged";
+  summary_.verdict = doubtful_map();
+  EXPECT_THAT(text(), Not(HasSubstr("Verdict")));
+  EXPECT_THAT(doubtful_map_text(summary_).value_or(""),
+              testing::EndsWith(". Try: delete the loop of scan 45 with local map 3"));
 }
 
 TEST_F(ClosingText, lists_the_stages) {

@@ -38,7 +38,7 @@ class JournalApp : public testing::Test {
 
 TEST_F(JournalApp, a_run_that_is_killed_at_any_moment_gives_the_same_bytes_when_resumed) {
   const bool is_long = std::getenv("PSI_SLAM_LONG_TESTS") != nullptr;
-  const int kills = is_long ? 200 : 10;
+  const int kills = is_long ? 200 : 5;
   const auto begin = Clock::now();
   ASSERT_EQ(AppProcess(journalled({log_}, "whole"), folder_.path()).finish().code, 0);
   const double duration_s = Seconds(Clock::now() - begin).count();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tests whole runs of psi-slam live.
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -139,6 +140,69 @@ TEST_F(LiveApp, writes_the_map_and_a_journal_while_it_maps_and_can_be_resumed_af
   EXPECT_EQ(resumed.code, 0) << resumed.err;
   for (const char* name : {"map.pgm", "map.yaml", "trajectory.tum", "graph.g2o"})
     EXPECT_EQ(bytes_of(folder("resumed") / name), bytes_of(folder("whole") / name)) << name;
+}
+
+TEST_F(LiveApp, goes_on_live_after_a_crash) {
+  const auto journal = folder("live") / "session.journal";
+  const auto growing = folder("growing.log");
+  write_file(growing, text_of(lines_, 0, 30));
+  {
+    const AppProcess process(
+        live({"--follow", growing.string(), "--look-over-s", "0", "--set", "live.journal_period_s=0.05"}),
+        folder_.path());
+    ASSERT_TRUE(soon([&] {
+      return std::filesystem::exists(journal) && read_session_file(journal).frames.size() == 30;
+    })) << err();
+  }  // killed
+  std::ofstream(growing, std::ios::app) << text_of(lines_, 30, kScans);
+  const std::vector<std::string> again = {
+      "--resume", journal.string(), "--follow", growing.string(), "--idle-s", "0", "--poses", "tum", "-q"};
+  EXPECT_THAT(run_app(live(again)).err, HasSubstr("is not empty")) << "the folder has the journal";
+  std::vector<std::string> with_force = live(again);
+  with_force.push_back("--force");
+  const AppRun resumed = run_app(with_force);
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_EQ(resumed.err,
+            "psi-slam: skipping scans up to 1005.800000 s, the time of the last recorded scan\n");
+  EXPECT_EQ(lines_in(resumed.out), kScans - 30) << "poses of the new scans only";
+  EXPECT_FALSE(std::filesystem::exists(journal));
+  expect_same_map();
+}
+
+TEST_F(LiveApp, tells_at_once_that_the_journal_cannot_be_written_and_completes_it_later) {
+  const auto journal = folder("live") / "session.journal";
+  const auto growing = folder("growing.log");
+  write_file(growing, text_of(lines_, 0, 20));
+  const AppProcess process(live({"--follow", growing.string(), "--look-over-s", "0", "--set",
+                                 "live.map_period_s=0", "--set", "live.journal_period_s=0.05"}),
+                           folder_.path(), [] { std::signal(SIGXFSZ, SIG_IGN); });
+  const auto are_recorded = [&](std::size_t scans) {
+    return std::filesystem::exists(journal) && read_session_file(journal).frames.size() == scans;
+  };
+  const auto tells = [&](const std::string& text) { return err().find(text) != std::string::npos; };
+  const auto append = [&](std::size_t begin, std::size_t end) {
+    std::ofstream(growing, std::ios::app) << text_of(lines_, begin, end);
+  };
+  ASSERT_TRUE(soon([&] { return are_recorded(20); })) << err();
+  rlimit before{};
+  ASSERT_EQ(::prlimit(process.pid(), RLIMIT_FSIZE, nullptr, &before), 0);
+  const rlimit full{std::filesystem::file_size(journal), before.rlim_max};
+  ASSERT_EQ(::prlimit(process.pid(), RLIMIT_FSIZE, &full, nullptr), 0);
+  append(20, 25);
+  EXPECT_TRUE(soon([&] {
+    append(25, 26);  // the next scan tells
+    return tells("the journal is not written, which is tried again: cannot write " + journal.string());
+  })) << err();
+  ASSERT_EQ(::prlimit(process.pid(), RLIMIT_FSIZE, &before, nullptr), 0);
+  EXPECT_TRUE(soon([&] {
+    append(26, 27);
+    return tells("the journal is written again");
+  })) << err();
+  process.send(SIGKILL);
+  process.finish();
+  const SessionRecording recording = read_session_file(journal);
+  EXPECT_GT(recording.frames.size(), 25U);
+  EXPECT_FALSE(recording.lost_end);
 }
 
 TEST_F(LiveApp, saves_the_session_and_leaves_no_journal) {

@@ -98,7 +98,7 @@ TEST(CovarianceCheck, distinguishes_local_maps_loops_and_pairs) {
   result.graph = graph;
 
   const std::vector<NormalisedErrors> errors = check_covariances(result, truth, 1);
-  ASSERT_EQ(errors.size(), 4U);
+  ASSERT_EQ(errors.size(), 7U);
   EXPECT_EQ(errors[0].count, kNodes - 1);
   EXPECT_NEAR(errors[0].mean, 1, 0.2);
   EXPECT_EQ(errors[1].count, 1U);
@@ -107,6 +107,12 @@ TEST(CovarianceCheck, distinguishes_local_maps_loops_and_pairs) {
   EXPECT_GT(errors[3].mean, 0.2);  // errors of pairs in one graph are correlated
   EXPECT_LT(errors[3].mean, 4);
   EXPECT_LT(errors[2].mean, errors[3].mean);  // a path contains less information than the graph
+  EXPECT_EQ(errors[4].of, "any two nodes, by the whole graph");
+  for (std::size_t i = 4; i < 7; ++i) {  // these constraints, of odometry, share no errors
+    EXPECT_GT(errors[i].count, 500U) << errors[i].of;
+    EXPECT_GT(errors[i].mean, 0.2) << errors[i].of;
+    EXPECT_LT(errors[i].mean, 4) << errors[i].of;
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "pose_graph/shared_errors.h"
 #include "simulated_room.h"
 
 namespace psi_slam {
@@ -21,6 +22,31 @@ std::vector<std::string> split(const std::string& line) {
   for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
   if (!line.empty() && line.back() == ',') fields.emplace_back();
   return fields;
+}
+
+TEST(TrajectoryCsv, has_a_pose_with_its_covariance_for_each_scan) {
+  const MappingResult result = walk_around_the_room();
+  const std::vector<Eigen::Matrix3d> covariances = pose_covariances(result.graph);
+  std::istringstream text(trajectory_csv(result));
+  std::string line;
+  std::getline(text, line);
+  EXPECT_EQ(line,
+            "time_s,x_m,y_m,theta_rad,cov_xx_m2,cov_xy_m2,cov_xtheta_m_rad,cov_yy_m2,cov_ytheta_m_rad,"
+            "cov_thetatheta_rad2");
+  std::size_t node = 0;
+  for (const FrameRecord& frame : result.frames) {
+    node = frame.node.value_or(node);
+    ASSERT_TRUE(std::getline(text, line));
+    const std::vector<std::string> fields = split(line);
+    ASSERT_EQ(fields.size(), 10U);
+    EXPECT_NEAR(std::stod(fields[1]), frame.map_T_robot.x, 1e-6);
+    EXPECT_NEAR(std::stod(fields[4]), covariances[node](0, 0), 1e-10);
+    EXPECT_NEAR(std::stod(fields[6]), covariances[node](0, 2), 1e-10);
+    EXPECT_NEAR(std::stod(fields[7]), covariances[node](1, 1), 1e-10);
+    EXPECT_NEAR(std::stod(fields[9]), covariances[node](2, 2), 1e-10);
+  }
+  EXPECT_FALSE(std::getline(text, line));
+  EXPECT_GT(covariances.back()(0, 0), 0);
 }
 
 TEST(FramesCsv, has_one_row_per_scan_below_the_header) {

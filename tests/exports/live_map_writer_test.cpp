@@ -30,9 +30,12 @@ class LiveMapWriterTest : public testing::Test {
     std::vector<mrpt::math::TPose2D> map_T_robot;
     for (std::size_t i = 0; i < mapper_.log().size(); ++i)
       map_T_robot.push_back(poses.map_T_robot(i, mapper_.frames(), mapper_.node_poses()));
+    GridMapOptions everything;
+    everything.keep_moving = true;
+    everything.min_beams = 1;
     fs::create_directory(folder_.path() / "expected");
     write_map_server_pair(folder_.path() / "expected" / "map.yaml",
-                          *draw_grid_map(mapper_.log(), map_T_robot));
+                          *draw_grid_map(mapper_.log(), map_T_robot, everything));
     return read_file(folder_.path() / "expected" / "map.pgm");
   }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "doubtful_map.h"
 #include "exports/mapped_trajectory.h"
 #include "psi_slam/grid_map.h"
 #include "simulated_room.h"
@@ -137,6 +138,26 @@ RunSummary some_figures() {
   summary.log.companion_scans = 48;
   summary.log.spare_scans = 2;
   return summary;
+}
+
+TEST(SummaryJson, has_the_verdict_about_the_map) {
+  const MappingResult result = walk_around_the_room();
+  RunSummary summary = some_figures();
+  EXPECT_TRUE(nlohmann::json::parse(summary_json(result, {}, summary))["verdict"].is_null());
+  summary.verdict = doubtful_map();
+  const auto verdict = nlohmann::json::parse(summary_json(result, {}, summary))["verdict"];
+  EXPECT_EQ(verdict["state"], "check these places");
+  EXPECT_EQ(
+      verdict["sentence"],
+      "check 1 place of the map, the worst: doubled wall at (1.5, -0.5) m, error about 0.31 m; suspect: the "
+      "loop of scan 45 with local map 3");
+  EXPECT_EQ(verdict["error_m"], 0.06);
+  ASSERT_EQ(verdict["hot_spots"].size(), 1U);
+  const auto& spot = verdict["hot_spots"][0];
+  EXPECT_EQ(spot["kind"], "doubled wall");
+  EXPECT_EQ(spot["x_m"], 1.5);
+  EXPECT_EQ(spot["suspect"]["local_map"], 3);
+  EXPECT_EQ(spot["advice"], "delete the loop of scan 45 with local map 3");
 }
 
 TEST(SummaryJson, has_schema_and_figures) {

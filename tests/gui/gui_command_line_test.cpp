@@ -45,6 +45,8 @@ TEST(GuiCommandLine, takes_one_log_or_live_source) {
   EXPECT_THAT(run({"a.log", "--tcp", "5000"}).err, HasSubstr("name a log or a live source, not both"));
   EXPECT_THAT(run({"--tcp", "x"}).err, HasSubstr("--tcp x: expected the number of a port"));
   EXPECT_THAT(run({"a.log", "--idle-s", "1"}).err, HasSubstr("--idle-s needs a live source"));
+  EXPECT_THAT(run({"a.log", "--journal", "my.journal"}).err, HasSubstr("--journal needs a live source"));
+  EXPECT_THAT(run({"--tcp", "5000", "--journal", "/dev/null"}).err, HasSubstr("the file exists"));
 }
 
 }  // namespace

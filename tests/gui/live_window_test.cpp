@@ -43,7 +43,14 @@ TEST_F(LiveWindow, maps_a_tcp_stream_until_it_is_disconnected) {
   const auto send = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) send_text(connection.number(), lines[i] + '\n');
   };
-  gui_.then([](MainFrame& frame) { frame.set_ask_for_port([] { return std::uint16_t{0}; }); })
+  const std::filesystem::path journal = gui_.folder() / "session.journal";
+  gui_.then([&](MainFrame& frame) {
+        frame.set_ask_for_port([] { return std::uint16_t{0}; });
+        frame.set_ask_for_file([&](const FileQuestion& question) {
+          EXPECT_EQ(question.proposed_name, "session.journal");
+          return journal;
+        });
+      })
       .command(kConnectTcp)
       .when("a port", [](MainFrame& frame) { return port_in(frame.replay()->live_figures()->notice) != 0; })
       .then([&](MainFrame& frame) {
@@ -53,7 +60,8 @@ TEST_F(LiveWindow, maps_a_tcp_stream_until_it_is_disconnected) {
   when_scans(100)
       .when("a sender", [](MainFrame& frame) { return status(frame, 0).find("Connected to") == 0; })
       .screenshot("live")
-      .then([](MainFrame& frame) {
+      .then([&](MainFrame& frame) {
+        EXPECT_TRUE(std::filesystem::exists(journal));
         EXPECT_THAT(status(frame, 1), HasSubstr("missed deadline"));
         EXPECT_THAT(status(frame, 1), HasSubstr("ms, largest"));
         for (const int command : {kPlayOrPause, kStep, kRestart, kConnectTcp, kOpenEdits})
@@ -81,6 +89,7 @@ TEST_F(LiveWindow, maps_a_tcp_stream_until_it_is_disconnected) {
             })
       .close();  // the window closes when all results are written
   EXPECT_EQ(gui_.run({}), 0);
+  EXPECT_FALSE(std::filesystem::exists(journal));
 
   MappingSession session(write_lines(gui_.folder() / "room.log", lines), Settings());
   session.run(std::atomic<bool>(false));

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <thread>
 
-#include "live/descriptor.h"
+#include "base/descriptor.h"
 #include "sender.h"
 #include "temporary_folder.h"
 #include "test_files.h"

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "live/descriptor.h"
+#include "base/descriptor.h"
 
 namespace psi_slam {
 

@@ -10,6 +10,7 @@
 #include "../local_maps/simulated_drive.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
+#include "same_map.h"
 
 namespace psi_slam {
 namespace {
@@ -59,20 +60,6 @@ LiveRun run(std::size_t latency_nodes, bool thread) {
 const LiveRun& at_once() {
   static const LiveRun live = run(0, false);
   return live;
-}
-
-void expect_same_map(const MappingResult& a, const MappingResult& b) {
-  ASSERT_EQ(a.frames.size(), b.frames.size());
-  for (std::size_t i = 0; i < a.frames.size(); ++i) {
-    ASSERT_EQ(a.frames[i].map_T_robot, b.frames[i].map_T_robot) << "scan " << i;
-    ASSERT_EQ(a.frames[i].psi, b.frames[i].psi) << "scan " << i;
-    ASSERT_EQ(a.frames[i].evaluations, b.frames[i].evaluations) << "scan " << i;
-    ASSERT_EQ(a.frames[i].loops_accepted, b.frames[i].loops_accepted) << "scan " << i;
-    ASSERT_EQ(a.frames[i].matcher, b.frames[i].matcher) << "scan " << i;
-  }
-  ASSERT_EQ(a.loops.size(), b.loops.size());
-  for (std::size_t i = 0; i < a.loops.size(); ++i)
-    ASSERT_EQ(a.loops[i].anchor_T_node, b.loops[i].anchor_T_node) << "loop " << i;
 }
 
 TEST(BackEndThread, the_finished_map_depends_neither_on_the_thread_nor_on_the_latency) {
@@ -163,7 +150,7 @@ TrackedFrame impossible_frame() {
 TEST(BackEndThread, passes_exceptions_on) {
   for (const bool own_thread : {false, true}) {
     GraphBuilder builder{MapperOptions()};
-    BackEndThread thread(builder, own_thread, own_thread);
+    BackEndThread thread(builder, own_thread, own_thread ? ThreadPriority::kLow : ThreadPriority::kNormal);
     thread.hand_over({});
     thread.hand_over(impossible_frame());
     thread.hand_over({});

@@ -76,6 +76,23 @@ TEST(BlockCholesky, solves_as_a_dense_factorisation_does) {
   }
 }
 
+TEST(BlockCholesky, finds_the_diagonal_blocks_of_the_dense_inverse) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const SymmetricBlockMatrix matrix = random_matrix(5 + 3 * seed, 0.02 * static_cast<double>(seed), seed);
+    BlockCholesky cholesky;
+    cholesky.analyze(matrix);
+    ASSERT_TRUE(cholesky.factorize(matrix));
+    const Eigen::MatrixXd inverse = dense(matrix).inverse();
+    const std::vector<Eigen::Matrix3d> blocks = cholesky.inverse_diagonal_blocks();
+    ASSERT_EQ(blocks.size(), matrix.size());
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      const Eigen::Index row = 3 * static_cast<Eigen::Index>(k);
+      const Eigen::Matrix3d expected = inverse.block<3, 3>(row, row);
+      EXPECT_LT((blocks[k] - expected).norm(), 1e-12 * expected.norm()) << k;
+    }
+  }
+}
+
 TEST(BlockCholesky, solves_as_the_sparse_factorisation_of_Eigen_does) {
   const SymmetricBlockMatrix matrix = random_matrix(400, 0.005, 3);
   BlockCholesky cholesky;

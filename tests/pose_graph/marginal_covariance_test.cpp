@@ -33,6 +33,11 @@ TEST(MarginalCovariance, is_a_block_of_the_dense_inverse) {
   MarginalCovariance covariance;
   covariance.update(known.graph);
   EXPECT_EQ(covariance.marginal(0), Eigen::Matrix3d::Zero());
+  const std::vector<Eigen::Matrix3d> all = covariance.marginals();
+  ASSERT_EQ(all.size(), 150U);
+  for (std::size_t a = 0; a < 150; ++a)
+    EXPECT_TRUE(near(all[a], dense_joint(inverse, a, a).topLeftCorner<3, 3>()) || a == 0);
+  EXPECT_EQ(all[0], Eigen::Matrix3d::Zero());
   for (std::size_t a = 0; a < 150; a += 7) {
     EXPECT_TRUE(near(covariance.marginal(a), dense_joint(inverse, a, a).topLeftCorner<3, 3>()) || a == 0);
     for (std::size_t b = 0; b < 150; b += 11)

@@ -118,7 +118,8 @@ TEST(GridMap, beams_without_return_free_the_unknown_cells_on_their_way_and_no_ot
   const std::vector<TPose2D> poses = {
       {0.01, 0.02, 0}, {1.3, -0.7, 2}, {-0.4, 1.1, -1}, {-6, -6, 0}, {6, 6, 0}};
   const auto draw = [&](const std::vector<Frame>& log, double max_range_m, double no_return_clears_m) {
-    return draw_grid_map(log, poses, {0.05, max_range_m, no_return_clears_m, 0.5, 1'000'000})->getRawMap();
+    return draw_grid_map(log, poses, {0.05, max_range_m, no_return_clears_m, 0.5, 1'000'000, true, 1})
+        ->getRawMap();
   };
   std::mt19937_64 random(9);
   std::uniform_real_distribution<float> near(0.2F, 3.9F);
@@ -214,6 +215,43 @@ TEST(GridMap, draws_an_empty_log_and_rejects_wrong_input) {
   EXPECT_THROW(draw_grid_map({}, {}, {0, 30, 5, 0.5, 1000}), std::invalid_argument);
   EXPECT_THROW(draw_grid_map({}, {}, {0.05, 30, -1, 0.5, 1000}), std::invalid_argument);
   EXPECT_THROW(draw_grid_map({Frame()}, {{std::nan(""), 0, 0}}), std::invalid_argument);
+}
+
+TEST(GridMap, a_single_beam_past_an_edge_draws_nothing_beyond_the_edge) {
+  Frame frame;
+  frame.scan.bearings_rad = even_bearings(-0.5, 0.5, 101);
+  frame.scan.ranges_m.assign(101, 3);
+  frame.scan.ranges_m[50] = 8;
+  frame.scan.max_range_m = 30;
+  const TPose2D pose(0.02, 0.02, 0);
+  const auto drawn = [&](int scans, int min_beams) {
+    GridMapOptions options;
+    options.min_beams = min_beams;
+    options.keep_moving = true;
+    const std::vector<Frame> log(static_cast<std::size_t>(scans), frame);
+    return draw_grid_map(log, std::vector<TPose2D>(log.size(), pose), options);
+  };
+  const auto clean = drawn(1, 2);
+  EXPECT_TRUE(is_free(*clean, 2.5, 0.02));
+  EXPECT_TRUE(is_wall(*clean, 3.01, 0.2)) << "neighbouring beams agree";
+  EXPECT_TRUE(is_unknown(*clean, 6.02, 0.02));
+  EXPECT_TRUE(is_unknown(*clean, 8.02, 0.02));
+  for (const auto& [scans, min_beams] : {std::pair(1, 1), std::pair(2, 2), std::pair(3, 3)}) {
+    EXPECT_TRUE(is_free(*drawn(scans, min_beams), 6.02, 0.02)) << scans << ' ' << min_beams;
+    EXPECT_TRUE(is_wall(*drawn(scans, min_beams), 8.02, 0.02)) << scans << ' ' << min_beams;
+  }
+}
+
+TEST(GridMap, a_far_wall_with_one_beam_per_cell_stays) {
+  const SimulatedRoom room{-1, 25, -4, 4};
+  const TPose2D pose(0, 0, 0);
+  const auto draw = [&](int min_beams) {
+    GridMapOptions options;
+    options.min_beams = min_beams;
+    return draw_grid_map({room.scan_from(pose, even_bearings(-M_PI / 2, M_PI / 2, 181))}, {pose}, options)
+        ->getRawMap();
+  };
+  EXPECT_EQ(draw(2), draw(1));
 }
 
 TEST(GridMap, each_laser_of_a_frame_draws_from_its_own_pose) {

@@ -70,7 +70,10 @@ class LiveGridMapTest : public testing::Test {
   void expect_equal_to_a_full_drawing() {
     std::vector<TPose2D> drawn;
     for (std::size_t i = 0; i < log_.size(); ++i) drawn.push_back(map_.drawn_pose(i));
-    const auto expected = draw_grid_map(log_, drawn, options_.map);
+    GridMapOptions everything = options_.map;
+    everything.keep_moving = true;
+    everything.min_beams = 1;
+    const auto expected = draw_grid_map(log_, drawn, everything);
     const auto grid = grid_of(map_.snapshot());
     EXPECT_EQ(grid->getXMin(), expected->getXMin());
     EXPECT_EQ(grid->getYMax(), expected->getYMax());

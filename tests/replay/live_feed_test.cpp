@@ -7,6 +7,7 @@
 
 #include "frames_in_memory.h"
 #include "sender.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 namespace {
@@ -34,7 +35,7 @@ TEST(LiveFeed, measures_the_delay_from_arrival_to_pose) {
   const SessionInput input = LiveFeed::input(feed);
   EXPECT_EQ(names_of(input.logs()), "memory");
   EXPECT_FALSE(feed->has_news(0)) << "the source is not open";
-  const auto frames = input.open({});
+  const auto frames = open_input(input, Settings()).frames;
   ASSERT_TRUE(soon([&] { return feed->has_news(1); }));
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_TRUE(frames->next());
@@ -72,7 +73,7 @@ TEST(LiveFeed, the_largest_delay_leaves_out_the_first_scans) {
       std::make_shared<LiveFeed>(LiveStream{"memory", [&](const LogOptions&, const LiveControl&) {
                                               return std::make_unique<Source>(second_scan_comes);
                                             }});
-  const auto frames = LiveFeed::input(feed).open({});
+  const auto frames = open_input(LiveFeed::input(feed), Settings()).frames;
   EXPECT_TRUE(frames->next());
   std::this_thread::sleep_for(std::chrono::milliseconds(1010));
   feed->note_pose(0);
@@ -91,7 +92,7 @@ TEST(LiveFeed, ends_a_silent_source_and_passes_its_notices) {
                                               return std::make_unique<SilentSource>(control);
                                             }});
   feed->set_observer([&] { ++arrivals; });
-  const auto frames = LiveFeed::input(feed).open({});
+  const auto frames = open_input(LiveFeed::input(feed), Settings()).frames;
   EXPECT_EQ(feed->figures().notice, "waiting");
   EXPECT_EQ(feed->figures().notices, 1U);
   EXPECT_FALSE(feed->has_news(0));

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <memory>
+#include <stdexcept>
 
 #include "../session/room_log.h"
 #include "awaited_snapshot.h"
@@ -104,6 +106,54 @@ TEST_F(LiveReplay, a_source_that_ends_finishes_the_map) {
   source_.idle_s = 0.2;
   const Replay replay(live_stream(source_), settings_);
   EXPECT_EQ(wait_for(replay, ReplayPhase::kFinished)->frames.size(), 40U);
+}
+
+TEST_F(LiveReplay, records_the_scans_in_a_journal_until_it_is_closed) {
+  settings_.live.journal_period_s = 0.05;
+  const std::filesystem::path journal = out("session.journal");
+  {
+    const Replay replay(live_stream(source_, journal), settings_);
+    record(40);
+    EXPECT_TRUE(soon([&] {
+      return std::filesystem::exists(journal) && read_session_file(journal).frames.size() == 40;
+    })) << replay.snapshot()->failure;
+  }
+  EXPECT_FALSE(std::filesystem::exists(journal));
+}
+
+/// Scans of a log, then an error that no log can cause.
+class FailingSource : public FrameSource {
+ public:
+  FailingSource(std::unique_ptr<FrameSource> log, int scans) : log_(std::move(log)), left_(scans) {}
+  std::optional<Frame> next() override {
+    if (left_-- == 0) throw std::runtime_error("the laser exploded");
+    return log_->next();
+  }
+  double progress() const override { return 0; }
+
+ private:
+  std::unique_ptr<FrameSource> log_;
+  int left_;
+};
+
+TEST_F(LiveReplay, keeps_the_journal_of_a_run_that_fails_unless_it_has_no_scans) {
+  record(40);
+  const std::filesystem::path journal = out("session.journal");
+  for (const int scans : {0, 30}) {
+    {
+      const auto open = [&](const LogOptions& options, const LiveControl&) {
+        return std::make_unique<FailingSource>(open_log(source_.file, options), scans);
+      };
+      const Replay replay({"laser", open, journal}, settings_);
+      ASSERT_TRUE(soon([&] { return replay.snapshot()->phase == ReplayPhase::kFailed; }));
+      EXPECT_EQ(replay.snapshot()->failure,
+                scans == 0 ? "the laser exploded"
+                           : "the laser exploded. The scans so far are recorded in " + journal.string() +
+                                 ". Open this file to map them again.");
+    }
+    EXPECT_EQ(std::filesystem::exists(journal), scans > 0);
+  }
+  EXPECT_EQ(read_session_file(journal).frames.size(), 30U);
 }
 
 TEST_F(LiveReplay, can_be_closed_while_it_waits) {

@@ -85,7 +85,7 @@ TEST(OutputFolder, has_all_files_under_fixed_names) {
   EXPECT_EQ(names_in(temporary.path() / "run"),
             (std::set<std::string>{"frames.csv", "loops.csv", "map.dxf", "map.gridmap.gz", "map.pgm",
                                    "map.png", "map.simplemap.gz", "map.svg", "map.yaml", "report.html",
-                                   "summary.json", "trajectory.carmen", "trajectory.tum"}));
+                                   "summary.json", "trajectory.carmen", "trajectory.csv", "trajectory.tum"}));
 }
 
 TEST(OutputFolder, force_replaces_results_and_keeps_other_files) {
@@ -126,11 +126,12 @@ TEST(OutputFolderDeathTest, reports_a_full_disk_and_leaves_no_partial_file) {
   const TemporaryFolder temporary;
   for (const rlim_t limit : {1000, 4096, 10000, 30000}) {
     const fs::path path = temporary.path() / std::to_string(limit);
-    EXPECT_EXIT(
-        export_to_a_full_disk(path, limit), ::testing::ExitedWithCode(1),
-        "cannot write "
-        ".*/(trajectory.tum|trajectory.carmen|frames.csv|loops.csv|map.*|summary.json|report.html): File "
-        "too large");
+    EXPECT_EXIT(export_to_a_full_disk(path, limit), ::testing::ExitedWithCode(1),
+                "cannot write "
+                ".*/"
+                "(trajectory.tum|trajectory.csv|trajectory.carmen|frames.csv|loops.csv|map.*|summary.json|"
+                "report.html): File "
+                "too large");
     for (const std::string& name : names_in(path)) {
       EXPECT_EQ(name.find("partial"), std::string::npos) << name;
       EXPECT_GT(fs::file_size(path / name), 0U) << name;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "doubtful_map.h"
 #include "psi_slam/grid_map.h"
 #include "report/output_folder.h"
 #include "simulated_room.h"
@@ -69,6 +70,20 @@ TEST(ReportHtml, counts_the_scans_of_further_lasers) {
       HasSubstr(
           "<th>Further lasers</th><td>48 scans synchronised with the first laser, 1,200 left out because "
           "no scan of the first laser is near in time</td>"));
+}
+
+TEST(ReportHtml, shows_the_places_to_check) {
+  const MappingResult result = walk_around_the_room();
+  const auto grid = draw_grid_map(result.log, mapped_poses(result));
+  RunSummary summary = summarize_run(result, *grid);
+  EXPECT_THAT(report_html(result, {}, summary, *grid), Not(HasSubstr("<h2>Verdict")));
+  summary.verdict = doubtful_map();
+  const std::string html = report_html(result, {}, summary, *grid);
+  EXPECT_EQ(complaint_about(without_style_and_script(html)), "");
+  EXPECT_THAT(html, HasSubstr("<h2>Verdict<small>check these places</small>"));
+  EXPECT_THAT(html, HasSubstr("id=\"show-hot-spots\""));
+  EXPECT_THAT(html, HasSubstr("<td class=\"text\">delete the loop of scan 45 with local map 3</td>"));
+  EXPECT_THAT(html, HasSubstr("<circle "));
 }
 
 TEST(ReportHtml, needs_no_network) {

@@ -7,7 +7,9 @@
 
 #include "exports/run_summary.h"
 #include "frames/discarded_ranges.h"
+#include "frames_in_memory.h"
 #include "psi_slam/mapping_session.h"
+#include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 #include "report/output_folder.h"
 #include "room_log.h"
@@ -299,6 +301,34 @@ TEST_F(ResumedJournal, keeps_edits_made_while_mapping) {
   EXPECT_EQ(read_session_file(saved_).facts.edits.text(), whole.edits().text());
   whole.run(go_on_);
   expect_resumed(export_of(whole, "whole"), path);
+}
+
+TEST_F(ResumedJournal, is_continued_by_a_stream_again_and_again) {
+  const auto path = log("room.log", room_log_lines(60));
+  std::vector<Frame> frames;
+  for (const auto source = open_log(path, log_options(settings_)); auto frame = source->next();)
+    frames.push_back(*std::move(frame));
+  constexpr std::size_t kPart = 20;
+  for (std::size_t begin = 0; begin < frames.size(); begin += kPart) {
+    const auto first = frames.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto open = [part = std::vector<Frame>(first, first + kPart)](const LogOptions&) {
+      return std::make_unique<FramesInMemory>(part);
+    };
+    MappingSession session(
+        begin == 0 ? SessionInput("robot", open)
+                   : SessionInput(std::make_shared<const SessionRecording>(read_session_file(saved_)),
+                                  "robot", open),
+        settings_);
+    session.start_journal(saved_);
+    while (session.step()) {
+    }
+    EXPECT_THAT(session.warnings_of_logs_before(), IsEmpty()) << "a stream has no scans left";
+    if (begin + kPart < frames.size()) continue;  // crashed
+    session.finish();
+    EXPECT_FALSE(session.result().interrupted);
+    expect_same_results(uninterrupted(path), export_of(session, "resumed"));
+  }
+  EXPECT_EQ(read_session_file(saved_).frames.size(), frames.size());
 }
 
 TEST_F(ResumedSession, reports_damage_and_skipped_lines_again) {

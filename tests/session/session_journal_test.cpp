@@ -5,6 +5,8 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <memory>
+#include <stdexcept>
 
 #include "psi_slam/user_error.h"
 #include "session/session_file.h"
@@ -88,25 +90,63 @@ TEST_F(SessionJournalTest, a_folder_that_is_missing_is_an_error) {
   EXPECT_THROW(SessionJournal(folder_.path() / "none" / "my.journal", facts_, {}, 1), SystemFailure);
 }
 
-TEST_F(SessionJournalTest, a_full_disk_ends_the_journal_and_keeps_what_was_written) {
-  SessionJournal journal(path_, facts_, {}, 0.05);
+/// Limits the size of the files that this process writes, as a full disk does.
+class FullDisk {
+ public:
+  explicit FullDisk(std::size_t bytes) {
+    if (getrlimit(RLIMIT_FSIZE, &before_) != 0) throw std::runtime_error("cannot read the limit");
+    const rlimit small{bytes, before_.rlim_max};
+    if (setrlimit(RLIMIT_FSIZE, &small) != 0) throw std::runtime_error("cannot limit the size of files");
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before_{};
+};
+
+TEST_F(SessionJournalTest, is_complete_again_after_a_full_disk_has_room) {
+  SessionJournal journal(path_, facts_, {}, 0.02);
   add(journal, frames_[0]);
   ASSERT_TRUE(soon([&] { return recorded() == 1; }));
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-  const rlimit small{fs::file_size(path_) + 100, before.rlim_max};
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-  add(journal, frames_[1]);
-  const bool failed = soon([&] { return journal.failure().has_value(); });
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, handler);
-  ASSERT_TRUE(failed);
-  EXPECT_THAT(*journal.failure(), HasSubstr("cannot write " + path_.string()));
-  add(journal, frames_[2]);
+  for (std::size_t failures = 0; failures < 2; ++failures) {
+    const std::size_t before = 1 + failures;
+    {
+      const FullDisk full(fs::file_size(path_) + 100);
+      add(journal, frames_[before]);
+      ASSERT_TRUE(soon([&] { return journal.failure().has_value(); }));
+      EXPECT_THAT(*journal.failure(), HasSubstr("cannot write " + path_.string()));
+      const SessionRecording back = read_session_file(path_);
+      EXPECT_EQ(back.frames.size(), before);
+      EXPECT_TRUE(back.lost_end);
+    }
+    EXPECT_TRUE(soon([&] { return !journal.failure(); })) << "also without further scans";
+    EXPECT_EQ(recorded(), before + 1);
+  }
+  add(journal, frames_[3]);
+  EXPECT_TRUE(soon([&] { return recorded() == 4; }));
   const SessionRecording back = read_session_file(path_);
-  EXPECT_EQ(back.frames.size(), 1U);
-  EXPECT_TRUE(back.lost_end);
+  EXPECT_FALSE(back.lost_end);
+  for (std::size_t i = 0; i < back.frames.size(); ++i) expect_same_frame(frames_[i], back.frames[i]);
+}
+
+TEST_F(SessionJournalTest, the_destructor_tries_once_more) {
+  for (const bool has_room : {false, true}) {
+    auto journal = std::make_unique<SessionJournal>(path_, facts_, std::vector<Frame>(), 3600);
+    auto full = std::make_unique<FullDisk>(fs::file_size(path_));
+    add(*journal, frames_[0]);
+    ASSERT_TRUE(soon([&] { return journal->failure().has_value(); }));
+    if (has_room) full.reset();
+    journal.reset();
+    full.reset();
+    EXPECT_EQ(recorded(), has_room ? 1U : 0U);
+    facts_.logs[0].scans = 0;
+  }
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "live/descriptor.h"
+#include "base/descriptor.h"
 #include "soon.h"
 
 namespace psi_slam {

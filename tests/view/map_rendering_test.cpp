@@ -92,6 +92,13 @@ TEST_F(MapRenderingTest, the_grid_map_hides_no_layer_above_it) {
   EXPECT_EQ(share_seen(palette::kCorrected), 0) << "the path is not drawn";
 }
 
+TEST_F(MapRenderingTest, ellipses_show_the_uncertainty_along_the_path) {
+  draw({});
+  EXPECT_EQ(share_seen(palette::kUncertainty), 0);
+  draw({MapLayer::kUncertainty});
+  EXPECT_GT(share_seen(palette::kUncertainty), 0.01) << "most ellipses are 1 m apart and wider than 2 px";
+}
+
 TEST_F(MapRenderingTest, nodes_are_drawn_over_lines) {
   draw({MapLayer::kLoops, MapLayer::kConstraints, MapLayer::kNodes});
   EXPECT_EQ(share_seen(palette::kNode), 1);

@@ -70,6 +70,39 @@ TEST_F(MapSceneTest, marks_unmatched_scans_on_the_path) {
   EXPECT_NEAR(static_cast<double>(dots->getPoint3Df(0).x), snapshot->frames[20].map_T_robot.x, 1e-4);
 }
 
+TEST_F(MapSceneTest, draws_ellipses_of_uncertainty_true_to_scale) {
+  scene_.set_visible(MapLayer::kUncertainty, true);
+  auto snapshot = std::make_shared<ReplaySnapshot>(*finished_);
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(0.04, 0.01, 0.001).asDiagonal();
+  snapshot->map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(
+      std::vector<mrpt::math::TPose2D>{{0, 0, 0}, {0.5, 0, 0}, {3, 1, 0}});
+  snapshot->loops = std::make_shared<std::vector<LoopRecord>>();  // they refer to other nodes
+  snapshot->node_covariances = std::make_shared<std::vector<Eigen::Matrix3d>>(
+      std::vector<Eigen::Matrix3d>{Eigen::Matrix3d::Zero(), covariance, covariance});
+  scene_.show(snapshot, map_);
+  const auto lines = first<mrpt::opengl::CSetOfLines>(MapLayer::kUncertainty);
+  ASSERT_EQ(lines->size(), 48U) << "the second node is too close to the first";
+  double x_max_m = 0;
+  double y_max_m = 0;
+  for (std::size_t i = 0; i < lines->size(); ++i) {
+    double x0 = 0, y0 = 0, z0 = 0, x1 = 0, y1 = 0, z1 = 0;
+    lines->getLineByIndex(i, x0, y0, z0, x1, y1, z1);
+    x_max_m = std::max(x_max_m, x0);
+    y_max_m = std::max(y_max_m, y0);
+  }
+  EXPECT_NEAR(x_max_m, 3 + 0.2 * std::sqrt(5.991), 0.01);
+  EXPECT_NEAR(y_max_m, 1 + 0.1 * std::sqrt(5.991), 0.01);
+}
+
+TEST_F(MapSceneTest, draws_uncertainty_of_finished_runs_only) {
+  scene_.set_visible(MapLayer::kUncertainty, true);
+  scene_.show(paused_, nullptr);
+  EXPECT_EQ(objects(MapLayer::kUncertainty), 0U);
+  scene_.show(finished_, map_);
+  EXPECT_EQ(finished_->node_covariances->size(), finished_->map_T_node->size());
+  EXPECT_GT(first<mrpt::opengl::CSetOfLines>(MapLayer::kUncertainty)->size(), 48U);
+}
+
 TEST_F(MapSceneTest, draws_the_active_local_maps_of_a_run_in_progress) {
   scene_.show(paused_, nullptr);
   EXPECT_EQ(objects(MapLayer::kLocalMaps), 0U) << "the layer is hidden";

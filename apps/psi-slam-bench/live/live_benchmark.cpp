@@ -6,14 +6,20 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <future>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
 
+#include "base/temporary_folder.h"
+#include "live_mapping.h"
 #include "loop_closure/keyframe_store.h"
 #include "mapping/carried_frames.h"
+#include "psi_slam/mapping_session.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
+#include "session/session_input.h"
 #include "simulate/forked_work.h"
 #include "simulate/simulate_benchmark.h"
 #include "sparse/node_costs.h"
@@ -41,6 +47,28 @@ void use_processors(int count) {
 double ms_between(Clock::time_point begin, Clock::time_point end) {
   return std::chrono::duration<double, std::milli>(end - begin).count();
 }
+
+/// Frames in memory, each of which is returned when it is due.
+class PacedSource : public FrameSource {
+ public:
+  /// The frames begin at `begin`; `after_begin` returns when after that a frame is due.
+  PacedSource(std::vector<Frame> frames, std::shared_future<Clock::time_point> begin,
+              std::function<Clock::duration(std::size_t)> after_begin)
+      : frames_(std::move(frames)), begin_(std::move(begin)), after_begin_(std::move(after_begin)) {}
+
+  std::optional<Frame> next() override {
+    if (next_ == frames_.size()) return std::nullopt;
+    std::this_thread::sleep_until(begin_.get() + after_begin_(next_));
+    return std::move(frames_[next_++]);
+  }
+  double progress() const override { return 0; }
+
+ private:
+  std::vector<Frame> frames_;
+  std::shared_future<Clock::time_point> begin_;
+  std::function<Clock::duration(std::size_t)> after_begin_;
+  std::size_t next_ = 0;
+};
 
 /// A replay to make: a log, or a simulated run.
 struct Task {
@@ -152,23 +180,36 @@ std::vector<double> due_times_s(const std::vector<Frame>& frames, double longest
 
 Replayed replay(std::vector<Frame> frames, const Settings& settings, double speed,
                 const std::function<void(double)>& progress) {
-  MapperOptions options = mapper_options(settings);
-  options.back_end_thread = options.back_end_yields = true;
-  Mapper mapper(options);
-  Replayed replayed;
+  const TemporaryFolder folder;
   const std::vector<double> due_s = due_times_s(frames);
-  const Clock::time_point first = Clock::now();
+  const auto after_begin = [&](std::size_t scan) {
+    const double time_s = speed > 0 ? due_s[scan] / speed : 0;
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_s));
+  };
+  std::promise<Clock::time_point> promise;
+  MappingSession session(SessionInput("replay",
+                                      [&, begin = promise.get_future().share()](const LogOptions&) {
+                                        return std::make_unique<PacedSource>(std::move(frames), begin,
+                                                                             after_begin);
+                                      }),
+                         settings);
+  std::promise<Clock::time_point> begins = std::move(promise);  // an exception lets the source end first
+  LiveMapping mapping(session, folder.path(), settings,
+                      [](const std::string& sentence) { throw SystemFailure(sentence); });
+  Replayed replayed;
   const std::clock_t cpu_before = std::clock();
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    Clock::time_point due = Clock::now();
-    if (speed > 0) {
-      due = first +
-            std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s[i] / speed));
-      std::this_thread::sleep_until(due);
-    }
-    replayed.live.push_back(mapper.add(std::move(frames[i])));
-    replayed.latency_ms.push_back(ms_between(due, Clock::now()));
-    progress(static_cast<double>(i + 1) / static_cast<double>(frames.size()));
+  const Mapper& mapper = session.mapper();
+  const Clock::time_point first = Clock::now();
+  Clock::time_point step_begin = first;
+  session.set_pose_observer([&](const FrameRecord& record) {
+    const Clock::time_point due = first + after_begin(mapper.frames().size() - 1);
+    replayed.latency_ms.push_back(ms_between(speed > 0 ? due : step_begin, Clock::now()));
+    replayed.live.push_back(record);
+  });
+  begins.set_value(first);
+  while (mapping.step()) {
+    progress(static_cast<double>(mapper.frames().size()) / static_cast<double>(due_s.size()));
+    step_begin = Clock::now();
   }
   mapper.wait();
   replayed.cpu_s = static_cast<double>(std::clock() - cpu_before) / CLOCKS_PER_SEC;
@@ -177,7 +218,8 @@ Replayed replay(std::vector<Frame> frames, const Settings& settings, double spee
   std::vector<std::size_t> node_frames;
   for (const NodeScan& node : mapper.keyframes().nodes) node_frames.push_back(node.frame);
   carry_frames_along(mapper.graph().poses(), node_frames, replayed.mapped, mapper.later_run_frames());
-  replayed.result = mapper.finish();
+  session.finish();
+  replayed.result = session.result();
   return replayed;
 }
 

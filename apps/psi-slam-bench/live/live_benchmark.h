@@ -34,7 +34,7 @@ struct LiveRow {
   int processors = 1;
   std::size_t scans = 0;
   std::size_t nodes = 0;
-  /// Time from a scan to its pose, in milliseconds: from the moment when the scan is due, or when the mapper
+  /// Time from a scan to its pose, in milliseconds: from the moment when the scan is due, or when the program
   /// begins with it if the speed is 0.
   double mean_ms = 0;
   double p50_ms = 0;
@@ -63,14 +63,15 @@ std::vector<double> due_times_s(const std::vector<Frame>& frames, double longest
 /// Poses and times of one replay.
 struct Replayed {
   MappingResult result;
-  std::vector<FrameRecord> live;    ///< the records as Mapper::add returned them
+  std::vector<FrameRecord> live;    ///< the records right after each scan
   std::vector<FrameRecord> mapped;  ///< the records before the final steps, with the loops found until then
   std::vector<double> latency_ms;   ///< time from each scan to its pose
   std::size_t missed_deadlines = 0;
   double cpu_s = 0;  ///< processor time while scans were added
 };
 
-/// Maps the frames as they become due. The back end has a thread of its own.
+/// Maps the frames as they become due, as psi-slam live does: with the journal and the map that it writes,
+/// here to a temporary folder. Throws SystemFailure if they cannot be written.
 Replayed replay(std::vector<Frame> frames, const Settings& settings, double speed,
                 const std::function<void(double)>& progress);
 

@@ -12,6 +12,7 @@
 #include "pose_graph/constraint_error.h"
 #include "pose_graph/marginal_covariance.h"
 #include "pose_graph/path_covariance.h"
+#include "pose_graph/shared_errors.h"
 #include "pose_graph/sparse_pose_adjustment.h"
 #include "psi_slam/pose_graph.h"
 
@@ -24,6 +25,8 @@ using mrpt::math::TPose2D;
 // more than a single one.
 constexpr std::size_t kFirsts = 30;
 constexpr std::size_t kOthers = 20;
+// Nodes closer than this many nodes to each other on the path are neighbours.
+constexpr std::size_t kNeighbours = 100;
 
 /// True pose of node b in the frame of node a.
 using TruePose = std::function<TPose2D(std::size_t a, std::size_t b)>;
@@ -55,6 +58,42 @@ PairSquares squares_of_pairs(const PoseGraph& graph, const TruePose& a_T_b, std:
         squares.best_path.push_back(normalised_square(found, true_pose, along_path.covariance.inverse()));
     }
   }
+  return squares;
+}
+
+struct ModelSquares {
+  std::vector<double> pairs;
+  std::vector<double> neighbours;
+  std::vector<double> to_first;
+};
+
+/// Squares of the poses of a map by the model of shared errors.
+ModelSquares squares_by_model(const PoseGraph& graph, const TruePose& a_T_b, std::uint64_t seed) {
+  MarginalCovariance of_model;
+  of_model.update(graph_with_shared_errors(graph));
+  RandomDraws random(seed, "nodes for the model of shared errors", 0);
+  const auto add = [&](std::size_t a, const std::vector<std::size_t>& others, std::vector<double>& squares) {
+    const std::vector<Eigen::Matrix3d> covariances = of_model.relative(a, others);
+    for (std::size_t k = 0; k < others.size(); ++k)
+      squares.push_back(normalised_square(graph.pose(others[k]) - graph.pose(a), a_T_b(a, others[k]),
+                                          covariances[k].inverse()));
+  };
+  ModelSquares squares;
+  std::vector<std::size_t> of_first;
+  for (std::size_t i = 0; i < kFirsts; ++i) {
+    const std::size_t a = random.index(graph.num_nodes());
+    std::vector<std::size_t> others;
+    std::vector<std::size_t> neighbours;
+    while (others.size() < kOthers) {
+      if (const std::size_t b = random.index(graph.num_nodes()); b != a) others.push_back(b);
+      const std::size_t next = a + 1 + random.index(kNeighbours);
+      if (next < graph.num_nodes()) neighbours.push_back(next);
+      of_first.push_back(1 + random.index(graph.num_nodes() - 1));
+    }
+    add(a, others, squares.pairs);
+    add(a, neighbours, squares.neighbours);
+  }
+  add(graph.root(), of_first, squares.to_first);
   return squares;
 }
 
@@ -106,7 +145,15 @@ std::vector<NormalisedErrors> check_covariances(const MappingResult& result, con
     SparsePoseAdjustment().optimize(graph);  // covariances are defined at the optimum
     PairSquares squares = squares_of_pairs(graph, a_T_b, seed);
     errors.push_back(normalised_errors("any two nodes, by the best path", std::move(squares.best_path)));
-    errors.push_back(normalised_errors("any two nodes, by the whole graph", std::move(squares.whole_graph)));
+    errors.push_back(normalised_errors("any two nodes, by the whole graph with independent constraints",
+                                       std::move(squares.whole_graph)));
+    ModelSquares model = squares_by_model(result.graph, a_T_b, seed);
+    errors.push_back(normalised_errors("any two nodes, by the whole graph", std::move(model.pairs)));
+    errors.push_back(normalised_errors(
+        "nodes within " + std::to_string(kNeighbours) + " nodes on the path, by the whole graph",
+        std::move(model.neighbours)));
+    errors.push_back(
+        normalised_errors("nodes relative to the first, by the whole graph", std::move(model.to_first)));
   }
   return errors;
 }

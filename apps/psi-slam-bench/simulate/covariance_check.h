@@ -38,10 +38,13 @@ double normalised_square(const mrpt::math::TPose2D& measured, const mrpt::math::
 /// poses.
 NormalisedErrors normalised_errors(std::string of, std::vector<double> squares);
 
-/// Normalised errors of the local-map constraints, of the loops, and of random pairs of nodes. The pairs come
-/// from the graph optimised without the final scan refinement. Their covariance is computed twice: along the
-/// best path between the nodes, as in the loop search, and from the whole graph. `truth` has a pose for each
-/// frame.
+/// Normalised errors of the local-map constraints, of the loops, and of random pairs of nodes. The covariance
+/// of pairs is computed in three ways: along the best path between the nodes, as in the loop search; from the
+/// whole graph with independent constraints; and from the whole graph with the errors that constraints share,
+/// see graph_with_shared_errors(). The last way is also checked for nodes close to each other on the path,
+/// and for nodes relative to the first one, as trajectory.csv states it. The poses of the last three are
+/// those of the result; the other pairs come from the graph optimised without the final scan refinement.
+/// `truth` has a pose for each frame.
 std::vector<NormalisedErrors> check_covariances(const MappingResult& result, const Trajectory& truth,
                                                 std::uint64_t seed);
 

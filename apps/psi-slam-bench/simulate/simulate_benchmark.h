@@ -23,7 +23,9 @@ struct SimulateOptions {
   std::uint64_t seed = 1;
   std::size_t people = 5;    ///< number of people for every 500 m of path
   double glass_share = 0.1;  ///< share of glass in the front walls of rooms and in the outer walls
-  int threads = 1;           ///< number of threads that match loops
+  double max_range_m = ScanSimulatorOptions().max_range_m;  ///< largest range of the laser
+  double range_noise_m = ScanSimulatorOptions().noise_m;    ///< standard deviation of a range
+  int threads = 1;                                          ///< number of threads that match loops
 };
 
 /// Mean, largest value, and 99th percentile: the least value that at least 99 % of the values do not exceed.
@@ -71,7 +73,7 @@ inline constexpr std::size_t kRelations = 2000;
 /// Summary of the values; zeros without values.
 TimeSummary summary_of_times(std::vector<double> values);
 
-/// Options of a run with a path of `path_m` metres, and with the seed, people and glass of `options`.
+/// Options of a run with a path of `path_m` metres, and with the seed, people, glass and laser of `options`.
 SimulatedLogOptions simulated_run_options(const SimulateOptions& options, double path_m);
 
 /// Relations of the true path between `count` random pairs of scans. `truth` must not be empty.

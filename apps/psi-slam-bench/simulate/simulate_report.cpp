@@ -106,12 +106,13 @@ ReportTable figures_table(const Rows& rows) {
 }
 
 std::string markdown_of(const Rows& rows, const SimulateOptions& options, const std::string& machine) {
-  std::string text = "# Simulated runs of growing length\n\n" + measured_by(machine) + ", " +
-                     counted(static_cast<std::size_t>(options.threads), "thread", "threads") +
-                     ", default settings; seed " + std::to_string(options.seed) + ", " +
-                     std::to_string(options.people) + " people for every 500 m, " +
-                     fixed_text(100 * options.glass_share, 0) +
-                     " % glass. Each run has a building and a process of its own.\n\n";
+  std::string text =
+      "# Simulated runs of growing length\n\n" + measured_by(machine) + ", " +
+      counted(static_cast<std::size_t>(options.threads), "thread", "threads") + ", default settings; seed " +
+      std::to_string(options.seed) + ", " + std::to_string(options.people) + " people for every 500 m, " +
+      fixed_text(100 * options.glass_share, 0) + " % glass, laser with a range of " +
+      fixed_text(options.max_range_m, 0) + " m and a noise of " + fixed_text(options.range_noise_m, 3) +
+      " m. Each run has a building and a process of its own.\n\n";
   text +=
       "- error: distance from the truth, with both paths aligned at the first scan\n"
       "- relations: metric of Kümmerle et al. over " +
@@ -180,6 +181,8 @@ BenchReport simulate_report(const Rows& rows, const SimulateOptions& options, co
                                      {{"seed", options.seed},
                                       {"people_per_500_m", options.people},
                                       {"glass_share", options.glass_share},
+                                      {"max_range_m", options.max_range_m},
+                                      {"range_noise_m", options.range_noise_m},
                                       {"threads", options.threads},
                                       {"drives", figures.json()}})),
           figures.csv(), plots_of(rows)};

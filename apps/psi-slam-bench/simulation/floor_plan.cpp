@@ -210,6 +210,7 @@ class Draughtsman {
     const double door_x = random_.between(room.x0 + kDoorToWall_m, room.x1 - kDoorToWall_m);
     const Opening door{door_x - kDoor_m / 2, door_x + kDoor_m / 2};
     const double deep_y = room.y_front + (room.y_back - room.y_front) * random_.between(0.45, 0.7);
+    plan_.doors.push_back({{door.from, room.y_front}, {door.to, room.y_front}, Material::kFurniture});
     draw_front(room, door);
     draw_.line(door.from, room.y_front, door.from - random_.between(0, 0.2), room.y_front + in * 0.9,
                Material::kFurniture);  // the open door leaf

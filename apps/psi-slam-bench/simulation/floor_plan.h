@@ -46,6 +46,7 @@ struct FloorPlan {
   std::vector<Place> places;
   std::vector<Passage> passages;
   std::vector<Corridor> corridors;
+  std::vector<PlanSegment> doors;  ///< where closed doors of rooms would be; all doors of `segments` are open
 
   double corridors_m() const;  ///< total length of the corridors
   std::size_t rooms() const;   ///< number of rooms and halls

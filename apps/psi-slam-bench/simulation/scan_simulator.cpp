@@ -38,6 +38,18 @@ double range_to_circle_m(const TPose2D& ray, const TPoint2D& middle, double radi
   return along - std::sqrt(half2);
 }
 
+/// Distance along the ray to a segment, in metres. Infinite if the ray misses the segment.
+double range_to_segment_m(const TPose2D& ray, const PlanSegment& segment) {
+  const TPoint2D direction(std::cos(ray.phi), std::sin(ray.phi));
+  const TPoint2D way = segment.to - segment.from;
+  const TPoint2D off = segment.from - TPoint2D(ray.x, ray.y);
+  const double determinant = direction.x * way.y - direction.y * way.x;
+  const double range = (off.x * way.y - off.y * way.x) / determinant;
+  const double share = (off.x * direction.y - off.y * direction.x) / determinant;
+  const bool meets = std::abs(determinant) > 1e-12 && range > 0 && share >= 0 && share <= 1;
+  return meets ? range : std::numeric_limits<double>::infinity();
+}
+
 BeamBearings even_bearings(std::size_t beams, double field_of_view_rad) {
   std::vector<float> bearings(beams);
   for (std::size_t i = 0; i < beams; ++i)
@@ -148,7 +160,7 @@ double ScanSimulator::plan_range_m(const TPose2D& ray, SimulationRandom& random)
 }
 
 LaserScan ScanSimulator::scan(const TPose2D& world_T_robot, const std::vector<TPoint2D>& people,
-                              std::uint64_t index) {
+                              std::uint64_t index, const std::vector<PlanSegment>& things) {
   const TPose2D world_T_laser = world_T_robot + options_.robot_T_laser;
   const TPoint2D here(world_T_laser.x, world_T_laser.y);
   if (!any_painted_ ||
@@ -164,6 +176,7 @@ LaserScan ScanSimulator::scan(const TPose2D& world_T_robot, const std::vector<TP
     double range = plan_range_m(ray, random);
     for (const TPoint2D& person : people)
       range = std::min(range, range_to_circle_m(ray, person, kPersonRadius_m));
+    for (const PlanSegment& thing : things) range = std::min(range, range_to_segment_m(ray, thing));
     range += options_.noise_m * random.normal();
     if (random.happens(options_.dropout_share)) range = std::numeric_limits<double>::infinity();
     scan.ranges_m.push_back(static_cast<float>(range));

@@ -38,10 +38,11 @@ class ScanSimulator {
   /// and infinite values.
   ScanSimulator(const FloorPlan& plan, const ScanSimulatorOptions& options);
 
-  /// Simulates a scan of a robot at a pose among people, whose centres are points in the plan. `index` seeds
-  /// the noise. The range of a beam without return is infinite.
+  /// Simulates a scan of a robot at a pose among people, whose centres are points in the plan, and among
+  /// `things` that are not in the plan. `index` seeds the noise: all beams that neither people nor things
+  /// stop have the same ranges without them. The range of a beam without return is infinite.
   LaserScan scan(const mrpt::math::TPose2D& world_T_robot, const std::vector<mrpt::math::TPoint2D>& people,
-                 std::uint64_t index);
+                 std::uint64_t index, const std::vector<PlanSegment>& things = {});
 
  private:
   void paint_around(const mrpt::math::TPoint2D& middle);

@@ -10,6 +10,9 @@
 /// otherwise as a pass if any beam crossed it. A hit weighs three times a pass. The counts of a cell saturate
 /// only after thousands of frames. A cell is occupied if more than a quarter of its counts are hits. The map
 /// does not depend on the number of beams. A standstill of 10 s or more counts as at most 64 frames.
+///
+/// Obstacles that frames at other times saw through are free, unless GridMapOptions::keep_moving is set. What
+/// fewer beams than GridMapOptions::min_beams saw is unknown.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -35,6 +38,12 @@ struct GridMapOptions {
   /// about four bytes while drawing and one byte afterwards. The limit keeps a badly distorted map from
   /// exhausting the memory.
   std::size_t max_cells = 100'000'000;
+  /// Draws people, carts and doors that moved, too. Otherwise, obstacles that were not there at other times
+  /// are free space.
+  bool keep_moving = false;
+  /// Least number of beams that must have seen an obstacle or free space, from 1 to 3. A beam counts as two
+  /// where a neighbouring beam of its scan reaches as far. What fewer beams saw stays unknown.
+  int min_beams = 2;
 };
 
 /// Draws the scans of each frame of `log` at the robot pose with the same index. A cell holds the probability

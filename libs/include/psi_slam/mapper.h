@@ -65,6 +65,14 @@ class Mapper {
   /// Moves the mapper. The moved-from mapper can only be assigned to or destroyed.
   Mapper& operator=(Mapper&& other) noexcept;
 
+  /// Gets the record of a frame that is being added, as soon as its pose is known.
+  using PoseObserver = std::function<void(const FrameRecord&)>;
+  /// Sets an observer that add() calls before it draws the scan into local maps. Drawing takes a part of the
+  /// time of add(), and often less is left until the next scan. With latency_nodes = 0, the observer is
+  /// called after the loops of the frame are closed. The observer may only call frames() and
+  /// missed_deadlines().
+  void set_pose_observer(PoseObserver observer);
+
   /// Maps one frame and returns its record. Call it for all frames in the order of the log. finish()
   /// completes the record. The reference is valid until the next call of a non-const function.
   ///

@@ -83,6 +83,9 @@ class MappingSession {
   /// Sets the function that is called after every scan, at the start of every phase and sometimes within a
   /// phase. The function runs in the thread that drives the session.
   void set_observer(Observer observer);
+  /// Sets the function that is called as soon as the pose of a scan is known, see
+  /// Mapper::set_pose_observer().
+  void set_pose_observer(Mapper::PoseObserver observer);
 
   /// Maps the next scan. Returns false at the end of the log and where the log is damaged (see broken_off()).
   /// Throws UserError if the log is damaged before its first scan.
@@ -165,7 +168,8 @@ class MappingSession {
   void start_journal(const std::filesystem::path& file);
   /// Ends the journal, if there is one, and deletes its file, unless a saved session has replaced it.
   void remove_journal();
-  /// Why writing the journal failed, a sentence without full stop; empty if it did not fail.
+  /// Why the journal could not be written the last time, a sentence without full stop; empty if it was
+  /// written. Writing is tried again until it works, so that the journal becomes complete.
   std::optional<std::string> journal_failure() const;
 
   /// Writes the mapped scans, all edits and settings to a session file. If only a part of a recorded session

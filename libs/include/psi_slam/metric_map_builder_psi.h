@@ -79,8 +79,8 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
 
   /// Pose of the robot at the last mapped scan, a CPose3DPDFGaussian. Before the first scan, the pose `x0` of
   /// initialize(). The covariance combines those of `x0`, of the newest node in the graph, and of a scan in
-  /// its local map. The first call after a new node or loop factorises the whole graph; later calls are
-  /// cheap.
+  /// its local map, and accounts for the errors that constraints of one local map share. The first call after
+  /// a new node or loop factorises a model of the whole graph; later calls are cheap.
   mrpt::poses::CPose3DPDF::Ptr getCurrentPoseEstimation() const override;
 
   /// Stores the nodes of the graph with their observations in `out_map`. Every pose gets a placeholder

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "verdict/verdict_benchmark.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+namespace psi_slam {
+
+VerdictRow judged(const FaultyMap& map) {
+  const std::clock_t begin = std::clock();
+  const MapVerdict verdict = judge_map(map.result);
+  VerdictRow row;
+  row.judge_ms = 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  row.fault = map.fault;
+  row.seed = map.seed;
+  row.error_m = map.error_m;
+  row.state = verdict.state;
+  row.score_m = verdict.doubt_m();
+  row.hot_spots = verdict.hot_spots.size();
+  if (verdict.hot_spots.empty()) return row;
+  const mrpt::math::TPoint2D& suspect = verdict.hot_spots.front().suspect.at;
+  for (const mrpt::math::TPoint2D& place : map.places) {
+    const double away_m = std::hypot(place.x - suspect.x, place.y - suspect.y);
+    row.distance_m = std::min(row.distance_m.value_or(away_m), away_m);
+  }
+  return row;
+}
+
+std::vector<VerdictRow> run_verdict_benchmark(const VerdictBenchmarkOptions& options,
+                                              const ProgressObserver& observer) {
+  const auto all = static_cast<double>(options.seeds.count() * kMapFaults.size());
+  std::vector<VerdictRow> rows;
+  for (const std::uint64_t seed : options.seeds.all())
+    make_faulty_maps(seed, options.path_m, [&](const FaultyMap& map) {
+      rows.push_back(judged(map));
+      observer("building " + std::to_string(seed) + ", " + name_of(map.fault),
+               static_cast<double>(rows.size()), all);
+    });
+  return rows;
+}
+
+std::optional<double> area_under_curve(const std::vector<VerdictRow>& rows) {
+  double wins = 0;
+  std::size_t pairs = 0;
+  for (const VerdictRow& wrong : rows) {
+    if (wrong.error_m <= kWrongMap_m) continue;
+    for (const VerdictRow& right : rows) {
+      if (right.error_m > kRightMap_m) continue;
+      ++pairs;
+      wins += wrong.score_m > right.score_m ? 1 : wrong.score_m < right.score_m ? 0 : 0.5;
+    }
+  }
+  if (pairs == 0) return std::nullopt;
+  return wins / static_cast<double>(pairs);
+}
+
+bool is_fault_to_locate(const VerdictRow& row) {
+  return has_one_place(row.fault) && row.error_m > kRightMap_m;
+}
+
+}  // namespace psi_slam

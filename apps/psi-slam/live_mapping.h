@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a live run does with each scan, for the program and for its benchmark.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "exports/live_map_writer.h"
+#include "failure_notice.h"
+#include "psi_slam/mapping_session.h"
+#include "session/settings.h"
+
+namespace psi_slam {
+
+/// Returns the journal of the live run whose results go to `folder`.
+inline std::filesystem::path journal_of_live_run(const std::filesystem::path& folder) {
+  return folder / "session.journal";
+}
+
+/// Maps the scans of a session. Meanwhile it records them in the journal, and writes the map again and again.
+class LiveMapping {
+ public:
+  using Notify = std::function<void(const std::string& sentence)>;
+
+  /// Begins the journal in `folder`, which must exist. `notify` gets a sentence without full stop when the
+  /// journal or the map cannot be written, and when they can be again. Throws SystemFailure if the journal
+  /// cannot be created.
+  LiveMapping(MappingSession& session, const std::filesystem::path& folder, const Settings& settings,
+              Notify notify);
+
+  /// Waits for the next scan and maps it. Returns false after the last scan. Throws what
+  /// MappingSession::step() throws.
+  bool step();
+
+ private:
+  MappingSession& session_;
+  Notify notify_;
+  LiveMapWriter map_;
+  FailureNotice journal_notice_{"the journal"};
+  FailureNotice map_notice_{"the map"};
+};
+
+}  // namespace psi_slam

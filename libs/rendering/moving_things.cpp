@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rendering/moving_things.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::maps::COccupancyGridMap2D;
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+
+constexpr double kInterval_s = 1;
+constexpr double kNear_m = 0.15;
+constexpr double kBeyond_m = 0.3;
+constexpr double kMostRange_m = 10;  // farther away, errors of the heading move beams by more than kNear_m
+constexpr double kLeastSine = 0.5;   // of the angle at which a beam crosses a straight obstacle
+constexpr int kMostOfVisit = 5;
+constexpr std::uint32_t kGapOfVisits = 10;  // intervals that do not see the cell
+constexpr std::int64_t kPatch = 2;          // reach of the cells that are judged together, in cells
+constexpr int kLeastFree = 2;               // intervals per cell
+constexpr double kLeastFreeShare = 0.25;
+constexpr double kLeastFreeShareBeside = 0.15;  // of cells beside moving ones
+constexpr std::int64_t kStraightReach = 6;      // reach of the cells whose line gives the normal
+constexpr double kStraightRatio = 0.1;          // of the variances across and along a straight obstacle
+constexpr double kSurfaceGap_m = 0.5;           // largest distance between the ends of neighbouring beams
+constexpr double kLargeSurface_m = 2;
+constexpr std::int64_t kLink = 6;  // gap within one thing, in cells
+
+std::int64_t cells_in(double length_m, double resolution_m) {
+  return static_cast<std::int64_t>(std::ceil(length_m / resolution_m - 1e-9));
+}
+
+/// Replaces each negative number by minus the distance to the nearest number that is not negative: the number
+/// of a king's moves, at most `most`.
+void measure_distances(std::vector<std::int32_t>& cells, std::int64_t width, std::int64_t height,
+                       std::int32_t most) {
+  const auto update = [&](std::int64_t x, std::int64_t y, std::int64_t step) {
+    std::int32_t& cell = cells[static_cast<std::size_t>(y * width + x)];
+    if (cell >= 0) return;
+    std::int32_t nearest = -cell;
+    const auto look = [&](std::int64_t at_x, std::int64_t at_y) {
+      if (at_x < 0 || at_x >= width || at_y < 0 || at_y >= height) return;
+      nearest = std::min(nearest, 1 - std::min(0, cells[static_cast<std::size_t>(at_y * width + at_x)]));
+    };
+    look(x - step, y);
+    for (std::int64_t at_x = x - 1; at_x <= x + 1; ++at_x) look(at_x, y - step);
+    cell = -nearest;
+  };
+  for (std::int32_t& cell : cells) cell = cell < 0 ? -most : cell;
+  for (std::int64_t y = 0; y < height; ++y)
+    for (std::int64_t x = 0; x < width; ++x) update(x, y, 1);
+  for (std::int64_t y = height - 1; y >= 0; --y)
+    for (std::int64_t x = width - 1; x >= 0; --x) update(x, y, -1);
+}
+
+double distance_m(const TPoint2D& a, const TPoint2D& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+}  // namespace
+
+MovingThings::MovingThings(const COccupancyGridMap2D& grid, const GridLayout& layout,
+                           const GridMapOptions& options)
+    : layout_(layout),
+      maker_(options),
+      near_(cells_in(kNear_m, layout.resolution_m)),
+      find_(static_cast<std::size_t>(layout.width * layout.height), -1) {
+  constexpr std::int32_t kFar = 10'000;
+  find_obstacles(grid);
+  measure_distances(find_, layout.width, layout.height, kFar);
+  for (Sightings& cell : cells_) find_normal(cell);
+}
+
+template <class Visit>
+void MovingThings::for_each_around(std::int64_t x, std::int64_t y, std::int64_t reach,
+                                   const Visit& visit) const {
+  const std::int64_t y_end = std::min(y + reach, layout_.height - 1);
+  const std::int64_t x_end = std::min(x + reach, layout_.width - 1);
+  for (std::int64_t at_y = std::max<std::int64_t>(y - reach, 0); at_y <= y_end; ++at_y)
+    for (std::int64_t at_x = std::max<std::int64_t>(x - reach, 0); at_x <= x_end; ++at_x) {
+      const std::int32_t found = find_[static_cast<std::size_t>(at_y * layout_.width + at_x)];
+      if (found >= 0) visit(found);
+    }
+}
+
+void MovingThings::find_obstacles(const COccupancyGridMap2D& grid) {
+  for (std::int64_t y = 0; y < layout_.height; ++y) {
+    const auto* row = grid.getRow(static_cast<int>(y));
+    for (std::int64_t x = 0; x < layout_.width; ++x) {
+      if (row[x] >= 0) continue;
+      find_[static_cast<std::size_t>(y * layout_.width + x)] = static_cast<std::int32_t>(cells_.size());
+      cells_.emplace_back();
+      cells_.back().x = static_cast<std::int32_t>(x);
+      cells_.back().y = static_cast<std::int32_t>(y);
+    }
+  }
+}
+
+/// Finds the direction across the obstacles around a cell, if they form a line: the eigenvector of the
+/// smaller eigenvalue of their covariance.
+void MovingThings::find_normal(Sightings& cell) const {
+  double n = 0;
+  double x = 0;
+  double y = 0;
+  double xx = 0;
+  double xy = 0;
+  double yy = 0;
+  for_each_around(cell.x, cell.y, kStraightReach, [&](std::int32_t found) {
+    const Sightings& other = cells_[static_cast<std::size_t>(found)];
+    const double dx = other.x - cell.x;
+    const double dy = other.y - cell.y;
+    ++n;
+    x += dx;
+    y += dy;
+    xx += dx * dx;
+    xy += dx * dy;
+    yy += dy * dy;
+  });
+  const double var_x = xx / n - x / n * (x / n);
+  const double var_y = yy / n - y / n * (y / n);
+  const double covariance = xy / n - x / n * (y / n);
+  const double middle = (var_x + var_y) / 2;
+  const double half = std::hypot((var_x - var_y) / 2, covariance);
+  if (!(half > 0) || middle - half > kStraightRatio * (middle + half)) return;
+  const double along_rad = std::atan2(2 * covariance, var_x - var_y) / 2;
+  cell.normal_x = static_cast<float>(-std::sin(along_rad));
+  cell.normal_y = static_cast<float>(std::cos(along_rad));
+}
+
+void MovingThings::add(const Frame& frame, const TPose2D& map_T_robot) {
+  const double since_s = seconds(frame.time_us - interval_start_us_);
+  if (interval_ == 0 || since_s < 0 || since_s >= kInterval_s) {
+    end_interval();
+    interval_start_us_ = frame.time_us;
+  }
+  const CellBox map{layout_.resolution_m, layout_.x_min, layout_.y_min, layout_.width, layout_.height};
+  for (const Fan* fan : maker_.fans(frame, map_T_robot)) {
+    mark_hits(*fan, map);
+    mark_passes(*fan, map);
+  }
+}
+
+/// Marks the ends of the beams of a scan, surface by surface. A surface is a run of neighbouring beams that
+/// end close to each other.
+void MovingThings::mark_hits(const Fan& fan, const CellBox& map) {
+  const std::vector<Ray>& rays = fan.rays;
+  for (std::size_t begin = 0; begin < rays.size();) {
+    std::size_t end = begin + 1;
+    while (rays[begin].hit && end < rays.size() && rays[end].hit &&
+           distance_m(rays[end - 1].end, rays[end].end) <= kSurfaceGap_m)
+      ++end;
+    const bool is_large = distance_m(rays[begin].end, rays[end - 1].end) > kLargeSurface_m;
+    for (; begin < end; ++begin)
+      if (rays[begin].hit) mark_hit(map.in_cells(rays[begin].end), is_large);
+  }
+}
+
+/// Marks the obstacles around the end of a beam, in cells, as hit.
+void MovingThings::mark_hit(const TPoint2D& end, bool of_surface) {
+  const auto x = static_cast<std::int64_t>(end.x);
+  const auto y = static_cast<std::int64_t>(end.y);
+  if (-find_[static_cast<std::size_t>(y * layout_.width + x)] > near_) return;
+  for_each_around(x, y, near_, [&](std::int32_t found) {
+    mark_seen(found);
+    Sightings& cell = cells_[static_cast<std::size_t>(found)];
+    cell.hit_in = interval_;
+    if (std::abs(cell.x - x) <= 1 && std::abs(cell.y - y) <= 1) cell.touched_in = interval_;
+    if (of_surface) cell.surface_in = interval_;
+  });
+}
+
+/// Marks the obstacles that the beams of a scan crossed. Leaps over space without obstacles.
+void MovingThings::mark_passes(const Fan& fan, const CellBox& map) {
+  const TPoint2D start = map.in_cells(fan.start);
+  for (const Ray& ray : fan.rays) {
+    const double length_m = distance_m(fan.start, ray.end);
+    const double free_m = std::min(length_m - kBeyond_m, kMostRange_m);
+    if (!ray.returned || free_m <= 0) continue;
+    const auto along_x = static_cast<float>((ray.end.x - fan.start.x) / length_m);
+    const auto along_y = static_cast<float>((ray.end.y - fan.start.y) / length_m);
+    const TPoint2D end = map.in_cells(fan.start + (ray.end - fan.start) * (free_m / length_m));
+    leap_line(start, end, layout_.width, [&](std::int64_t index) {
+      const std::int32_t found = find_[static_cast<std::size_t>(index)];
+      if (found < 0) return std::int64_t{-found};
+      Sightings& cell = cells_[static_cast<std::size_t>(found)];
+      const float sine = cell.normal_x * along_x + cell.normal_y * along_y;
+      const bool is_straight = cell.normal_x != 0 || cell.normal_y != 0;
+      if (is_straight && static_cast<double>(std::abs(sine)) < kLeastSine) return std::int64_t{1};
+      mark_seen(found);
+      cell.passed_in = interval_;
+      return std::int64_t{1};
+    });
+  }
+}
+
+/// Notes that this interval saw a cell. Call before the mark of the first sighting.
+void MovingThings::mark_seen(std::int32_t found) {
+  const Sightings& cell = cells_[static_cast<std::size_t>(found)];
+  if (cell.passed_in != interval_ && cell.hit_in != interval_)
+    seen_.push_back(static_cast<std::uint32_t>(found));
+}
+
+void MovingThings::end_interval() {
+  for (const std::uint32_t index : seen_) see(cells_[index]);
+  seen_.clear();
+  ++interval_;
+}
+
+/// Counts this interval for a cell that it saw.
+void MovingThings::see(Sightings& cell) {
+  constexpr std::uint16_t kMost = 60'000;
+  const bool is_new_visit = interval_ - cell.seen_in > kGapOfVisits;
+  cell.seen_in = interval_;
+  const bool is_hit = cell.hit_in == interval_;
+  cell.near.count(!is_hit, is_new_visit);
+  if (is_hit && cell.hits < kMost) {
+    ++cell.hits;
+    if (cell.surface_in == interval_) ++cell.surface;
+  }
+  const bool is_touched = cell.touched_in == interval_;
+  if (is_touched || cell.passed_in == interval_) cell.close.count(!is_touched, is_new_visit);
+}
+
+void MovingThings::Tally::count(bool is_free, bool is_new_visit) {
+  constexpr std::uint16_t kMost = 60'000;
+  if (is_new_visit || (run < 0) != is_free) run = 0;
+  if (std::abs(run) == kMostOfVisit || free + occupied == kMost) return;
+  run = static_cast<std::int16_t>(run + (is_free ? -1 : 1));
+  ++(is_free ? free : occupied);
+}
+
+/// Judges a cell together with the obstacles around it.
+bool MovingThings::is_moving(const Sightings& cell) const {
+  int cells = 0;
+  int free = 0;
+  int occupied = 0;
+  for_each_around(cell.x, cell.y, kPatch, [&](std::int32_t found) {
+    ++cells;
+    free += cells_[static_cast<std::size_t>(found)].near.free;
+    occupied += cells_[static_cast<std::size_t>(found)].near.occupied;
+  });
+  return free >= kLeastFree * cells && free >= kLeastFreeShare * (free + occupied);
+}
+
+/// Spreads the cells that count as moving to cells within near_ cells of them, for example of a door beside
+/// its frame. They must have been seen free by the narrower measure.
+void MovingThings::spread(std::vector<bool>& is_moving) const {
+  const std::vector<bool> core = is_moving;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const Tally& close = cells_[i].close;
+    if (core[i] || close.free < kLeastFree ||
+        close.free < kLeastFreeShareBeside * (close.free + close.occupied))
+      continue;
+    bool is_beside = false;
+    for_each_around(cells_[i].x, cells_[i].y, near_ + 1, [&](std::int32_t found) {
+      is_beside = is_beside || core[static_cast<std::size_t>(found)];
+    });
+    is_moving[i] = is_beside;
+  }
+}
+
+/// Finds the connected parts of the cells that count as moving. Resets those parts that are longer than a
+/// person, a cart or a door and that beams mostly hit as a large surface.
+void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
+  std::vector<bool> is_found(cells_.size());
+  for (std::size_t first = 0; first < cells_.size(); ++first) {
+    if (!is_moving[first] || is_found[first]) continue;
+    is_found[first] = true;
+    std::vector<std::size_t> part{first};
+    std::int64_t surface = 0;
+    std::int64_t hits = 0;
+    Sightings low = cells_[first];
+    Sightings high = low;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const Sightings& cell = cells_[part[i]];
+      surface += cell.surface;
+      hits += cell.hits;
+      low.x = std::min(low.x, cell.x);
+      low.y = std::min(low.y, cell.y);
+      high.x = std::max(high.x, cell.x);
+      high.y = std::max(high.y, cell.y);
+      for_each_around(cell.x, cell.y, kLink, [&](std::int32_t found) {
+        const auto next = static_cast<std::size_t>(found);
+        if (!is_moving[next] || is_found[next]) return;
+        is_found[next] = true;
+        part.push_back(next);
+      });
+    }
+    const double length_m = std::hypot(high.x - low.x + 1, high.y - low.y + 1) * layout_.resolution_m;
+    if (length_m <= kLargeSurface_m || 2 * surface <= hits) continue;
+    for (const std::size_t cell : part) is_moving[cell] = false;
+  }
+}
+
+void MovingThings::remove_from(COccupancyGridMap2D& grid) {
+  end_interval();
+  std::vector<bool> is_moving(cells_.size());
+  for (std::size_t i = 0; i < cells_.size(); ++i) is_moving[i] = this->is_moving(cells_[i]);
+  spread(is_moving);
+  keep_large_surfaces(is_moving);
+  for (std::size_t i = 0; i < cells_.size(); ++i)
+    if (is_moving[i]) grid.getRow(cells_[i].y)[cells_[i].x] = cell_value(kPassEvidence);
+}
+
+}  // namespace psi_slam

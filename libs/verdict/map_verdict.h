@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Judges a finished map without ground truth. Walls that two passes saw at different places, free space that
+// one pass saw through the walls of another, loops that the map contradicts, and stretches of the path that
+// no match confirms are collected as hot spots. Each hot spot names a suspect and what to do about it.
+//
+// Consistency cannot measure the error of a place that the robot saw only once. The verdict states the share
+// of the map that several passes saw.
+#pragma once
+
+#include <mrpt/math/TPoint2D.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "psi_slam/mapping_result.h"
+#include "verdict/pass_checks.h"
+
+namespace psi_slam {
+
+/// Part of the mapping that probably causes a fault: a loop, or a stretch of the path.
+struct Suspect {
+  enum class Kind {
+    kLoop,       ///< an accepted loop
+    kStretch,    ///< a stretch of the path that loops do not hold
+    kUnmatched,  ///< scans that matched no local map
+    kLost,       ///< the place of the robot was lost, and found again
+    kUnplaced,   ///< the place of the robot was lost, and never found
+  };
+  Kind kind = Kind::kStretch;
+  std::size_t loop = 0;         ///< of a loop: index in MappingResult::loops
+  std::size_t local_map = 0;    ///< of a loop: number of the local map
+  std::size_t first_frame = 0;  ///< first frame of the stretch, or frame of the loop's anchor
+  std::size_t last_frame = 0;   ///< last frame of the stretch, or frame of the loop's node
+  mrpt::math::TPoint2D at;      ///< place in the map: the loop's node, or the middle of the stretch
+};
+
+/// A doubtful place of the map.
+struct HotSpot {
+  enum class Kind {
+    kDoubledWall,      ///< two passes saw parallel walls
+    kSeenThroughWall,  ///< one pass saw free space where another pass saw a wall
+    kRunsDisagree,     ///< different runs saw a wall at different places
+    kMisfit,           ///< successive scans of one pass do not fit
+    kLoopConflict,     ///< the map contradicts an accepted loop
+    kUnmatched,        ///< no match and no other pass confirms the motion
+    kUnplacedRun,      ///< the place of a run in the map was never found
+  };
+  Kind kind = Kind::kDoubledWall;
+  mrpt::math::TPoint2D at;  ///< place in the map, metres
+  double error_m = 0;       ///< estimated error; an error that is too large to measure counts as 1 m
+  double length_m = 0;      ///< path along which the fault is seen
+  Suspect suspect;
+};
+
+/// Returns the kind in the words of summary.json: "doubled wall", "wall seen through", ...
+std::string text_of(HotSpot::Kind kind);
+
+enum class MapState {
+  kGood,    ///< no doubtful place
+  kCheck,   ///< doubtful places in a map that is right elsewhere
+  kBroken,  ///< large parts of the map contradict each other
+};
+
+/// Returns "good", "check these places" or "broken".
+std::string text_of(MapState state);
+
+struct MapVerdict {
+  MapState state = MapState::kGood;
+  /// Estimated mean error in metres, from what the scans show: the mean displacement between passes and
+  /// between successive scans, and the doubt about stretches and runs that no pass confirms.
+  double error_m = 0;
+  /// Mean standard deviation of the positions that the graph predicts, metres. It grows where no loop holds
+  /// the path, whether or not the scans show an error.
+  double predicted_m = 0;
+  double wall_thickness_m = 0;     ///< 90th percentile of the distances between the walls of two passes
+  double checked_share = 0;        ///< share of the path that another pass confirms or contradicts, in [0, 1]
+  std::vector<HotSpot> hot_spots;  ///< the worst first
+
+  /// Figure by which maps can be ranked: error_m, and predicted_m beyond that of a map with many loops.
+  double doubt_m() const { return error_m + std::max(0.0, predicted_m - kUsualPrediction_m); }
+  static constexpr double kUsualPrediction_m = 0.1;
+};
+
+struct VerdictOptions {
+  MapViewOptions views;
+  PassCheckOptions passes;
+  double spot_error_m = 0.2;     ///< a displacement between passes from here on is a hot spot
+  double least_length_m = 1.0;   ///< shortest path along which displaced walls are a hot spot
+  std::size_t least_checks = 4;  ///< least number of displaced comparisons of such a hot spot
+  /// Share of the walls seen through, over all scans after an interruption, from which the place where the
+  /// robot was found again is doubtful.
+  double contradiction = 0.05;
+  double misfit_m = 0.35;   ///< a displacement between successive scans from here on is a hot spot
+  double conflict_chi = 6;  ///< a loop residual from here on is a conflict, standard deviations
+  double conflict_m = 0.3;  ///< a loop residual from here on is a conflict, metres
+  /// Unmatched motion from here on is a hot spot unless a pass confirms it.
+  double unconfirmed_m = 1.0;
+  double unmatched_error = 0.1;  ///< expected error of unmatched motion, as a share of the motion
+  double broken_error_m = 0.12;  ///< MapVerdict::error_m from which the map is broken
+  std::size_t most_hot_spots = 20;
+};
+
+/// Judges a map. Deterministic. A map without scans or without overlapping passes has no displaced walls.
+MapVerdict judge_map(const MappingResult& result, const VerdictOptions& options = {});
+
+/// Returns the suspect as a clause: "the loop of scan 812 with local map 14".
+std::string text_of(const Suspect& suspect);
+
+/// Returns the verdict as a sentence without full stop: "the map is good: ...".
+std::string verdict_sentence(const MapVerdict& verdict);
+
+/// Returns a hot spot as a clause: "doubled wall at (3.1, -2.0) m, about 0.3 m apart; suspect: ...".
+std::string hot_spot_text(const HotSpot& spot);
+
+/// Returns the setting or edit that would help against a hot spot, as a sentence without full stop.
+std::string advice_text(const HotSpot& spot);
+
+}  // namespace psi_slam

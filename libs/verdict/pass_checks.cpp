@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "verdict/pass_checks.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "matching/point_index.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr double kFits = 0.8;  // share of the same walls from which two scans fit
+// When the nearest views are chosen, a turn by this angle counts like a distance of one metre.
+constexpr double kRadiansPerMetre = 1.0;
+
+mrpt::math::TPoint2Df position(const MapView& view) {
+  return {static_cast<float>(view.map_T_robot.x), static_cast<float>(view.map_T_robot.y)};
+}
+
+double estimated_error_m(const ScanComparison& scans, const PassCheckOptions& options) {
+  const double moved_m = std::hypot(scans.displacement_m, options.lever_m * scans.turn_rad);
+  if (scans.same_if_moved >= kFits) return std::min(moved_m, options.unknown_m);
+  // Doors and furniture that moved lower the shares of true pairs, so the error grows with the misfit.
+  return options.unknown_m * std::clamp((kFits - scans.same_if_moved) / (kFits - 0.5), 0.0, 1.0);
+}
+
+/// Indices of the best views of other passes near a view: at most one view of each pass.
+std::vector<std::size_t> views_of_other_passes(std::size_t view, const std::vector<MapView>& views,
+                                               const PointIndex& positions, const PassCheckOptions& options) {
+  const MapView& here = views[view];
+  std::vector<std::pair<double, std::size_t>> near;
+  for (const std::size_t other : positions.within(position(here), static_cast<float>(options.reach_m))) {
+    const MapView& there = views[other];
+    if (!are_different_passes(here, there, options.pass_apart_m)) continue;
+    const double turn_rad = std::abs(mrpt::math::wrapToPi(there.map_T_robot.phi - here.map_T_robot.phi));
+    near.emplace_back(
+        std::hypot(there.map_T_robot.x - here.map_T_robot.x, there.map_T_robot.y - here.map_T_robot.y) +
+            turn_rad / kRadiansPerMetre,
+        other);
+  }
+  std::sort(near.begin(), near.end());
+  std::vector<std::size_t> chosen;
+  for (const auto& [cost, other] : near) {
+    if (chosen.size() == options.passes) break;
+    const auto is_of_pass = [&, candidate = other](std::size_t before) {
+      return !are_different_passes(views[candidate], views[before], options.pass_apart_m);
+    };
+    if (std::none_of(chosen.begin(), chosen.end(), is_of_pass)) chosen.push_back(other);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<PassCheck> check_passes(const std::vector<MapView>& views, const PassCheckOptions& options) {
+  std::vector<mrpt::math::TPoint2Df> at;
+  for (const MapView& view : views) at.push_back(position(view));
+  const PointIndex positions(std::move(at));
+  std::vector<PassCheck> checks;
+  const auto compare = [&](std::size_t view, std::size_t other, bool same_pass) {
+    PassCheck check{view, other, same_pass, compare_scans(views[view], views[other], options.scans), 0};
+    if (check.scans.same + check.scans.seen_through < options.min_points) return;
+    check.error_m = estimated_error_m(check.scans, options);
+    checks.push_back(check);
+  };
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    for (const std::size_t other : views_of_other_passes(view, views, positions, options))
+      compare(view, other, false);
+    if (view >= options.views_back && views[view - options.views_back].run == views[view].run)
+      compare(view, view - options.views_back, true);
+  }
+  return checks;
+}
+
+std::vector<std::optional<double>> errors_of_views(std::size_t views, const std::vector<PassCheck>& checks) {
+  std::vector<std::optional<double>> errors(views);
+  for (const PassCheck& check : checks)
+    if (!check.same_pass) errors[check.view] = std::max(errors[check.view].value_or(0), check.error_m);
+  return errors;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tests the verdict about the map at the end of a run of psi-slam.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app_run.h"
+#include "simulated_run.h"
+#include "temporary_folder.h"
+#include "test_files.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using Json = nlohmann::json;
+
+constexpr std::size_t kSlip = 645;  // scan in the second round at which the wheels slip
+
+void blind_laser(std::vector<float>& ranges_m, std::size_t scan) {
+  constexpr float kNoReturn_m = 500;
+  if (scan + 6 > kSlip && scan < kSlip + 6) std::fill(ranges_m.begin(), ranges_m.end(), kNoReturn_m);
+}
+
+class VerdictApp : public testing::Test {
+ protected:
+  /// Maps a run and returns the verdict of summary.json.
+  Json verdict_of(const SimulatedRun& run, const std::vector<std::string>& settings = {}) {
+    write_file(folder_.path() / "room.log", carmen_log(run));
+    std::vector<std::string> words = settings;
+    words.insert(words.end(), {(folder_.path() / "room.log").string(), "-o",
+                               (folder_.path() / "out").string(), "--force"});
+    app_ = run_app(words);
+    return Json::parse(bytes_of(folder_.path() / "out" / "summary.json"))["verdict"];
+  }
+
+  std::string report() const { return bytes_of(folder_.path() / "out" / "report.html"); }
+
+  TemporaryFolder folder_;
+  AppRun app_;
+};
+
+TEST_F(VerdictApp, finds_a_right_map_good) {
+  const Json verdict = verdict_of(round_trips(2));
+  EXPECT_EQ(app_.code, 0);
+  EXPECT_EQ(verdict["state"], "good") << verdict.dump(1);
+  EXPECT_TRUE(verdict["hot_spots"].empty());
+  EXPECT_GT(verdict["checked_share"], 0.5);
+  EXPECT_THAT(app_.out, HasSubstr("Verdict: the map is good"));
+  EXPECT_THAT(app_.err, Not(HasSubstr("suspect")));
+  EXPECT_THAT(report(), HasSubstr("<h2>Verdict<small>good</small>"));
+  EXPECT_THAT(report(), Not(HasSubstr("id=\"show-hot-spots\"")));
+}
+
+TEST_F(VerdictApp, points_at_the_place_where_the_wheels_slipped) {
+  SimulatedRun run = round_trips(2);
+  const mrpt::math::TPose2D before = run.odometry[kSlip - 1];
+  const mrpt::math::TPose2D jumped = before + mrpt::math::TPose2D(0.7, 0.4, 0.15);
+  for (std::size_t i = kSlip; i < run.odometry.size(); ++i)
+    run.odometry[i] = jumped + (run.odometry[i] - before);
+  run.put_into = blind_laser;
+  const Json verdict = verdict_of(run, {"--set", "loop_closure.enabled=false"});
+  EXPECT_EQ(app_.code, 0);
+  EXPECT_NE(verdict["state"], "good");
+  ASSERT_FALSE(verdict["hot_spots"].empty());
+  const Json& suspect = verdict["hot_spots"][0]["suspect"];
+  EXPECT_LE(suspect["first_scan"], kSlip);
+  EXPECT_GE(suspect["last_scan"], kSlip - 6);
+  EXPECT_LT(suspect["last_scan"].get<int>() - suspect["first_scan"].get<int>(), 60);
+  EXPECT_THAT(app_.err, HasSubstr(verdict["sentence"].get<std::string>() + ". Try: "));
+  EXPECT_THAT(app_.out, Not(HasSubstr("Verdict")));
+  EXPECT_THAT(report(), HasSubstr("id=\"show-hot-spots\""));
+  EXPECT_THAT(report(), HasSubstr("<circle "));
+}
+
+}  // namespace
+}  // namespace psi_slam

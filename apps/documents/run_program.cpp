@@ -5,13 +5,12 @@
 #include <ostream>
 #include <string>
 
-#include "base/exit_code.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
 
-int run_program(const CLI::App& app, std::ostream& out, std::ostream& err,
-                const std::function<int()>& work) noexcept {
+int run_program(const CLI::App& app, std::ostream& out, std::ostream& err, const std::function<int()>& work,
+                const int& failed) noexcept {
   const auto fail = [&](const std::string& sentence, int code) {
     err << app.get_name() << ": " << sentence << '\n';
     return code;
@@ -19,7 +18,7 @@ int run_program(const CLI::App& app, std::ostream& out, std::ostream& err,
   try {
     const int code = work();
     out.flush();
-    return out ? code : fail("cannot write to standard output", kExitFailed);
+    return out ? code : fail("cannot write to standard output", failed);
   } catch (const CLI::Success& asked) {  // --help, --version
     app.exit(asked, out, err);
     return kExitDone;
@@ -28,9 +27,9 @@ int run_program(const CLI::App& app, std::ostream& out, std::ostream& err,
   } catch (const UserError& error) {
     return fail(error.what(), kExitWrongUsageOrInput);
   } catch (const std::bad_alloc&) {
-    return fail("there is not enough memory", kExitFailed);
+    return fail("there is not enough memory", failed);
   } catch (const std::exception& error) {
-    return fail(error.what(), kExitFailed);
+    return fail(error.what(), failed);
   }
 }
 

@@ -6,13 +6,15 @@
 #include <functional>
 #include <iosfwd>
 
+#include "base/exit_code.h"
+
 namespace psi_slam {
 
-/// Runs `work` and returns its exit code, or kExitFailed if `out` cannot be written. Prints the text of
-/// --help and --version to `out` and returns kExitDone. Returns kExitWrongUsageOrInput after CLI::ParseError
-/// and UserError, and kExitFailed after any other std::exception. Prints one line to `err` for each error,
-/// beginning with the name of `app`.
-int run_program(const CLI::App& app, std::ostream& out, std::ostream& err,
-                const std::function<int()>& work) noexcept;
+/// Runs `work` and returns its exit code, or `failed` if `out` cannot be written. Prints the text of --help
+/// and --version to `out` and returns kExitDone. Returns kExitWrongUsageOrInput after CLI::ParseError and
+/// UserError, and `failed` after any other std::exception; `work` may change `failed` while it runs. Prints
+/// one line to `err` for each error, beginning with the name of `app`.
+int run_program(const CLI::App& app, std::ostream& out, std::ostream& err, const std::function<int()>& work,
+                const int& failed = kExitFailed) noexcept;
 
 }  // namespace psi_slam

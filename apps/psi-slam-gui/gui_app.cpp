@@ -29,7 +29,7 @@ namespace {
 
 struct Arguments {
   std::string log;                    ///< log or session to open; empty: opens nothing
-  std::string edits;                  ///< file of loop edits; empty: no edits
+  std::string edits;                  ///< file of edits of loops and of the drawn map; empty: no edits
   std::string config;                 ///< settings file; empty: the defaults
   std::vector<std::string> settings;  ///< "section.key=value", in the order given
   LiveArguments live;
@@ -43,7 +43,8 @@ Arguments parse(const std::vector<std::string>& arguments, CLI::App& app) {
   app.add_option("LOG", line.log,
                  "Log to open: an MRPT rawlog or a CARMEN log, plain or gzipped, a ROS bag, or a session")
       ->type_name("");
-  app.add_option("--edits", line.edits, "File of loop edits, as saved with Edit > Save loop edits")
+  app.add_option("--edits", line.edits,
+                 "File of edits of loops and of the drawn map, as saved with Edit > Save loop edits")
       ->type_name("FILE");
   add_source_options(app, line.live);
   add_value(app, "--journal", line.journal,

@@ -16,7 +16,7 @@ namespace {
 
 using Kind = LoopEdit::Kind;
 
-const char* const kEditFiles = "Loop edits (*.edits)|*.edits|All files|*";
+const char* const kEditFiles = "Edits of loops and of the drawn map (*.edits)|*.edits|All files|*";
 
 const LoopRecord* record_of(const ReplaySnapshot& snapshot, const LoopEdit& edit) {
   const std::vector<LoopRecord>& loops = *snapshot.loops;
@@ -130,7 +130,8 @@ void MainFrame::enable_edit_commands() {
   enable(kRedo, open && !snapshot->redo_text.empty());
   enable(kOpenEdits, snapshot != nullptr && !snapshot->live);
   // Edits can also be saved after a failure of the run.
-  enable(kSaveEdits, snapshot != nullptr && !snapshot->edits->empty());
+  enable(kSaveEdits,
+         snapshot != nullptr && (!snapshot->edits->empty() || !replay_->input().edits().map_edits().empty()));
   const auto title = [&](int command, const char* name, const char* key, const std::string& what) {
     const wxString label =
         wxString::FromUTF8(name) + (what.empty() ? wxString() : ": " + text_of(what)) + key;

@@ -74,7 +74,8 @@ CLI::App* add_diff(CLI::App& app, CommandLine& line) {
             "DIR");
   diff->add_flag("--aligned", line.diff.aligned, "Both maps have one frame: compare them without alignment");
   add_value(*diff, "--start", line.start,
-            "Rough pose of the second map in the first: metres and degrees. Default: search everywhere",
+            "Rough pose of the second map in the first: metres and degrees. Default: equal frames, then "
+            "the whole map",
             "X,Y,YAW_DEG");
   add_value(*diff, "--tolerance-m", line.diff.tolerance_m,
             "Walls within this distance are equal; the uncertainty of the alignment is added. Default: three "

@@ -77,8 +77,8 @@ MapComparison compare(const CommandLine& line, const Grid& a, const Grid& b) {
   comparison.walls = find_wall_changes(a, b, comparison.alignment.a_T_b, comparison.limits);
   if (comparison.walls.compared_m2 == 0)
     throw UserError(line.inputs[0] + " and " + line.inputs[1] +
-                    ": the maps share no space, expected maps of one building. Leave out --aligned to align "
-                    "them");
+                    ": the maps share no space, expected maps of one building" +
+                    (line.diff.aligned ? ". Leave out --aligned to align them" : ""));
   return comparison;
 }
 
@@ -99,7 +99,7 @@ int compare_maps(const CommandLine& line, const Streams& streams) {
     streams.out << comparison_json(comparison);
   else if (!line.quiet)
     streams.out << comparison_text(comparison);
-  return comparison.changed() ? kExitFailed : kExitDone;
+  return comparison.changed() ? kExitDifferent : kExitDone;
 }
 
 }  // namespace psi_slam

@@ -47,8 +47,13 @@ int run(const CommandLine& line, const Streams& streams) {
 
 int run_psi_slam_app(const std::vector<std::string>& arguments, const Streams& streams) noexcept {
   CLI::App app("psi-slam draws floor plans from the scans of a 2D lidar and wheel odometry.", "psi-slam");
-  return run_program(app, streams.out, streams.err,
-                     [&] { return run(parse_command_line(arguments, app), streams); });
+  int failed = kExitFailed;
+  const auto work = [&] {
+    const CommandLine line = parse_command_line(arguments, app);
+    if (line.command == CommandLine::Command::kDiff) failed = kExitNotCompared;
+    return run(line, streams);
+  };
+  return run_program(app, streams.out, streams.err, work, failed);
 }
 
 }  // namespace psi_slam

@@ -27,8 +27,9 @@ struct Streams {
 
 /// Runs the program with its arguments, without the program's name. Returns the exit code: 0 done, also after
 /// an interrupted mapping; 1 failed, merge or sweep not completed, or not localized at the end; 2 wrong usage
-/// or input. During mapping, the first SIGINT or SIGTERM ends the mapping or the final loop search, and the
-/// map is written. The second signal ends the process.
+/// or input. Of diff: 0 no wall has changed, 1 a wall has changed, 2 any error. During mapping, the first
+/// SIGINT or SIGTERM ends the mapping or the final loop search, and the map is written. The second signal
+/// ends the process.
 int run_psi_slam_app(const std::vector<std::string>& arguments, const Streams& streams) noexcept;
 
 }  // namespace psi_slam

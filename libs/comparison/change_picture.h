@@ -9,9 +9,9 @@
 namespace psi_slam {
 
 /// Draws the compared cells as the contents of a PNG file: walls of both maps dark, walls that appeared blue,
-/// walls that vanished orange, both joined by a line if a wall moved, and walls where the other map shows
-/// nothing grey. A ring surrounds each change. A strip below the map has a scale bar and the legend. Throws
-/// SystemFailure if the picture cannot be encoded.
+/// walls that vanished orange, an arrow from the old to the new place of a wall that moved, and walls where
+/// the other map shows nothing grey. A ring surrounds each change. A strip below the map has a scale bar and
+/// the legend. Throws SystemFailure if the picture cannot be encoded.
 std::string change_picture(const WallChanges& walls);
 
 }  // namespace psi_slam

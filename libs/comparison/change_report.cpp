@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "comparison/change_report.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/degrees.h"
 #include "base/number_text.h"
 
 namespace psi_slam {
@@ -30,10 +31,6 @@ Sum sum_of(const WallChanges& walls, Kind kind) {
   return sum;
 }
 
-double degrees(double radians) {
-  return radians / radians_from_degrees(1);
-}
-
 const char* name(MapAlignment::Method method) {
   switch (method) {
     case MapAlignment::Method::kGiven:
@@ -50,9 +47,9 @@ std::string alignment_text(const MapAlignment& alignment) {
   if (alignment.method == MapAlignment::Method::kGiven) return "The maps were compared without alignment";
   const auto& [x_m, y_m, yaw_rad] = alignment.a_T_b;
   return "B lies in A at x " + fixed_text(x_m, 3) + " m, y " + fixed_text(y_m, 3) + " m, yaw " +
-         fixed_text(degrees(yaw_rad), 2) + " degrees, with standard deviations of " +
+         fixed_text(mrpt::RAD2DEG(yaw_rad), 2) + " degrees, with standard deviations of " +
          fixed_text(alignment.sigma_m(0), 3) + " m and " +
-         fixed_text(degrees(std::sqrt(alignment.covariance(2, 2))), 3) + " degrees; " +
+         fixed_text(mrpt::RAD2DEG(std::sqrt(alignment.covariance(2, 2))), 3) + " degrees; " +
          fixed_text(100 * alignment.agree, 0) + " % of the walls agree";
 }
 
@@ -99,7 +96,8 @@ std::string comparison_json(const MapComparison& comparison) {
                        {"sigma_y_m", sigma(1)},
                        {"sigma_yaw_rad", sigma(2)},
                        {"agree", alignment.agree},
-                       {"ambiguity", alignment.ambiguity}};
+                       {"ambiguity", alignment.ambiguity ? nlohmann::ordered_json(*alignment.ambiguity)
+                                                         : nlohmann::ordered_json()}};
   json["tolerance_m"] = comparison.limits.tolerance_m;
   json["min_length_m"] = comparison.limits.min_length_m;
   json["compared_m2"] = comparison.walls.compared_m2;

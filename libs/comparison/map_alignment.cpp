@@ -96,6 +96,8 @@ class WallMatcher {
   }
 
   const Walls& walls() const { return walls_; }
+  /// Whether all walls lie within one cell of their mean, so that their heading is unknown.
+  bool too_few_walls() const { return !(walls_.points.farthest_m > map_.fine->scores().resolution_m()); }
 
   /// Finds the pose of the map with the walls in the other map, near `map_T_walls`, the pose of its frame.
   WallMatch near(const TPose2D& map_T_walls, double window_m, double window_rad) const {
@@ -160,7 +162,7 @@ std::string percent(double share) {
 
 /// Returns why a match is no alignment, a sentence that begins with a verb; empty if it is one.
 std::string objection(const std::optional<WallMatch>& found, const MapAlignmentOptions& options) {
-  if (!found || !found->match.found) return "does not fit: no alignment brings their walls together";
+  if (!found || !found->match.found) return "does not fit: no pose makes the walls of both maps agree";
   if (found->observed_share < options.min_observed_share)
     return "does not fit: at the best alignment, only " + percent(found->observed_share) +
            " of the walls of the smaller map lie in space that the other map shows, expected at least " +
@@ -187,6 +189,10 @@ MapAlignment align_maps(const Grid& a, const Grid& b, const MapAlignmentOptions&
   const std::vector<TPoint2D> cells_b = wall_cells(b);
   const bool swapped = cells_a.size() < cells_b.size();
   const WallMatcher matcher(swapped ? b : a, swapped ? cells_a : cells_b);
+  if (matcher.too_few_walls())
+    throw UserError(std::string(swapped ? "cannot be aligned: the first map has too few walls"
+                                        : "has too few walls to be aligned") +
+                    ", expected walls over more than one cell");
   const TPose2D a_T_b = options.a_T_b.value_or(TPose2D(0, 0, 0));
   std::optional<WallMatch> found =
       matcher.near(swapped ? inverse(a_T_b) : a_T_b, options.near_m, options.near_rad);
@@ -209,7 +215,7 @@ MapAlignment align_maps(const Grid& a, const Grid& b, const MapAlignmentOptions&
                                                "the second map in the first with --start X,Y,YAW_DEG"));
   MapAlignment alignment = alignment_of(*found, matcher.walls(), swapped);
   alignment.method = method;
-  alignment.ambiguity = found->match.ambiguity.value_or(0);
+  alignment.ambiguity = found->match.ambiguity;
   return alignment;
 }
 

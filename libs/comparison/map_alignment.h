@@ -42,15 +42,18 @@ struct MapAlignment {
   /// Covariance of the position of map B at `centre` and of its heading, along the axes of map A: m^2, m rad,
   /// rad^2.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  double agree = 1;      ///< share of the walls in space that both maps observed which are walls in both maps
-  double ambiguity = 0;  ///< response of the next best alignment, divided by the best response
+  double agree = 1;  ///< share of the walls in space that both maps observed which are walls in both maps
+  /// Response of the next best alignment, divided by the best response. Empty unless the whole map was
+  /// searched.
+  std::optional<double> ambiguity;
 
   /// Standard deviation of the position of map B along the worse axis, `distance_m` away from `centre`.
   double sigma_m(double distance_m) const;
 };
 
-/// Aligns map B to map A. Deterministic. Throws UserError if the maps do not fit or if several alignments fit
-/// about equally well; the text begins with a verb and lacks the names of the maps, such as "does not fit".
+/// Aligns map B to map A. Deterministic. Throws UserError if the maps do not fit, if several alignments fit
+/// about equally well, or if a map has too few walls; the text begins with a verb and lacks the names of the
+/// maps, such as "does not fit".
 MapAlignment align_maps(const mrpt::maps::COccupancyGridMap2D& a, const mrpt::maps::COccupancyGridMap2D& b,
                         const MapAlignmentOptions& options = {});
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <set>
@@ -42,13 +43,14 @@ struct Layer {
   cv::Mat1b seen() const { return mask(wall | free); }
 };
 
-/// Makes the cells that hold all observed cells of both maps, in the frame and with the cells of map A.
-ComparedCells layout_of(const Grid& a, const Grid& b, const TPose2D& a_T_b) {
+/// Makes the cells that hold all observed cells of both maps, in the frame and with the cells of map A. Empty
+/// if the rectangles around the observed cells of both maps do not overlap: these maps may lie far apart.
+std::optional<ComparedCells> layout_of(const Grid& a, const Grid& b, const TPose2D& a_T_b) {
   const SeenCells seen = seen_cells(a);
-  int x_begin = seen.x_begin;
-  int x_end = seen.x_end;
-  int y_begin = seen.y_begin;
-  int y_end = seen.y_end;
+  int x_begin = std::numeric_limits<int>::max();  // the rectangle around the observed cells of map B
+  int x_end = std::numeric_limits<int>::min();
+  int y_begin = x_begin;
+  int y_end = x_end;
   const auto resolution_m = static_cast<double>(a.getResolution());
   for (int y = 0; y < static_cast<int>(b.getSizeY()); ++y) {
     const Grid::cellType* row = b.getRow(y);
@@ -64,6 +66,13 @@ ComparedCells layout_of(const Grid& a, const Grid& b, const TPose2D& a_T_b) {
       y_end = std::max(y_end, line + 1);
     }
   }
+  if (std::max(x_begin, seen.x_begin) >= std::min(x_end, seen.x_end) ||
+      std::max(y_begin, seen.y_begin) >= std::min(y_end, seen.y_end))
+    return std::nullopt;
+  x_begin = std::min(x_begin, seen.x_begin);
+  x_end = std::max(x_end, seen.x_end);
+  y_begin = std::min(y_begin, seen.y_begin);
+  y_end = std::max(y_end, seen.y_end);
   ComparedCells layout;
   layout.cell_m = resolution_m;
   layout.x_min_m = static_cast<double>(a.getXMin()) + x_begin * resolution_m;
@@ -240,6 +249,15 @@ cv::Mat1b mask_of(const std::vector<Change>& changes, const cv::Size& size) {
   return cells;
 }
 
+/// Paints the cells of a change, moved by `shift` cells, into `cells`.
+void paint_shifted(const Change& change, const cv::Point2d& shift, cv::Mat1b& cells) {
+  const cv::Rect area(0, 0, cells.cols, cells.rows);
+  for (const cv::Point& cell : change.cells) {
+    const cv::Point place = cell + cv::Point(cvRound(shift.x), cvRound(shift.y));
+    if (area.contains(place)) cells(place) = 255;
+  }
+}
+
 WallChange in_metres(const Change& change, Kind kind, const cv::Point2d& shift_cells,
                      const ComparedCells& layout) {
   WallChange result;
@@ -299,18 +317,18 @@ class Classification {
 
   void classify() {
     const NearestCells walls_of_b(only_b_);
-    std::vector<Change> moved;
+    cv::Mat1b moved = empty_mask(cells_.height, cells_.width);  // moved walls at their new places
     for (const Change& change : gone_) {
       const auto shift = shift_to(walls_of_b, change, farthest_, tolerance_);
-      if (shift) moved.push_back(change);
+      if (shift) paint_shifted(change, *shift, moved);
       add(change, shift ? Kind::kMoved : Kind::kVanished, shift.value_or(cv::Point2d(0, 0)));
       for (const cv::Point& cell : change.cells) paint(cell, ComparedCell::kVanished);
     }
-    const NearestCells moved_walls(mask_of(moved, only_a_.size()));
     const NearestCells hidden_walls(mask(only_a_ & ~mask_of(gone_, only_a_.size())));
-    for (const Change& change : new_) {
+    for (const Change& change : new_)
       for (const cv::Point& cell : change.cells) paint(cell, ComparedCell::kAppeared);
-      if (shift_to(moved_walls, change, farthest_, tolerance_)) continue;  // the new place of a moved wall
+    const cv::Mat1b unclaimed = without_counterpart(mask_of(new_, only_b_.size()), moved, tolerance_);
+    for (const Change& change : changes_in(unclaimed, min_length_)) {
       // The old place of the wall may lie behind its new place, where map B shows nothing.
       if (const auto back = shift_to(hidden_walls, change, farthest_, tolerance_)) {
         Change before = change;
@@ -339,7 +357,9 @@ class Classification {
 WallChanges find_wall_changes(const Grid& a, const Grid& b, const TPose2D& a_T_b,
                               const WallChangeOptions& options) {
   WallChanges result;
-  result.cells = layout_of(a, b, a_T_b);
+  std::optional<ComparedCells> layout = layout_of(a, b, a_T_b);
+  if (!layout) return result;
+  result.cells = *std::move(layout);
   const Layer layer_a = layer_of(a, {0, 0, 0}, result.cells);
   const Layer layer_b = layer_of(b, a_T_b, result.cells);
   result.compared_m2 =

@@ -70,7 +70,7 @@ struct WallChanges {
 };
 
 /// Compares the walls of two maps; `a_T_b` is the pose of the frame of map B in map A. The result has the
-/// cells of map A. Deterministic.
+/// cells of map A, or no cells if the maps lie apart. Deterministic.
 WallChanges find_wall_changes(const mrpt::maps::COccupancyGridMap2D& a,
                               const mrpt::maps::COccupancyGridMap2D& b, const mrpt::math::TPose2D& a_T_b,
                               const WallChangeOptions& options = {});

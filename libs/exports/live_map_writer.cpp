@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "exports/map_files.h"
+#include "exports/map_server_pair.h"
 
 namespace psi_slam {
 namespace {

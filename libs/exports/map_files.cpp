@@ -10,6 +10,7 @@
 
 #include "base/atomic_file.h"
 #include "compression/compression.h"
+#include "exports/map_server_pair.h"
 #include "exports/mapped_trajectory.h"
 #include "observations/mrpt_objects.h"
 #include "rendering/map_image.h"

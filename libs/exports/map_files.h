@@ -42,13 +42,6 @@ struct MapFileOptions {
 void write_map_files(const std::filesystem::path& folder, const MappingResult& result,
                      const mrpt::maps::COccupancyGridMap2D& grid, const MapFileOptions& options = {});
 
-/// Writes NAME.pgm and NAME.yaml, as map_server of ROS 1 and nav2 read them; `yaml_path` is NAME.yaml. The
-/// image is binary (P5) with row 0 on top: 0 occupied, 254 free, 205 unknown. The YAML file states mode
-/// trinary and the lower left corner as origin, in metres in the map. Writes the image first, so the pair is
-/// complete once the YAML file exists.
-void write_map_server_pair(const std::filesystem::path& yaml_path,
-                           const mrpt::maps::COccupancyGridMap2D& grid);
-
 /// Returns MRPT's simple map: the nodes of the graph with their scans. Each pose has the covariance (1 mm)^2,
 /// (1 mrad)^2 as a placeholder that MRPT can invert, because the marginals of the graph are not computed.
 mrpt::maps::CSimpleMap simple_map(const MappingResult& result);

@@ -6,7 +6,7 @@
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
-#include "exports/map_files.h"
+#include "rendering/map_image.h"
 
 namespace psi_slam {
 namespace {
@@ -16,8 +16,6 @@ using mrpt::maps::COccupancyGridMap2D;
 constexpr char kOccupied = '\0';
 constexpr char kFree = static_cast<char>(254);
 constexpr char kUnknown = static_cast<char>(205);
-constexpr float kOccupiedThreshold = 0.65F;  // cells with a larger probability are occupied
-constexpr float kFreeThreshold = 0.196F;
 constexpr const char* kTrinary = "occupied_thresh: 0.65\nfree_thresh: 0.196\nmode: trinary\n";
 constexpr const char* kScale = "occupied_thresh: 1.0\nfree_thresh: 0.0\nmode: scale\n";
 
@@ -35,8 +33,7 @@ std::string trinary_row(const COccupancyGridMap2D& grid, std::size_t y) {
   const auto* cells = grid.getRow(static_cast<int>(y));
   std::string pixels(grid.getSizeX(), kUnknown);
   std::transform(cells, cells + pixels.size(), pixels.begin(), [](COccupancyGridMap2D::cellType cell) {
-    const float occupied = 1 - COccupancyGridMap2D::l2p(cell);
-    return occupied > kOccupiedThreshold ? kOccupied : occupied < kFreeThreshold ? kFree : kUnknown;
+    return is_occupied(cell) ? kOccupied : is_free(cell) ? kFree : kUnknown;
   });
   return pixels;
 }

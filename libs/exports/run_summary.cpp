@@ -123,10 +123,17 @@ Json log_json(const MappedLogFacts& log, const std::string& name) {
 }
 
 Json map_json(const MapExtent& map) {
-  return {{"resolution_m", number(map.resolution_m)}, {"asked_resolution_m", number(map.asked_resolution_m)},
-          {"x_min_m", number(map.x_min_m, 3)},        {"y_min_m", number(map.y_min_m, 3)},
-          {"x_max_m", number(map.x_max_m, 3)},        {"y_max_m", number(map.y_max_m, 3)},
-          {"free_m2", number(map.free_m2, 2)}};
+  return {{"resolution_m", number(map.resolution_m)},
+          {"asked_resolution_m", number(map.asked_resolution_m)},
+          {"x_min_m", number(map.x_min_m, 3)},
+          {"y_min_m", number(map.y_min_m, 3)},
+          {"x_max_m", number(map.x_max_m, 3)},
+          {"y_max_m", number(map.y_max_m, 3)},
+          {"free_m2", number(map.free_m2, 2)},
+          {"frame",
+           {{"x_m", number(map.map_T_start.x)},
+            {"y_m", number(map.map_T_start.y)},
+            {"yaw_deg", number(mrpt::RAD2DEG(map.map_T_start.phi), 9)}}}};
 }
 
 Json loop_counts_json(const LoopCounts& loops) {

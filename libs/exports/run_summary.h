@@ -80,6 +80,8 @@ struct MapExtent : MapRectangle {
   double resolution_m = 0;
   double asked_resolution_m = 0;  ///< side of a cell that the settings ask for
   double free_m2 = 0;             ///< area of free space
+  /// Pose of the mapper's frame, in which the robot starts at 0, in the map; set by the caller.
+  mrpt::math::TPose2D map_T_start{};
 };
 
 struct RunSummary {
@@ -92,8 +94,8 @@ struct RunSummary {
   LoopCounts loops;
   UnmatchedScans unmatched;
   std::optional<MapVerdict> verdict;  ///< set by the caller; empty: the map was not judged
-  double mean_response = 0;      ///< mean response of the matched frames
-  std::int64_t evaluations = 0;  ///< number of poses scored, including the final search
+  double mean_response = 0;           ///< mean response of the matched frames
+  std::int64_t evaluations = 0;       ///< number of poses scored, including the final search
   MapExtent map;
   double wall_s = 0;
   double real_time_factor = 0;  ///< seconds of the log per second of work; 0 if unknown

@@ -28,7 +28,7 @@ struct SpeedScale {
     constexpr double kRounding = 1e-6;
     const double exact = (limit - base) / multiplier;
     const double value = multiplier < 0 ? std::ceil(exact - kRounding) : std::floor(exact + kRounding);
-    return static_cast<std::uint8_t>(std::clamp(value, 1.0, 100.0));
+    return static_cast<std::uint8_t>(std::clamp(value, 1.0, type == 1 ? 99.0 : 100.0));
   }
 };
 
@@ -36,11 +36,17 @@ double limit_of(const MapEdit& zone) {
   return zone.percent > 0 ? zone.percent : zone.max_speed_mps;
 }
 
-/// For m/s, the fastest zone has the value 100, so that it is exact and all others are to 1 % of it.
-SpeedScale scale_for(const std::vector<MapEdit>& edits) {
+/// Returns the largest speed in m/s of the slow zones; 0 if there is none.
+double fastest_of(const std::vector<MapEdit>& edits) {
   double fastest_mps = 0;
   for (const MapEdit& edit : edits)
     if (edit.kind == Kind::kSlow) fastest_mps = std::max(fastest_mps, edit.max_speed_mps);
+  return fastest_mps;
+}
+
+/// For m/s, the fastest zone has the value 100, so that it is exact and all others are to 1 % of it.
+SpeedScale scale_for(const std::vector<MapEdit>& edits) {
+  const double fastest_mps = fastest_of(edits);
   return fastest_mps > 0 ? SpeedScale{2, 0, fastest_mps / 100} : SpeedScale{};
 }
 
@@ -87,8 +93,16 @@ void check_zones(const std::vector<MapEdit>& edits) {
   if (any(&MapEdit::percent) && any(&MapEdit::max_speed_mps))
     throw UserError(
         "the edits limit the speed by percent in some slow zones and by max_speed_mps in others, expected "
-        "one "
-        "of them. Write all limits in the same way");
+        "one of them. Write all limits in the same way");
+  constexpr double kRounding = 1e-9;
+  const double fastest_mps = fastest_of(edits);
+  const double slowest_mps = fastest_mps / 100;
+  for (const MapEdit& edit : edits)
+    if (edit.max_speed_mps > 0 && edit.max_speed_mps < (1 - kRounding) * slowest_mps)
+      throw UserError("max_speed_mps=" + trimmed_text(edit.max_speed_mps, 9) +
+                      " of a slow zone is too small beside max_speed_mps=" + trimmed_text(fastest_mps, 9) +
+                      " of another one, expected at least a hundredth of it. Write max_speed_mps=" +
+                      trimmed_text(slowest_mps, 9) + " or more");
 }
 
 std::string zones_text(const std::vector<MapEdit>& edits) {

@@ -12,8 +12,9 @@
 
 namespace psi_slam {
 
-/// Throws UserError if some slow zones have a share of the largest speed and others a speed. One filter of
-/// nav2 knows only one of them.
+/// Throws UserError if some slow zones have a share of the largest speed and others a speed: one filter of
+/// nav2 knows only one of them. Throws UserError if a zone's speed is less than a hundredth of the fastest
+/// zone's speed: the values of a mask resolve no smaller one.
 void check_zones(const std::vector<MapEdit>& edits);
 
 /// Writes keepout_mask.yaml, speed_mask.yaml, their images, and zones.txt, for the zones among the edits.

@@ -109,7 +109,7 @@ std::size_t for_each_cell_of(const MapEdit& edit, const Grid& grid,
                              const std::function<void(int x, int y)>& visit) {
   const bool is_line = edit.kind == Kind::kWall;
   const double reach_m =
-      is_line ? 0.5 * std::max(edit.width_m, static_cast<double>(grid.getResolution())) : 0;
+      is_line ? 0.5 * std::max(edit.width_m, M_SQRT2 * static_cast<double>(grid.getResolution())) : 0;
   const CellRectangle around = cells_around(edit.points, reach_m, grid);
   mrpt::math::TPolygon2D polygon;
   polygon.assign(edit.points.begin(), edit.points.end());
@@ -128,6 +128,7 @@ std::size_t for_each_cell_of(const MapEdit& edit, const Grid& grid,
 std::vector<std::string> apply_map_edits(const std::vector<MapEdit>& edits, Grid& grid) {
   std::vector<std::string> complaints;
   for (const MapEdit& edit : edits) {
+    if (edit.is_zone()) continue;
     const auto fill = [&](float value) {
       return for_each_cell_of(edit, grid, [&](int x, int y) { grid.setCell(x, y, value); });
     };
@@ -145,6 +146,9 @@ std::vector<std::string> apply_map_edits(const std::vector<MapEdit>& edits, Grid
     else if (edit.kind == Kind::kCrop)
       crop(edit, grid);
   }
+  for (const MapEdit& edit : edits)  // a later crop may cut off a zone
+    if (edit.is_zone() && for_each_cell_of(edit, grid, [](int, int) {}) == 0)
+      complaints.push_back(complaint(edit));
   return complaints;
 }
 

@@ -24,7 +24,7 @@ struct MapEdit {
 
   Kind kind = Kind::kErase;
   std::vector<mrpt::math::TPoint2D> points;  ///< corners of the polygon, or points of the line
-  double width_m = 0;                        ///< of a wall; at least one cell is drawn
+  double width_m = 0;                        ///< of a wall; all cells that its line crosses are drawn
   double percent = 0;                        ///< of a slow zone: share of the largest speed; 0: none given
   double max_speed_mps = 0;                  ///< of a slow zone: largest speed; 0: none given
 
@@ -32,12 +32,13 @@ struct MapEdit {
 };
 
 /// Calls `visit(x, y)` for each cell of the grid that the edit covers: cells with their centre in the
-/// polygon, or within half the width of the line. Returns the number of these cells.
+/// polygon, or within half the width of the line, at least half the diagonal of a cell. Returns the number of
+/// these cells.
 std::size_t for_each_cell_of(const MapEdit& edit, const mrpt::maps::COccupancyGridMap2D& grid,
                              const std::function<void(int x, int y)>& visit);
 
 /// Applies the edits in their order. Zones change nothing. Returns one sentence, without full stop, for each
-/// edit that covers no cell of the map.
+/// edit that covers no cell of the map, and for each zone that covers none after all edits.
 std::vector<std::string> apply_map_edits(const std::vector<MapEdit>& edits,
                                          mrpt::maps::COccupancyGridMap2D& grid);
 

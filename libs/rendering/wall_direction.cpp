@@ -86,7 +86,8 @@ class DirectionHistogram {
 
 double wall_direction_rad(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot) {
   DirectionHistogram histogram;
-  for (std::size_t i = 0; i < log.size(); ++i) histogram.add_scan(log[i].scan, map_T_robot.at(i));
+  const auto add = [&](const LaserScan& scan, const TPose2D& pose) { histogram.add_scan(scan, pose); };
+  for (std::size_t i = 0; i < log.size(); ++i) for_each_scan(log[i], map_T_robot.at(i), add);
   return histogram.peak_rad();
 }
 

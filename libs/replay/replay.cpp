@@ -278,6 +278,7 @@ void Replay::export_once(MappingSession& session) {
   outcome.failure =
       failure_of([&] { session.export_to(OutputFolder::prepare(request.folder, request.replace)); },
                  "Out of memory while writing the results. Close other programs and export them again.");
+  maker_->now.warnings = session.warnings();  // with the edits beside the drawn map
   maker_->note_export(std::move(outcome));
 }
 

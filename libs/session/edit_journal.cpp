@@ -135,6 +135,15 @@ void add_line(std::string_view line, const std::string& place, EditJournal& jour
   }
 }
 
+/// Checks the zones of the edits in a file. Throws UserError with the file.
+void check_zones_of(const EditJournal& journal, const std::filesystem::path& file) {
+  try {
+    check_zones(journal.map_edits());
+  } catch (const UserError& error) {
+    throw UserError(file.string() + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 void EditJournal::add(const TimedEdit& edit) {
@@ -209,11 +218,7 @@ EditJournal EditJournal::read(const std::filesystem::path& file) {
   EditJournal journal;
   LineReader lines(file);
   for (std::string_view line; lines.next(line);) add_line(line, lines.place(), journal);
-  try {
-    check_zones(journal.map_edits());
-  } catch (const UserError& error) {
-    throw UserError(file.string() + ": " + error.what());
-  }
+  check_zones_of(journal, file);
   return journal;
 }
 
@@ -223,6 +228,7 @@ EditJournal EditJournal::parse(const std::string& text, const std::filesystem::p
   std::size_t number = 0;
   for (std::string line; std::getline(lines, line);)
     add_line(line, file.string() + ':' + std::to_string(++number), journal);
+  check_zones_of(journal, file);
   return journal;
 }
 

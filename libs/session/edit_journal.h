@@ -97,7 +97,8 @@ class EditJournal {
 
   /// Returns the edits as the text of a file.
   std::string text() const;
-  /// Reads a file. Throws UserError, with file and line, for a line that is not an edit.
+  /// Reads a file. Throws UserError, with file and line, for a line that is not an edit, and with the file
+  /// as check_zones() does.
   static EditJournal read(const std::filesystem::path& file);
   /// Parses the text of a file; `file` is only for error messages. Throws as read() does.
   static EditJournal parse(const std::string& text, const std::filesystem::path& file);

@@ -55,6 +55,13 @@ double number_in(const EditValues& values, const char* key, double most) {
   return number;
 }
 
+double percent_of(const EditValues& values) {
+  const double percent = values.number("percent");
+  if (!(percent >= 1 && percent <= 99))
+    throw UserError("percent=" + values.text("percent") + ": expected a number from 1 to 99");
+  return percent;
+}
+
 }  // namespace
 
 std::optional<MapEdit> parse_map_edit_line(std::string_view line) {
@@ -68,7 +75,7 @@ std::optional<MapEdit> parse_map_edit_line(std::string_view line) {
     edit.kind = kind;
     edit.points = points_of(values, points_key(kind), kind == MapEditKind::kWall ? 2 : 3);
     if (values.has("width_m")) edit.width_m = number_in(values, "width_m", 100);
-    if (values.has("percent")) edit.percent = number_in(values, "percent", 99);
+    if (values.has("percent")) edit.percent = percent_of(values);
     if (values.has("max_speed_mps")) edit.max_speed_mps = number_in(values, "max_speed_mps", 100);
     if (kind == MapEditKind::kSlow && values.has("percent") == values.has("max_speed_mps"))
       throw UserError(

@@ -24,12 +24,14 @@ std::vector<mrpt::math::TPose2D> moved(std::vector<mrpt::math::TPose2D> poses,
 }  // namespace
 
 mrpt::math::TPose2D export_T_map(const MappingResult& result, const MapFrameOptions& options) {
-  double turn_rad = 0;
+  mrpt::math::TPose2D frame(0, 0, 0);
   if (options.align == MapFrameOptions::kWalls)
-    turn_rad = -wall_direction_rad(result.log, mapped_poses(result));
+    frame.phi -= wall_direction_rad(result.log, mapped_poses(result));
   else if (options.align != MapFrameOptions::kNone)
-    turn_rad = parse_degrees(options.align).value_or(0);
-  return {-options.origin_x_m, -options.origin_y_m, turn_rad};
+    frame.phi = parse_degrees(options.align).value_or(0);
+  frame.x -= options.origin_x_m;
+  frame.y -= options.origin_y_m;
+  return frame;
 }
 
 ExportedPoses::ExportedPoses(MappingResult& result, const mrpt::math::TPose2D& export_T_map)

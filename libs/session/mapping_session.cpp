@@ -9,6 +9,7 @@
 
 #include "doctor/gyroscope_check.h"
 #include "doctor/quick_check.h"
+#include "exports/zone_files.h"
 #include "frames/discarded_ranges.h"
 #include "psi_slam/configuration.h"
 #include "psi_slam/frame_source.h"
@@ -216,6 +217,9 @@ void MappingSession::reopen() {
 }
 
 void MappingSession::add_edits(const EditJournal& edits) {
+  std::vector<MapEdit> map_edits = m_->edits.map_edits();
+  map_edits.insert(map_edits.end(), edits.map_edits().begin(), edits.map_edits().end());
+  check_zones(map_edits);
   m_->edits.add(edits);
   m_->make_due_edits({});
   m_->update_journal();

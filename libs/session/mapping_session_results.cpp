@@ -59,7 +59,8 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   StageClock drawing_clock("draw map");
   StageClock judging_clock("judge map");
   StageClock writing_clock("write results");
-  const ExportedPoses exported(m.result, export_T_map(m.result, m.settings.map_frame));
+  const mrpt::math::TPose2D map_T_start = export_T_map(m.result, m.settings.map_frame);
+  const ExportedPoses exported(m.result, map_T_start);
   const std::vector<MapEdit>& map_edits = m.edits.map_edits();
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
   drawing_clock.time([&] {
@@ -80,6 +81,7 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   clock.stop();
   m.result.wall_s = m.work_s;
   RunSummary summary = summarize_run(m.result, *grid, m.settings.map);
+  summary.map.map_T_start = map_T_start;
   summary.verdict = std::move(verdict);
   summary.log.spare_scans = skipped_lines().spare_scans;
   export_account(m.result, run_info(), summary, *grid, folder);

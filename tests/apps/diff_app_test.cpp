@@ -7,6 +7,7 @@
 #include "../session/room_log.h"
 #include "app_run.h"
 #include "exports/map_files.h"
+#include "exports/map_server_pair.h"
 #include "localization/reference_map.h"
 #include "temporary_folder.h"
 
@@ -65,6 +66,14 @@ TEST_F(DiffApp, a_new_wall_gives_exit_code_1_and_three_files) {
   EXPECT_THAT(bytes_of(path("out/diff.png")), HasSubstr("PNG"));
   EXPECT_EQ(diff("a", "new.yaml", {"--min-length-m", "1.5"}).code, 0);
   EXPECT_EQ(diff("a", "new.yaml", {"--tolerance-m", "3"}).code, 0);
+}
+
+TEST_F(DiffApp, a_system_failure_does_not_look_like_a_change) {
+  std::ostringstream out;
+  std::ostringstream err;
+  out.setstate(std::ios::badbit);  // a full disk behind standard output
+  EXPECT_EQ(run_psi_slam_app({"diff", path("a").string(), path("b").string()}, {out, err, false}), 2);
+  EXPECT_THAT(err.str(), HasSubstr("cannot write to standard output"));
 }
 
 TEST_F(DiffApp, mistakes_give_exit_code_2_and_one_sentence) {

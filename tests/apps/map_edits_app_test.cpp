@@ -2,8 +2,11 @@
 // Tests whole runs of psi-slam with edits of the drawn map and with another frame.
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "../session/room_log.h"
 #include "app_run.h"
+#include "frames/pose_operations.h"
 #include "localization/reference_map.h"
 #include "pose_graph/g2o_file.h"
 #include "temporary_folder.h"
@@ -14,6 +17,7 @@ namespace psi_slam {
 namespace {
 
 using testing::HasSubstr;
+using Json = nlohmann::json;
 
 class MapEditsApp : public testing::Test {
  protected:
@@ -68,9 +72,16 @@ TEST_F(MapEditsApp, every_file_has_the_frame_of_the_settings) {
   EXPECT_NEAR(after.back().pose.y, expected.y, 1e-5);
   EXPECT_NEAR(graph.pose(0).x, after.front().pose.x, 1e-5);
   EXPECT_NEAR(graph.pose(0).phi, after.front().pose.phi, 1e-5);
-  // Both maps differ by the turn only.
+  const auto frame = Json::parse(read_file(path("turned") / "summary.json"))["map"]["frame"];
+  EXPECT_NEAR(frame["x_m"].get<double>(), -2, 1e-9);
+  EXPECT_NEAR(frame["yaw_deg"].get<double>(), 30, 1e-6);
+  // The drawn map has turned, too.
   const AppRun diff = run_app({"diff", path("plain").string(), path("turned").string(), "--json"});
-  EXPECT_EQ(diff.code, 0) << diff.out << diff.err;
+  const auto alignment = Json::parse(diff.out)["alignment"];
+  const auto plain_T_turned = inverse(turned_T_plain);
+  EXPECT_NEAR(alignment["x_m"].get<double>(), plain_T_turned.x, 0.05) << diff.err;
+  EXPECT_NEAR(alignment["y_m"].get<double>(), plain_T_turned.y, 0.05);
+  EXPECT_NEAR(alignment["yaw_rad"].get<double>(), plain_T_turned.phi, 0.01);
   EXPECT_THAT(map("wrong", {log, "--set", "map.align=sideways"}).err, HasSubstr("expected walls, none"));
 }
 

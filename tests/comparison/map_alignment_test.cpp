@@ -23,6 +23,7 @@ TEST(MapAlignment, finds_equal_frames_without_searching_the_whole_map) {
   EXPECT_EQ(alignment.method, MapAlignment::Method::kNearby);
   expect_near(alignment.a_T_b, {0.1, -0.2, 0.02}, 0.02);
   EXPECT_GT(alignment.agree, 0.95);
+  EXPECT_FALSE(alignment.ambiguity);
 }
 
 TEST(MapAlignment, finds_maps_that_begin_anywhere_at_any_heading) {
@@ -32,7 +33,7 @@ TEST(MapAlignment, finds_maps_that_begin_anywhere_at_any_heading) {
     const MapAlignment alignment = align_maps(map_of(plan, plan_T_a), map_of(plan, plan_T_b));
     EXPECT_EQ(alignment.method, MapAlignment::Method::kWholeMap);
     expect_near(alignment.a_T_b, plan_T_b - plan_T_a, 0.03);
-    EXPECT_LT(alignment.ambiguity, 0.9);
+    EXPECT_LT(alignment.ambiguity.value(), 0.9);
     EXPECT_GT(alignment.sigma_m(0), 0);
     EXPECT_LT(alignment.sigma_m(10), 0.1);
   }
@@ -87,8 +88,20 @@ TEST(MapAlignment, a_rough_pose_decides_between_alike_places) {
 TEST(MapAlignment, keeps_equal_frames_if_no_other_place_fits_better) {
   MapAlignmentOptions options;
   options.min_agree_in_same_frame = 2;  // the whole map is always searched
-  const auto map = map_of(square_room());
+  const auto map = map_of({});
   EXPECT_EQ(align_maps(map, map, options).method, MapAlignment::Method::kNearby);
+}
+
+TEST(MapAlignment, refuses_maps_with_too_few_walls) {
+  DrawnPlan bare;
+  bare.walls = {{{3, 3}, {3.02, 3}}};
+  const DrawnPlan plan;
+  for (const auto& options : {MapAlignmentOptions(), MapAlignmentOptions{TPose2D(0, 0, 0)}}) {
+    EXPECT_THAT(sentence_of([&] { align_maps(map_of(plan), map_of(bare), options); }),
+                HasSubstr("has too few walls to be aligned, expected"));
+    EXPECT_THAT(sentence_of([&] { align_maps(map_of(bare), map_of(plan), options); }),
+                HasSubstr("the first map has too few walls, expected"));
+  }
 }
 
 TEST(MapAlignment, refuses_maps_of_other_buildings) {

@@ -67,6 +67,53 @@ TEST(WallChanges, finds_a_wall_that_moved) {
   EXPECT_NEAR(change.shift.y, 0.4, 0.06);
 }
 
+/// An empty hall with walls.
+DrawnPlan hall_with(const std::vector<PlanWall>& walls) {
+  DrawnPlan hall;
+  hall.width_m = 14;
+  hall.walls = {{{0, 0}, {14, 0}}, {{14, 0}, {14, 8}}, {{14, 8}, {0, 8}}, {{0, 8}, {0, 0}}};
+  hall.walls.insert(hall.walls.end(), walls.begin(), walls.end());
+  return hall;
+}
+
+TEST(WallChanges, one_of_two_walls_beside_the_old_place_has_appeared) {
+  const auto found =
+      changes(hall_with({{{4, 4}, {10, 4}}}), hall_with({{{4, 3.6}, {10, 3.6}}, {{4, 4.4}, {10, 4.4}}}));
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].kind, Kind::kAppeared);
+  EXPECT_NEAR(found[0].length_m, 6, 0.1);
+  EXPECT_EQ(found[1].kind, Kind::kMoved);
+  EXPECT_NEAR(std::abs(found[1].shift.y), 0.4, 0.06);
+  EXPECT_NEAR(found[0].middle().y, 4 - found[1].shift.y, 0.06) << "on the other side";
+}
+
+TEST(WallChanges, a_new_wall_beside_a_moved_wall_has_appeared) {
+  const auto found =
+      changes(hall_with({{{4, 4}, {10, 4}}}), hall_with({{{4, 4.3}, {10, 4.3}}, {{2, 3.3}, {12, 3.3}}}));
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].kind, Kind::kAppeared);
+  EXPECT_NEAR(found[0].length_m, 10, 0.1);
+  EXPECT_NEAR(found[0].middle().y, 3.3, 0.06);
+  EXPECT_EQ(found[1].kind, Kind::kMoved);
+  EXPECT_NEAR(found[1].length_m, 6, 0.1);
+  EXPECT_NEAR(found[1].shift.y, 0.3, 0.06);
+}
+
+TEST(WallChanges, the_part_by_which_a_moved_wall_grew_has_appeared) {
+  const auto found = changes(hall_with({{{2, 4}, {8, 4}}}), hall_with({{{2, 4.4}, {12, 4.4}}}));
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].kind, Kind::kAppeared);
+  EXPECT_NEAR(found[0].length_m, 4, 0.25);
+  EXPECT_NEAR(found[0].middle().x, 10, 0.15);
+  EXPECT_EQ(found[1].kind, Kind::kMoved);
+}
+
+TEST(WallChanges, maps_that_lie_far_apart_share_nothing) {
+  const WallChanges found = find_wall_changes(map_of({}), map_of({}), {5e5, 5e5, 0});
+  EXPECT_EQ(found.compared_m2, 0);
+  EXPECT_TRUE(found.cells.cells.empty());
+}
+
 TEST(WallChanges, a_wall_across_the_old_place_has_not_moved) {
   const auto found = changes(with_wall({{6, 2}, {8, 2}}), with_wall({{7, 2.3}, {7, 3.8}}));
   ASSERT_EQ(found.size(), 2U);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "exports/map_files.h"
+#include "exports/map_server_pair.h"
 #include "simulated_room.h"
 #include "soon.h"
 #include "temporary_folder.h"

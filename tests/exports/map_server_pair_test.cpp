@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "exports/map_files.h"
+#include "exports/map_server_pair.h"
 
 #include <gmock/gmock.h>
 

@@ -90,6 +90,21 @@ TEST_F(ZoneFiles, percent_and_speed_cannot_be_mixed) {
               HasSubstr("expected one of them"));
 }
 
+TEST_F(ZoneFiles, no_slow_zone_has_the_value_of_no_limit) {
+  write({zone(Kind::kSlow, 0, 1, 0.5)});
+  EXPECT_EQ(value("speed_mask", 0.5, 0.5), 99) << "nav2 reads 100 as no limit";
+}
+
+TEST_F(ZoneFiles, speeds_below_a_hundredth_of_the_fastest_are_refused) {
+  const auto pair = [](double slow_mps) {
+    return std::vector<MapEdit>{zone(Kind::kSlow, 0, 1, 0, 0.3), zone(Kind::kSlow, 2, 3, 0, slow_mps)};
+  };
+  EXPECT_THAT(sentence_of([&] { write(pair(0.0029)); }),
+              HasSubstr("max_speed_mps=0.0029 of a slow zone is too small beside max_speed_mps=0.3"));
+  write(pair(0.003));
+  EXPECT_EQ(value("speed_mask", 2.5, 0.5), 1);
+}
+
 TEST_F(ZoneFiles, mrpt_reads_the_polygons) {
   write({zone(Kind::kKeepOut, 1, 2), zone(Kind::kSlow, 4, 6, 40)});
   mrpt::math::CMatrixDouble corners;

@@ -5,6 +5,7 @@
 
 #include "compression/compressed_file.h"
 #include "exports/map_files.h"
+#include "exports/map_server_pair.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 

@@ -23,11 +23,11 @@ Shown shown(const Grid& grid, double x_m, double y_m) {
                                      : Shown::kUnknown;
 }
 
-/// Free space with one wall at x = 1 m. The lower left corner is at (-2, -1) m.
+/// Free space with one wall at x = 1.025 m. The lower left corner is at (-2, -1) m.
 Grid walled_map() {
   Grid grid(-2, 4, -1, 3, 0.05F);
   grid.fill(0.97F);
-  for (double y = -0.975; y < 3; y += 0.05) grid.setCell(grid.x2idx(1.0), grid.y2idx(y), 0.02F);
+  for (double y = -0.975; y < 3; y += 0.05) grid.setCell(grid.x2idx(1.01), grid.y2idx(y), 0.02F);
   return grid;
 }
 
@@ -78,6 +78,21 @@ TEST(MapEdits, a_wall_has_its_width_and_no_gaps) {
   EXPECT_EQ(shown(grid, 2.5, 1.2), Shown::kFree);
 }
 
+TEST(MapEdits, a_wall_on_a_border_of_cells_is_drawn) {
+  MapEdit wall;
+  wall.kind = Kind::kWall;
+  wall.points = {{0, -0.5}, {0, 0.5}};
+  for (int i = 0; i < 600; ++i) {
+    const float x_min_m = -30 + 0.05F * static_cast<float>(i);
+    Grid grid(x_min_m, 1, -1, 1, 0.05F);
+    grid.fill(0.97F);
+    EXPECT_THAT(apply_map_edits({wall}, grid), IsEmpty()) << x_min_m;
+    const bool left = shown(grid, -0.02, 0.02) == Shown::kWall;
+    const bool right = shown(grid, 0.02, 0.02) == Shown::kWall;
+    EXPECT_TRUE(left || right) << x_min_m;
+  }
+}
+
 TEST(MapEdits, later_edits_override_earlier_ones) {
   Grid grid = walled_map();
   apply_map_edits({polygon(Kind::kUnknown, 0, 2, 0, 1), polygon(Kind::kErase, 0, 2, 0, 1)}, grid);
@@ -102,6 +117,9 @@ TEST(MapEdits, zones_change_nothing_and_edits_beside_the_map_are_reported) {
   EXPECT_THAT(apply_map_edits({polygon(Kind::kCrop, 40, 50, 0, 1)}, grid),
               ElementsAre(HasSubstr("crop at 40,0: no cell of the map lies there")));
   EXPECT_EQ(grid.getSizeX(), walled_map().getSizeX());
+  EXPECT_THAT(apply_map_edits({polygon(Kind::kSlow, -1.5, -1, 0, 1), polygon(Kind::kCrop, 0, 2, 0, 1)}, grid),
+              ElementsAre(HasSubstr("slow at -1.5,0: no cell of the map lies there")))
+      << "the zone was cropped away";
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "simulated_room.h"
 
 namespace psi_slam {
@@ -29,6 +31,14 @@ TEST(WallDirection, is_found_to_a_tenth_of_a_degree_modulo_90_degrees) {
     EXPECT_NEAR(direction_rad(degrees * M_PI / 180), degrees * M_PI / 180, tolerance_rad) << degrees;
   EXPECT_NEAR(direction_rad(100 * M_PI / 180), 10 * M_PI / 180, tolerance_rad);
   EXPECT_NEAR(std::abs(direction_rad(M_PI / 4)), M_PI / 4, tolerance_rad);
+}
+
+TEST(WallDirection, uses_the_scans_of_all_lasers) {
+  Frame frame = SimulatedRoom().scan_from({1, 0.5, 0.3}, even_bearings(-M_PI / 2, M_PI / 2, 181));
+  const double expected_rad = wall_direction_rad({frame}, {{0, 0, 0.3}});
+  frame.companions = {{std::exchange(frame.scan, {}), frame.time_us, {0, 0, 0.2}}};
+  EXPECT_NEAR(wall_direction_rad({frame}, {{0, 0, 0.1}}), expected_rad, 1e-9);
+  EXPECT_NEAR(expected_rad, 0, 0.01);
 }
 
 TEST(WallDirection, is_0_without_walls) {

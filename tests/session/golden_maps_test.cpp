@@ -11,6 +11,7 @@
 #include <string>
 
 #include "exports/map_files.h"
+#include "exports/map_server_pair.h"
 #include "exports/mapped_trajectory.h"
 #include "exports/run_summary.h"
 #include "localization/reference_map.h"

@@ -36,7 +36,8 @@ TEST(MapEditLine, mistakes_get_one_sentence) {
   EXPECT_THAT(complaint("wall line=1,2;3,4 width_m=0"), HasSubstr("above 0 and at most 100"));
   EXPECT_THAT(complaint("crop"), HasSubstr("\"polygon\" is missing"));
   EXPECT_THAT(complaint("slow polygon=7,1;9,1;9,3"), HasSubstr("either percent or max_speed_mps"));
-  EXPECT_THAT(complaint("slow polygon=7,1;9,1;9,3 percent=100"), HasSubstr("at most 99"));
+  for (const char* line : {"slow polygon=7,1;9,1;9,3 percent=100", "slow polygon=7,1;9,1;9,3 percent=0.5"})
+    EXPECT_THAT(complaint(line), HasSubstr("expected a number from 1 to 99")) << line;
 }
 
 TEST(MapEditLine, the_journal_keeps_edits_of_loops_and_of_the_map) {
@@ -61,7 +62,10 @@ TEST(MapEditLine, a_file_limits_the_speed_in_one_way) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "my.edits";
   write_file(file, "slow polygon=0,0;1,0;1,1 percent=40\nslow polygon=0,0;1,0;1,1 max_speed_mps=1\n");
-  EXPECT_THAT(sentence_of([&] { EditJournal::read(file); }), HasSubstr("my.edits: the edits limit the speed"));
+  EXPECT_THAT(sentence_of([&] { EditJournal::read(file); }),
+              HasSubstr("my.edits: the edits limit the speed"));
+  EXPECT_THAT(sentence_of([&] { EditJournal::parse(read_file(file), "my.session"); }),
+              HasSubstr("my.session: the edits limit the speed"));
 }
 
 }  // namespace

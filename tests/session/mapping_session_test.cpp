@@ -379,5 +379,16 @@ TEST_F(MappingSessionEditsTest, reports_edits_that_could_not_be_made) {
   EXPECT_THAT(session.run_info().warnings, SizeIs(2)) << "the report contains the warnings too";
 }
 
+TEST_F(MappingSessionEditsTest, zones_that_contradict_earlier_ones_are_refused_before_mapping) {
+  const auto zone = [](const std::string& limit) {
+    return EditJournal::parse("slow polygon=0,0;1,0;1,1 " + limit, "my.edits");
+  };
+  MappingSession session(log(room_log_lines(60)), settings_);
+  session.add_edits(zone("percent=40"));
+  EXPECT_THAT(sentence_of([&] { session.add_edits(zone("max_speed_mps=0.3")); }),
+              HasSubstr("expected one of them"));
+  EXPECT_THAT(session.edits().map_edits(), SizeIs(1));
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -101,7 +101,7 @@ class MappingSession {
   SkippedLines skipped_lines() const;
 
   /// Adds planned edits to the edits of the input. Each edit is made after the scan that it names. Call
-  /// before the first step().
+  /// before the first step(). Throws UserError, and adds nothing, if zones contradict each other.
   void add_edits(const EditJournal& edits);
   /// Changes a loop by hand now. An edit after finish() needs stay_open() and reopens the map: call finish()
   /// again.

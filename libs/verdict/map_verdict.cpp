@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "pose_graph/path_covariance.h"
 #include "verdict/loop_residuals.h"

@@ -217,7 +217,7 @@ Json verdict_json(const MapVerdict& verdict) {
     spots.push_back({{"kind", text_of(spot.kind)},
                      {"x_m", number(spot.at.x, 3)},
                      {"y_m", number(spot.at.y, 3)},
-                     {"error_m", number(spot.error_m, 3)},
+                     {"error_m", spot.error_m ? number(*spot.error_m, 3) : Json(nullptr)},
                      {"length_m", number(spot.length_m, 3)},
                      {"suspect", suspect_json(spot.suspect)},
                      {"advice", advice_text(spot)}});
@@ -225,6 +225,7 @@ Json verdict_json(const MapVerdict& verdict) {
           {"sentence", verdict_sentence(verdict)},
           {"error_m", number(verdict.error_m, 4)},
           {"predicted_m", number(verdict.predicted_m, 4)},
+          {"doubt_m", number(verdict.doubt_m(), 4)},
           {"wall_thickness_m", number(verdict.wall_thickness_m, 4)},
           {"checked_share", number(verdict.checked_share, 4)},
           {"hot_spots", std::move(spots)}};

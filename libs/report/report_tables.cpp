@@ -132,7 +132,7 @@ std::string verdict_section(const MapVerdict& verdict) {
   for (const HotSpot& spot : verdict.hot_spots)
     rows += "<tr>" +
             cells({text_of(spot.kind), fixed_text(spot.at.x, 1), fixed_text(spot.at.y, 1),
-                   fixed_text(spot.error_m, 2)}) +
+                   spot.error_m ? fixed_text(*spot.error_m, 2) : std::string()}) +
             "<td class=\"text\">" + escape_html(text_of(spot.suspect)) + "</td><td class=\"text\">" +
             escape_html(advice_text(spot)) + "</td></tr>\n";
   return html +

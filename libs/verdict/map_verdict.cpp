@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "pose_graph/path_covariance.h"
 #include "verdict/loop_residuals.h"
@@ -41,7 +40,6 @@ class Judge {
     add_path_spots(verdict.hot_spots);
     std::stable_sort(verdict.hot_spots.begin(), verdict.hot_spots.end(),
                      [](const HotSpot& a, const HotSpot& b) { return weight(a) > weight(b); });
-    if (verdict.hot_spots.size() > options_.most_hot_spots) verdict.hot_spots.resize(options_.most_hot_spots);
     measure_walls(verdict);
     verdict.error_m = mean_error_m() + unconfirmed_error_m(verdict.hot_spots);
     verdict.predicted_m = mean_prediction_m();
@@ -52,13 +50,16 @@ class Judge {
     verdict.state = is_broken                   ? MapState::kBroken
                     : verdict.hot_spots.empty() ? MapState::kGood
                                                 : MapState::kCheck;
+    if (verdict.hot_spots.size() > options_.most_hot_spots) {
+      verdict.more_hot_spots = verdict.hot_spots.size() - options_.most_hot_spots;
+      verdict.hot_spots.resize(options_.most_hot_spots);
+    }
     return verdict;
   }
 
  private:
   static double weight(const HotSpot& spot) {
-    return spot.kind == HotSpot::Kind::kUnplacedRun ? std::numeric_limits<double>::infinity()
-                                                    : spot.error_m * (1 + spot.length_m);
+    return spot.error_m.value_or(std::numeric_limits<double>::infinity()) * (1 + spot.length_m);
   }
 
   TPoint2D place_of(std::size_t frame) const {
@@ -67,13 +68,15 @@ class Judge {
   }
 
   Suspect stretch(Suspect::Kind kind, std::size_t first_frame, std::size_t last_frame) const {
-    return {kind, 0, 0, first_frame, last_frame, place_of((first_frame + last_frame) / 2)};
+    const bool searched_loops = std::any_of(result_.frames.begin(), result_.frames.end(),
+                                            [](const FrameRecord& frame) { return frame.searched_loops; });
+    return {kind, 0, 0, first_frame, last_frame, place_of((first_frame + last_frame) / 2), searched_loops};
   }
 
   Suspect suspect_of(const LoopResidual& residual) const {
     const LoopRecord& loop = result_.loops[residual.loop];
-    return {Suspect::Kind::kLoop, residual.loop,       loop.local_map, result_.node_frames[loop.anchor],
-            loop.frame,           place_of(loop.frame)};
+    return {Suspect::Kind::kLoop, residual.loop, loop.local_map, result_.node_frames[loop.anchor], loop.frame,
+            place_of(loop.frame), true};
   }
 
   Suspect suspect_of(const PathSuspect& suspect) const {
@@ -105,6 +108,13 @@ class Judge {
     return residual.chi >= options_.conflict_chi && residual.residual_m >= options_.conflict_m;
   }
 
+  /// Whether the path that a loop bends, from its anchor to its node, overlaps the path between two frames.
+  bool bends_between(const LoopResidual& residual, std::size_t first_frame, std::size_t last_frame) const {
+    const LoopRecord& loop = result_.loops[residual.loop];
+    const auto [first, last] = std::minmax(result_.node_frames[loop.anchor], loop.frame);
+    return first < last_frame && last > first_frame;
+  }
+
   /// Whether a check compares views on both sides of the first frame of a stretch.
   bool spans(const PassCheck& check, const PathSuspect& suspect) const {
     const auto [first, last] = std::minmax(views_[check.view].frame, views_[check.other].frame);
@@ -127,10 +137,13 @@ class Judge {
 
   /// The most likely cause of a displacement between two views.
   Suspect cause_between(std::size_t view, std::size_t other) const {
-    if (!residuals_.empty() && is_conflict(residuals_.front())) return suspect_of(residuals_.front());
     const auto [first, last] = std::minmax(view, other);
     const std::size_t first_frame = views_[first].frame;
     const std::size_t last_frame = views_[last].frame;
+    const auto loop = std::find_if(residuals_.begin(), residuals_.end(), [&](const LoopResidual& residual) {
+      return is_conflict(residual) && bends_between(residual, first_frame, last_frame);
+    });
+    if (loop != residuals_.end()) return suspect_of(*loop);
     for (const PathSuspect* lost : contradicted_)
       if (lost->first_frame > first_frame && lost->first_frame <= last_frame) return suspect_of(*lost);
     const PathSuspect* worst = nullptr;
@@ -147,76 +160,69 @@ class Judge {
                    views_[static_cast<std::size_t>(end - blame_.begin())].frame);
   }
 
-  HotSpot spot_of(const PassCheck& check, HotSpot::Kind kind) const {
-    return {kind, check.scans.at, check.error_m, 0, cause_between(check.view, check.other)};
-  }
-
   HotSpot::Kind kind_of(const PassCheck& check) const {
     if (views_[check.view].run != views_[check.other].run) return HotSpot::Kind::kRunsDisagree;
     return check.scans.seen_through_share() > 0.5 ? HotSpot::Kind::kSeenThroughWall
                                                   : HotSpot::Kind::kDoubledWall;
   }
 
+  /// Displaced views of one run that follow each other.
+  struct Series {
+    const PassCheck* worst = nullptr;
+    std::size_t first = 0;  // view
+    std::size_t last = 0;   // view
+    std::size_t count = 0;  // displaced comparisons
+  };
+
+  /// Series of the comparisons within a pass, or between passes, with errors from least_error_m on.
+  /// Successive views of a series are at most `largest_step` views apart.
+  std::vector<Series> series_of(bool same_pass, double least_error_m, std::size_t largest_step) const {
+    std::vector<Series> all;
+    for (const PassCheck& check : checks_) {
+      if (check.same_pass != same_pass || check.error_m < least_error_m) continue;
+      if (all.empty() || check.view > all.back().last + largest_step ||
+          views_[check.view].run != views_[all.back().last].run)
+        all.push_back({&check, check.view, check.view, 0});
+      Series& series = all.back();
+      if (check.error_m > series.worst->error_m) series.worst = &check;
+      series.last = check.view;
+      ++series.count;
+    }
+    return all;
+  }
+
+  double length_m(const Series& series) const {
+    return std::abs(views_[series.last].travelled_m - views_[series.first].travelled_m);
+  }
+
+  HotSpot spot_of(const Series& series, HotSpot::Kind kind) const {
+    const PassCheck& worst = *series.worst;
+    return {kind, worst.scans.at, worst.error_m, length_m(series), cause_between(worst.view, worst.other)};
+  }
+
   /// Makes one hot spot of each series of displaced views.
   void add_wall_spots(std::vector<HotSpot>& spots) const {
-    constexpr std::size_t kLargestGap = 3;  // views between the displaced views of one hot spot
-    const PassCheck* worst = nullptr;
-    std::size_t first = 0;
-    std::size_t last = 0;
-    std::size_t count = 0;
-    const auto close = [&] {
-      const PassCheck* check = std::exchange(worst, nullptr);
-      if (check == nullptr) return;
-      const double length_m = std::abs(views_[last].travelled_m - views_[first].travelled_m);
+    constexpr std::size_t kLargestStep = 3;  // views between the displaced views of one hot spot
+    for (const Series& series : series_of(false, options_.spot_error_m, kLargestStep))
       // Doors and furniture move, too; misplaced walls are longer.
-      if (length_m < options_.least_length_m || count < options_.least_checks) return;
-      spots.push_back(spot_of(*check, kind_of(*check)));
-      spots.back().length_m = length_m;
-    };
-    for (const PassCheck& check : checks_) {
-      if (check.same_pass || check.error_m < options_.spot_error_m) continue;
-      if (worst != nullptr && (check.view > last + kLargestGap || views_[check.view].run != views_[last].run))
-        close();
-      if (worst == nullptr) {
-        first = check.view;
-        count = 0;
-      }
-      ++count;
-      if (worst == nullptr || check.error_m > worst->error_m) worst = &check;
-      last = check.view;
-    }
-    close();
+      if (length_m(series) >= options_.least_length_m && series.count >= options_.least_checks)
+        spots.push_back(spot_of(series, kind_of(*series.worst)));
   }
 
   /// Makes one hot spot of each series of at least two scans that do not fit the scans before them.
   void add_misfits(std::vector<HotSpot>& spots) const {
-    const PassCheck* before = nullptr;
-    bool is_series = false;
-    for (const PassCheck& check : checks_) {
-      if (!check.same_pass) continue;
-      if (check.error_m < options_.misfit_m) {
-        before = nullptr;
-        is_series = false;
-        continue;
-      }
-      if (before != nullptr && !is_series) {
-        spots.push_back(spot_of(*before, HotSpot::Kind::kMisfit));
-        is_series = true;
-      }
-      if (is_series) {
-        spots.back().length_m += options_.views.step_m;
-        spots.back().error_m = std::max(spots.back().error_m, check.error_m);
-      }
-      before = &check;
-    }
+    for (const Series& series : series_of(true, options_.misfit_m, 1))
+      if (series.count >= 2) spots.push_back(spot_of(series, HotSpot::Kind::kMisfit));
   }
 
   void add_conflicts(std::vector<HotSpot>& spots) const {
-    if (residuals_.empty() || !is_conflict(residuals_.front())) return;
-    const LoopResidual& worst = residuals_.front();  // true loops nearby have residuals because of it
-    const Suspect suspect = suspect_of(worst);
+    // True loops nearby have residuals because of the worst one.
+    const auto worst = std::find_if(residuals_.begin(), residuals_.end(),
+                                    [&](const LoopResidual& residual) { return is_conflict(residual); });
+    if (worst == residuals_.end()) return;
+    const Suspect suspect = suspect_of(*worst);
     spots.push_back({HotSpot::Kind::kLoopConflict, suspect.at,
-                     std::min(worst.residual_m, options_.passes.unknown_m), 0, suspect});
+                     std::min(worst->residual_m, options_.passes.unknown_m), 0, suspect});
   }
 
   /// Whether a pass that fits holds both ends of a stretch together.
@@ -232,7 +238,7 @@ class Judge {
     for (const PathSuspect& suspect : path_suspects_) {
       const Suspect cause = suspect_of(suspect);
       if (suspect.kind == PathSuspect::Kind::kUnplaced)
-        spots.push_back({HotSpot::Kind::kUnplacedRun, cause.at, options_.passes.unknown_m, 0, cause});
+        spots.push_back({HotSpot::Kind::kUnplacedRun, cause.at, std::nullopt, 0, cause});
       if (std::count(contradicted_.begin(), contradicted_.end(), &suspect) > 0)
         spots.push_back({HotSpot::Kind::kRunsDisagree, cause.at, options_.passes.unknown_m, 0, cause});
       if (suspect.kind == PathSuspect::Kind::kUnmatched && suspect.doubt_m >= options_.unconfirmed_m &&
@@ -246,8 +252,9 @@ class Judge {
   double mean_error_m() const {
     std::vector<std::optional<double>> errors = errors_;
     for (const PassCheck& check : checks_)
-      if (check.same_pass && check.error_m >= options_.misfit_m)
-        errors[check.view] = std::max(errors[check.view].value_or(0), check.error_m);
+      if (check.same_pass)
+        errors[check.view] = std::max(errors[check.view].value_or(0),
+                                      check.error_m >= options_.misfit_m ? check.error_m : 0.0);
     double sum_m = 0;
     std::size_t checked = 0;
     for (const std::optional<double>& error_m : errors) {
@@ -272,21 +279,32 @@ class Judge {
           (spot.kind == HotSpot::Kind::kRunsDisagree && spot.suspect.kind == Suspect::Kind::kLost);
       if (is_lost)
         worst_m = std::max(worst_m, error_of_parts_m(spot.suspect.first_frame, options_.passes.unknown_m));
-      if (spot.kind == HotSpot::Kind::kUnmatched) worst_m = std::max(worst_m, spot.error_m);
+      if (spot.kind == HotSpot::Kind::kUnmatched)
+        worst_m = std::max(worst_m, error_of_parts_m(spot.suspect.first_frame, *spot.error_m));
     }
     return worst_m;
   }
 
+  bool is_unplaced(const MapView& view, const std::vector<FrameSpan>& runs) const {
+    return std::any_of(path_suspects_.begin(), path_suspects_.end(), [&](const PathSuspect& suspect) {
+      return suspect.kind == PathSuspect::Kind::kUnplaced && suspect.first_frame == runs[view.run].begin;
+    });
+  }
+
   double mean_prediction_m() const {
     if (views_.empty()) return 0;
+    const std::vector<FrameSpan> runs = runs_of(result_);
     PathCovarianceSearch search;
     search.run(result_.graph, result_.graph.root());
     double sum_m = 0;
+    std::size_t count = 0;
     for (const MapView& view : views_) {
       const RelativeUncertainty uncertainty = search.of(view.node);
-      if (uncertainty.reached) sum_m += uncertainty.position_sigma_m();
+      if (!uncertainty.reached || is_unplaced(view, runs)) continue;
+      sum_m += uncertainty.position_sigma_m();
+      ++count;
     }
-    return sum_m / static_cast<double>(views_.size());
+    return count == 0 ? 0 : sum_m / static_cast<double>(count);
   }
 
   void measure_walls(MapVerdict& verdict) const {

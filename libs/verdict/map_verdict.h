@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct Suspect {
   std::size_t first_frame = 0;  ///< first frame of the stretch, or frame of the loop's anchor
   std::size_t last_frame = 0;   ///< last frame of the stretch, or frame of the loop's node
   mrpt::math::TPoint2D at;      ///< place in the map: the loop's node, or the middle of the stretch
+  /// Whether any scan of the map searched for loops. False with loop_closure.enabled=false.
+  bool searched_loops = true;
 };
 
 /// A doubtful place of the map.
@@ -49,8 +52,9 @@ struct HotSpot {
   };
   Kind kind = Kind::kDoubledWall;
   mrpt::math::TPoint2D at;  ///< place in the map, metres
-  double error_m = 0;       ///< estimated error; an error that is too large to measure counts as 1 m
-  double length_m = 0;      ///< path along which the fault is seen
+  /// Estimated error; an error that is too large to measure counts as 1 m. Empty for an unplaced run.
+  std::optional<double> error_m;
+  double length_m = 0;  ///< path along which the fault is seen
   Suspect suspect;
 };
 
@@ -71,12 +75,13 @@ struct MapVerdict {
   /// Estimated mean error in metres, from what the scans show: the mean displacement between passes and
   /// between successive scans, and the doubt about stretches and runs that no pass confirms.
   double error_m = 0;
-  /// Mean standard deviation of the positions that the graph predicts, metres. It grows where no loop holds
-  /// the path, whether or not the scans show an error.
+  /// Mean standard deviation of the positions that the graph predicts, metres, without unplaced runs. It
+  /// grows where no loop holds the path, whether or not the scans show an error.
   double predicted_m = 0;
   double wall_thickness_m = 0;     ///< 90th percentile of the distances between the walls of two passes
   double checked_share = 0;        ///< share of the path that another pass confirms or contradicts, in [0, 1]
-  std::vector<HotSpot> hot_spots;  ///< the worst first
+  std::vector<HotSpot> hot_spots;  ///< the worst first, at most VerdictOptions::most_hot_spots
+  std::size_t more_hot_spots = 0;  ///< hot spots beyond those, which are left out of the list
 
   /// Figure by which maps can be ranked: error_m, and predicted_m beyond that of a map with many loops.
   double doubt_m() const { return error_m + std::max(0.0, predicted_m - kUsualPrediction_m); }
@@ -111,7 +116,7 @@ std::string text_of(const Suspect& suspect);
 /// Returns the verdict as a sentence without full stop: "the map is good: ...".
 std::string verdict_sentence(const MapVerdict& verdict);
 
-/// Returns a hot spot as a clause: "doubled wall at (3.1, -2.0) m, about 0.3 m apart; suspect: ...".
+/// Returns a hot spot as a clause: "doubled wall at (3.1, -2.0) m, error about 0.30 m; suspect: ...".
 std::string hot_spot_text(const HotSpot& spot);
 
 /// Returns the setting or edit that would help against a hot spot, as a sentence without full stop.

@@ -43,11 +43,11 @@ std::string text_of(const Suspect& suspect) {
     case Suspect::Kind::kLost:
       return scans_text(suspect) + ", where the place of the robot was lost";
     case Suspect::Kind::kUnplaced:
-      return scans_text(suspect) + ", where the place of the robot was lost";
+      return scans_text(suspect) + ", where the place of the robot was lost and was never found again";
     case Suspect::Kind::kStretch:
       break;
   }
-  return scans_text(suspect) + ", where the passes part";
+  return scans_text(suspect) + ", where the map of the second pass departs from the first";
 }
 
 std::string verdict_sentence(const MapVerdict& verdict) {
@@ -59,15 +59,21 @@ std::string verdict_sentence(const MapVerdict& verdict) {
     return "the map is good: walls of different passes differ by at most " +
            fixed_text(verdict.wall_thickness_m, 2) + " m at 90 % of the places, and " + checked;
   }
-  const std::string worst = ", the worst: " + hot_spot_text(verdict.hot_spots.front());
-  if (verdict.state == MapState::kBroken && !verdict.hot_spots.empty())
-    return "the map is broken: the estimated mean error is " + fixed_text(verdict.error_m, 2) + " m" + worst;
-  return "check " + counted(verdict.hot_spots.size(), "place") + " of the map" + worst;
+  const HotSpot& worst = verdict.hot_spots.front();
+  if (worst.kind == HotSpot::Kind::kUnplacedRun)
+    return "the map is broken: a run was never placed; suspect: " + text_of(worst.suspect);
+  const std::string text = hot_spot_text(worst);
+  if (verdict.state == MapState::kBroken)
+    return "the map is broken: the estimated mean error is " + fixed_text(verdict.error_m, 2) +
+           " m, the worst: " + text;
+  const std::size_t places = verdict.hot_spots.size() + verdict.more_hot_spots;
+  if (places == 1) return "check this place: " + text;
+  return "check " + counted(places, "place") + " of the map, the worst: " + text;
 }
 
 std::string hot_spot_text(const HotSpot& spot) {
   std::string text = text_of(spot.kind) + " at " + place_text(spot.at);
-  if (spot.kind != HotSpot::Kind::kUnplacedRun) text += ", error about " + fixed_text(spot.error_m, 2) + " m";
+  if (spot.error_m) text += ", error about " + fixed_text(*spot.error_m, 2) + " m";
   return text + "; suspect: " + text_of(spot.suspect);
 }
 
@@ -91,9 +97,10 @@ std::string advice_text(const HotSpot& spot) {
     case Suspect::Kind::kStretch:
       break;
   }
-  return "raise loop_closure.wide_searches, or match a scan after scan " +
-         std::to_string(suspect.last_frame) + " with a local map before scan " +
-         std::to_string(suspect.first_frame) + " by hand";
+  const std::string setting =
+      suspect.searched_loops ? "raise loop_closure.wide_searches" : "set loop_closure.enabled=true";
+  return setting + ", or match a scan after scan " + std::to_string(suspect.last_frame) +
+         " with a local map before scan " + std::to_string(suspect.first_frame) + " by hand";
 }
 
 }  // namespace psi_slam

@@ -13,10 +13,10 @@ namespace {
 using mrpt::math::TPose2D;
 using testing::HasSubstr;
 
-VerdictRow row_of(double error_m, double score_m) {
+VerdictRow row_of(double error_m, double doubt_m) {
   VerdictRow row;
   row.error_m = error_m;
-  row.score_m = score_m;
+  row.doubt_m = doubt_m;
   return row;
 }
 

@@ -149,9 +149,10 @@ TEST(SummaryJson, has_the_verdict_about_the_map) {
   EXPECT_EQ(verdict["state"], "check these places");
   EXPECT_EQ(
       verdict["sentence"],
-      "check 1 place of the map, the worst: doubled wall at (1.5, -0.5) m, error about 0.31 m; suspect: the "
-      "loop of scan 45 with local map 3");
+      "check this place: doubled wall at (1.5, -0.5) m, error about 0.31 m; suspect: the loop of scan 45 "
+      "with local map 3");
   EXPECT_EQ(verdict["error_m"], 0.06);
+  EXPECT_EQ(verdict["doubt_m"], 0.06);
   ASSERT_EQ(verdict["hot_spots"].size(), 1U);
   const auto& spot = verdict["hot_spots"][0];
   EXPECT_EQ(spot["kind"], "doubled wall");

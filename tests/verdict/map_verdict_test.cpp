@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "two_passes.h"
 
@@ -12,6 +13,26 @@ namespace psi_slam {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
+
+/// Options for which both rounds are a single pass, and each scan is a view.
+VerdictOptions options_of_single_pass() {
+  VerdictOptions options;
+  options.passes.pass_apart_m = 100;
+  options.views.step_m = 0.1;
+  return options;
+}
+
+void shorten_ranges(Frame& frame) {
+  for (float& range_m : frame.scan.ranges_m) range_m *= 0.6F;
+}
+
+std::vector<HotSpot> spots_of(const MapVerdict& verdict, HotSpot::Kind kind) {
+  std::vector<HotSpot> spots;
+  for (const HotSpot& spot : verdict.hot_spots)
+    if (spot.kind == kind) spots.push_back(spot);
+  return spots;
+}
 
 TEST(MapVerdict, finds_a_map_good_whose_passes_agree) {
   const MapVerdict verdict = judge_map(two_passes());
@@ -28,7 +49,7 @@ TEST(MapVerdict, points_at_a_doubled_wall) {
   ASSERT_FALSE(verdict.hot_spots.empty());
   const HotSpot& worst = verdict.hot_spots.front();
   EXPECT_EQ(worst.kind, HotSpot::Kind::kDoubledWall);
-  EXPECT_NEAR(worst.error_m, 0.3, 0.1);
+  EXPECT_NEAR(worst.error_m.value_or(0), 0.3, 0.1);
   const double to_wall_m = std::min({std::abs(worst.at.x - -2), std::abs(worst.at.x - 4)});
   EXPECT_LT(to_wall_m, 0.5) << "at the walls that are displaced along their normals";
   EXPECT_THAT(hot_spot_text(worst), HasSubstr("doubled wall at ("));
@@ -67,6 +88,78 @@ TEST(MapVerdict, suspects_the_loop_that_the_map_contradicts) {
   }
 }
 
+TEST(MapVerdict, blames_a_loop_only_for_the_path_that_it_bends) {
+  MappingResult result = two_passes({0.3, 0, 0});
+  result.loops = {loop_between(result, 0, 2, {2, 0, 0})};
+  const MapVerdict verdict = judge_map(result);
+  const std::vector<HotSpot> conflicts = spots_of(verdict, HotSpot::Kind::kLoopConflict);
+  ASSERT_EQ(conflicts.size(), 1U);
+  EXPECT_EQ(conflicts.front().suspect.kind, Suspect::Kind::kLoop);
+  const std::vector<HotSpot> walls = spots_of(verdict, HotSpot::Kind::kDoubledWall);
+  ASSERT_FALSE(walls.empty());
+  for (const HotSpot& wall : walls) EXPECT_EQ(wall.suspect.kind, Suspect::Kind::kStretch);
+}
+
+TEST(MapVerdict, finds_a_conflict_behind_a_loop_that_is_only_turned) {
+  MappingResult result = two_passes();
+  result.loops = {loop_between(result, 2, 42, {0, 0, 1}), loop_between(result, 10, 50, {0.4, 0, 0})};
+  const std::vector<HotSpot> conflicts = spots_of(judge_map(result), HotSpot::Kind::kLoopConflict);
+  ASSERT_EQ(conflicts.size(), 1U);
+  EXPECT_EQ(conflicts.front().suspect.loop, 1U);
+}
+
+TEST(MapVerdict, asks_to_check_a_single_pass_with_two_bad_scans) {
+  MappingResult result = two_passes();
+  for (const std::size_t frame : {30U, 31U}) shorten_ranges(result.log[frame]);
+  const MapVerdict verdict = judge_map(result, options_of_single_pass());
+  EXPECT_EQ(verdict.state, MapState::kCheck);
+  EXPECT_GT(verdict.error_m, 0.01);
+  const std::vector<HotSpot> misfits = spots_of(verdict, HotSpot::Kind::kMisfit);
+  ASSERT_EQ(misfits.size(), 1U);
+  EXPECT_LE(misfits.front().suspect.first_frame, 34U);
+  EXPECT_GE(misfits.front().suspect.last_frame, 27U);
+  EXPECT_LT(misfits.front().length_m, 1);
+}
+
+TEST(MapVerdict, asks_for_no_check_of_single_bad_scans) {
+  MappingResult result = two_passes();
+  for (const std::size_t frame : {20U, 31U}) shorten_ranges(result.log[frame]);
+  EXPECT_EQ(judge_map(result, options_of_single_pass()).state, MapState::kGood);
+}
+
+TEST(MapVerdict, asks_to_check_a_short_stretch_without_a_match) {
+  MappingResult result = two_passes();
+  for (std::size_t i = 38; i < 42; ++i) result.frames[i].match = ScanMatch::kUnmatched;
+  const MapVerdict verdict = judge_map(result, options_of_single_pass());
+  EXPECT_EQ(verdict.state, MapState::kCheck);
+  ASSERT_EQ(verdict.hot_spots.size(), 1U);
+  EXPECT_EQ(verdict.hot_spots.front().kind, HotSpot::Kind::kUnmatched);
+  EXPECT_NEAR(verdict.error_m, 0.5 * verdict.hot_spots.front().error_m.value_or(0), 0.02);
+}
+
+TEST(MapVerdict, measures_the_error_before_it_shortens_the_list) {
+  MappingResult result = two_passes();
+  for (const std::size_t frame : {30U, 31U, 50U, 51U}) shorten_ranges(result.log[frame]);
+  VerdictOptions options = options_of_single_pass();
+  const MapVerdict whole = judge_map(result, options);
+  options.most_hot_spots = 1;
+  const MapVerdict shortened = judge_map(result, options);
+  EXPECT_EQ(shortened.hot_spots.size(), 1U);
+  EXPECT_EQ(shortened.more_hot_spots, 1U);
+  EXPECT_EQ(shortened.error_m, whole.error_m);
+  EXPECT_EQ(shortened.state, whole.state);
+  EXPECT_THAT(verdict_sentence(shortened), HasSubstr("check 2 places of the map"));
+}
+
+TEST(MapVerdict, advises_loop_closing_where_it_was_off) {
+  MappingResult result = two_passes({0.3, 0, 0});
+  const MapVerdict off = judge_map(result);
+  ASSERT_FALSE(off.hot_spots.empty());
+  EXPECT_THAT(advice_text(off.hot_spots.front()), HasSubstr("loop_closure.enabled=true"));
+  result.frames.back().searched_loops = true;
+  EXPECT_THAT(advice_text(judge_map(result).hot_spots.front()), HasSubstr("loop_closure.wide_searches"));
+}
+
 TEST(MapVerdict, names_runs_that_disagree) {
   MappingResult result = two_passes({0, 0.3, 0});
   result.later_run_frames = {kScansPerRound};
@@ -83,6 +176,26 @@ TEST(MapVerdict, finds_a_map_broken_with_a_run_beside_it) {
   EXPECT_EQ(verdict.state, MapState::kBroken);
   ASSERT_FALSE(verdict.hot_spots.empty());
   EXPECT_EQ(verdict.hot_spots.front().kind, HotSpot::Kind::kUnplacedRun);
+  EXPECT_FALSE(verdict.hot_spots.front().error_m);
+  EXPECT_THAT(verdict_sentence(verdict), HasSubstr("the map is broken: a run was never placed"));
+  EXPECT_THAT(verdict_sentence(verdict), Not(HasSubstr("mean error")));
+}
+
+TEST(MapVerdict, predicts_no_error_for_a_run_beside_the_map) {
+  MappingResult result = two_passes({30, 0, 0});
+  const std::size_t nodes = result.node_frames.size();
+  for (std::size_t node = 1; node < nodes; ++node) {
+    Constraint step;
+    step.from = node - 1;
+    step.to = node;
+    step.from_T_to = result.graph.pose(node) - result.graph.pose(node - 1);
+    step.information = Eigen::Matrix3d::Identity() * (node == kScansPerRound ? 1e-6 : 1e6);
+    result.graph.add_constraint(step);
+  }
+  EXPECT_GT(judge_map(result).predicted_m, 100);
+  result.later_run_frames = {kScansPerRound};
+  result.interruptions = {{kScansPerRound, std::nullopt}};
+  EXPECT_LT(judge_map(result).predicted_m, 0.1);
 }
 
 TEST(MapVerdict, says_that_nothing_was_checked) {

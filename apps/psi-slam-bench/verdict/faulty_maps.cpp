@@ -66,8 +66,9 @@ TrueRun degraded(const TrueRun& run, std::size_t keep_every_nth, double max_rang
     const TPose2D step = last ? frame.odom_T_robot - *last : TPose2D(0, 0, 0);
     last = frame.odom_T_robot;
     const double root_m = std::sqrt(std::hypot(step.x, step.y));
-    odom_T_robot = odom_T_robot + TPose2D(step.x + noise * 0.03 * root_m * draws.normal(), step.y,
-                                          step.phi + noise * 0.02 * root_m * draws.normal());
+    const double turn_rad = noise * 0.02 * root_m * draws.normal();
+    const double along_m = noise * 0.03 * root_m * draws.normal();
+    odom_T_robot = odom_T_robot + TPose2D(step.x + along_m, step.y, step.phi + turn_rad);
     frame.odom_T_robot = odom_T_robot;
     frame.index = kept.frames.size();
     for (float& range_m : frame.scan.ranges_m)
@@ -183,7 +184,9 @@ FaultyMap with_slip(std::uint64_t seed, TrueRun run, RandomDraws& draws) {
   for (std::size_t i = from; i < to; ++i)
     for (float& range_m : run.frames[i].scan.ranges_m) range_m = std::numeric_limits<float>::infinity();
   const double side = draws.share() < 0.5 ? -1 : 1;
-  slip(run, (from + to) / 2, {0.3 + 0.5 * draws.share(), 0, side * (0.1 + 0.15 * draws.share())});
+  const double slip_m = 0.3 + 0.5 * draws.share();
+  const double slip_rad = side * (0.1 + 0.15 * draws.share());
+  slip(run, (from + to) / 2, {slip_m, 0, slip_rad});
   FaultyMap map = faulty_map(MapFault::kSlip, seed, map_of(run.frames, false), run);
   for (std::size_t i = from - 1; i <= to; ++i) map.places.push_back(place_of(map.result, i));
   return map;
@@ -253,11 +256,14 @@ void make_faulty_maps(std::uint64_t seed, double path_m, const std::function<voi
     take(with_false_loops(fault, seed, plain, run));
   take(faulty_map(MapFault::kNone, seed, plain, run));
   const double noise = 1 + 3 * draws.share();
-  const TrueRun poor = degraded(run, 2 + draws.index(4), 4 + 4 * draws.share(), noise, draws);
+  const double poor_range_m = 4 + 4 * draws.share();
+  const std::size_t poor_nth = 2 + draws.index(4);
+  const TrueRun poor = degraded(run, poor_nth, poor_range_m, noise, draws);
   take(faulty_map(MapFault::kNoLoops, seed, map_of(poor.frames, false), poor));
   take(with_slip(seed, run, draws));
   take(with_robot_carried(seed, run, draws));
-  const TrueRun thinned = degraded(run, 4 + draws.index(8), 8, noise, draws);
+  const std::size_t thinned_nth = 4 + draws.index(8);
+  const TrueRun thinned = degraded(run, thinned_nth, 8, noise, draws);
   take(faulty_map(MapFault::kThinned, seed, map_of(thinned.frames), thinned));
 }
 

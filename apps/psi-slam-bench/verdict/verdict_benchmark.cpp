@@ -16,7 +16,7 @@ VerdictRow judged(const FaultyMap& map) {
   row.seed = map.seed;
   row.error_m = map.error_m;
   row.state = verdict.state;
-  row.score_m = verdict.doubt_m();
+  row.doubt_m = verdict.doubt_m();
   row.hot_spots = verdict.hot_spots.size();
   if (verdict.hot_spots.empty()) return row;
   const mrpt::math::TPoint2D& suspect = verdict.hot_spots.front().suspect.at;
@@ -48,7 +48,7 @@ std::optional<double> area_under_curve(const std::vector<VerdictRow>& rows) {
     for (const VerdictRow& right : rows) {
       if (right.error_m > kRightMap_m) continue;
       ++pairs;
-      wins += wrong.score_m > right.score_m ? 1 : wrong.score_m < right.score_m ? 0 : 0.5;
+      wins += wrong.doubt_m > right.doubt_m ? 1 : wrong.doubt_m < right.doubt_m ? 0 : 0.5;
     }
   }
   if (pairs == 0) return std::nullopt;

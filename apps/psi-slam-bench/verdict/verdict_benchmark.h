@@ -32,7 +32,7 @@ struct VerdictRow {
   std::uint64_t seed = 1;
   double error_m = 0;  ///< true mean error of the positions
   MapState state = MapState::kGood;
-  double score_m = 0;  ///< MapVerdict::doubt_m()
+  double doubt_m = 0;  ///< MapVerdict::doubt_m()
   std::size_t hot_spots = 0;
   /// Distance from the fault to the suspect of the worst hot spot; empty without a hot spot or without one
   /// place of the fault.
@@ -47,8 +47,8 @@ VerdictRow judged(const FaultyMap& map);
 std::vector<VerdictRow> run_verdict_benchmark(const VerdictBenchmarkOptions& options,
                                               const ProgressObserver& observer);
 
-/// Area under the ROC curve: the probability that a random wrong map has a higher score than a random right
-/// one. Equal scores count half. Empty without right or without wrong maps.
+/// Area under the ROC curve: the probability that a random wrong map has a higher doubt than a random right
+/// one. Equal doubts count half. Empty without right or without wrong maps.
 std::optional<double> area_under_curve(const std::vector<VerdictRow>& rows);
 
 /// Returns whether a fault with one place made the map worse than a right one, so that it should be found.

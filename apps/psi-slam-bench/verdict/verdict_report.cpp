@@ -46,9 +46,9 @@ ReportTable table_of_groups(const std::vector<Group>& groups) {
         [](const Group& group) {
           return cell(spread_over(group.rows, [](const VerdictRow& row) { return row.error_m; }).mean, 3);
         }},
-       {{"doubt [m]", "score_m"},
+       {{"doubt [m]", "doubt_m"},
         [](const Group& group) {
-          return cell(spread_over(group.rows, [](const VerdictRow& row) { return row.score_m; }).mean, 3);
+          return cell(spread_over(group.rows, [](const VerdictRow& row) { return row.doubt_m; }).mean, 3);
         }},
        state("good", MapState::kGood),
        state("check", MapState::kCheck),
@@ -84,7 +84,7 @@ ReportTable table_of_maps(const Rows& rows) {
        {{"seed", "seed"}, [](const VerdictRow& row) { return cell(static_cast<std::size_t>(row.seed)); }},
        column("error [m]", "error_m", &VerdictRow::error_m, 4),
        {{"verdict", "state", true}, [](const VerdictRow& row) { return cell(text_of(row.state)); }},
-       column("doubt [m]", "score_m", &VerdictRow::score_m, 4),
+       column("doubt [m]", "doubt_m", &VerdictRow::doubt_m, 4),
        column("hot spots", "hot_spots", &VerdictRow::hot_spots),
        {{"distance [m]", "distance_m"}, [](const VerdictRow& row) { return cell(row.distance_m, 2); }},
        column("time [ms]", "judge_ms", &VerdictRow::judge_ms, 1)},

@@ -3,9 +3,10 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 
 #include "base/number_text.h"
-#include "pose_graph/shared_errors.h"
+#include "pose_graph/placed_covariances.h"
 
 namespace psi_slam {
 namespace {
@@ -17,7 +18,7 @@ constexpr const char* kFramesHeader =
     "loop_matching_ms,loop_closing_ms,pose_graph_ms,matched,searched_loops";
 constexpr const char* kTrajectoryHeader =
     "time_s,x_m,y_m,theta_rad,cov_xx_m2,cov_xy_m2,cov_xtheta_m_rad,cov_yy_m2,cov_ytheta_m_rad,"
-    "cov_thetatheta_rad2\n";
+    "cov_thetatheta_rad2,run\n";
 constexpr const char* kLoopsHeader =
     "frame,node,local_map,anchor,verdict,reason,matcher,in_last_pass,by_hand,x_m,y_m,theta_rad,std_x_m,"
     "std_y_m,std_theta_rad,window_x_m,window_y_m,window_theta_rad,response,ambiguity,observed_share,"
@@ -39,6 +40,13 @@ std::string values(std::initializer_list<double> numbers, int decimals) {
 
 std::string values(const mrpt::math::TPose2D& pose) {
   return values({pose.x, pose.y, pose.phi}, 6);
+}
+
+/// The six different elements of a covariance matrix, each preceded by a comma; empty if it is unknown.
+std::string covariance_values(const std::optional<Eigen::Matrix3d>& covariance) {
+  if (!covariance) return ",,,,,,";
+  const Eigen::Matrix3d& c = *covariance;
+  return values({c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)}, 10);
 }
 
 const char* matched_text(ScanMatch match) {
@@ -92,19 +100,18 @@ std::string frames_csv(const std::vector<FrameRecord>& frames) {
 }
 
 std::string trajectory_csv(const MappingResult& result) {
-  const std::vector<Eigen::Matrix3d> covariances = pose_covariances(result.graph);
+  const std::vector<std::optional<Eigen::Matrix3d>> covariances = placed_covariances(result.graph);
+  const std::vector<FrameSpan> logs = logs_of(result);
   std::string text = kTrajectoryHeader;
   text.reserve(text.size() + result.frames.size() * 130);
   std::size_t node = 0;
+  std::size_t log = 0;
   for (std::size_t i = 0; i < result.frames.size(); ++i) {
     while (node + 1 < result.node_frames.size() && result.node_frames[node + 1] <= i) ++node;
-    const Eigen::Matrix3d covariance =
-        covariances.empty() ? Eigen::Matrix3d(Eigen::Matrix3d::Zero()) : covariances[node];
+    while (log + 1 < logs.size() && logs[log + 1].begin <= i) ++log;
     text += format_seconds(result.frames[i].time_us) + values(result.frames[i].map_T_robot) +
-            values({covariance(0, 0), covariance(0, 1), covariance(0, 2), covariance(1, 1), covariance(1, 2),
-                    covariance(2, 2)},
-                   10) +
-            '\n';
+            covariance_values(covariances.empty() ? std::nullopt : covariances[node]) + ',' +
+            std::to_string(log + 1) + '\n';
   }
   return text;
 }

@@ -24,7 +24,8 @@ std::string frames_csv(const std::vector<FrameRecord>& frames);
 /// Returns trajectory.csv: one row per scan in the order of the log, with its time, its pose in the map and
 /// the covariance of (x, y, theta) in the axes of the map: m^2, m rad, rad^2. The covariance is that of the
 /// scan's node, or of the last node before it, relative to the first scan, and accounts for shared errors;
-/// see pose_covariances(). Throws UserError like pose_covariances().
+/// see placed_covariances(). Its fields are empty if the place of the node in the map is unknown. `run` is
+/// the number of the log as in logs_of(), counted from 1 as in the names of the files trajectory-1.tum, ...
 std::string trajectory_csv(const MappingResult& result);
 
 /// Returns loops.csv: one row per attempt to close a loop in the order of the records, with its match,

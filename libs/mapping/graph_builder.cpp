@@ -8,6 +8,7 @@
 #include "frames/pose_operations.h"
 #include "mapping/unplaced_runs.h"
 #include "pose_graph/information_matrix.h"
+#include "pose_graph/placed_covariances.h"
 
 namespace psi_slam {
 namespace {
@@ -19,9 +20,8 @@ using mrpt::math::TPose2D;
 constexpr double kStartSigma_m = 0.3;
 constexpr double kStartSigma_rad = radians_from_degrees(3.0L);
 
-// Standard deviations of a provisional start. They only keep the graph connected.
-constexpr double kUnknownSigma_m = 1e3;
-constexpr double kUnknownSigma_rad = 30;
+// Standard deviation of the heading of a provisional start, see kProvisionalSigma_m.
+constexpr double kProvisionalSigma_rad = 30;
 
 // Distance added to the path between two runs. It exceeds every limit along the path, so no search along the
 // path crosses from one run to the other.
@@ -89,7 +89,7 @@ void GraphBuilder::join_run() {
   constraint.from_T_to = run_start_->node_T_robot;
   constraint.information =
       std::exchange(is_start_provisional_, false)
-          ? noisy_information(Eigen::Matrix3d::Zero(), kUnknownSigma_m, kUnknownSigma_rad)
+          ? noisy_information(Eigen::Matrix3d::Zero(), kProvisionalSigma_m, kProvisionalSigma_rad)
           : information_of(*run_start_);
   constraint.kind = Constraint::Kind::kRunStart;
   graph_.add_constraint(constraint);

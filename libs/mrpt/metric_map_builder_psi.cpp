@@ -17,7 +17,7 @@
 #include "mapping/mapper_options.h"
 #include "mrpt/entry_frames.h"
 #include "observations/mrpt_objects.h"
-#include "pose_graph/shared_errors.h"
+#include "pose_graph/newest_covariance.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/user_error.h"
 #include "rendering/live_grid_map.h"
@@ -73,7 +73,7 @@ struct CMetricMapBuilderPsi::Implementation {
     graph_ = {};
     node_frames_.clear();
     node_observations_.clear();
-    newest_marginal_.reset();
+    newest_covariance_ = {};
     LiveGridOptions live;
     live.map = options_.map;
     live_map_.emplace(live);
@@ -120,7 +120,7 @@ struct CMetricMapBuilderPsi::Implementation {
     MappingResult result = mapper_->finish();
     graph_ = mapper_->graph();
     mapper_.reset();
-    newest_marginal_.reset();
+    newest_covariance_ = {};
     log_ = std::move(result.log);
     frames_ = std::move(result.frames);
     finished_ = true;
@@ -130,22 +130,10 @@ struct CMetricMapBuilderPsi::Implementation {
   const std::vector<FrameRecord>& frames() const { return finished_ ? frames_ : mapper_->frames(); }
   const PoseGraph& graph() const { return finished_ ? graph_ : mapper_->graph(); }
 
-  // Returns the covariance of the newest node, or zero for fewer than two nodes. Caches it, because the graph
-  // changes only in finish() and when nodes or constraints are added.
-  const Eigen::Matrix3d& newest_marginal() const {
-    const std::pair<std::size_t, std::size_t> state(graph().num_nodes(), graph().num_constraints());
-    if (!newest_marginal_ || marginal_state_ != state) {
-      newest_marginal_ = Eigen::Matrix3d::Zero();
-      if (state.first > 1) newest_marginal_ = pose_covariance(graph(), state.first - 1);
-      marginal_state_ = state;
-    }
-    return *newest_marginal_;
-  }
-
   CPosePDFGaussian estimate() const {
     if (frames().empty()) return start_;
     CPosePDFGaussian robot(CPose2D(frames().back().map_T_robot));
-    Eigen::Matrix3d covariance = newest_marginal();
+    Eigen::Matrix3d covariance = newest_covariance_.update(graph());
     const double sigma_m = mapper_options_.local_map_sigma_m;
     const double sigma_rad = mapper_options_.local_map_sigma_rad;
     covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
@@ -223,9 +211,7 @@ struct CMetricMapBuilderPsi::Implementation {
   PoseGraph graph_;
   bool finished_ = false;
 
-  mutable std::optional<Eigen::Matrix3d> newest_marginal_;
-  // Numbers of nodes and constraints when newest_marginal_ was computed.
-  mutable std::pair<std::size_t, std::size_t> marginal_state_;
+  mutable NewestCovariance newest_covariance_;
   mutable std::optional<LiveGridMap> live_map_;
   mutable LivePoses live_poses_;
   mutable COccupancyGridMap2D::Ptr drawn_grid_;

@@ -60,17 +60,32 @@ std::vector<std::size_t> memberships(const PoseGraph& graph, std::size_t node) {
   return found;
 }
 
-// Mean length and number of nodes of the local maps of a graph.
-struct MeanLocalMap {
-  double travel_m = 0;
-  double nodes = 0;
-};
+// Returns the mean covariance of a node in its local maps, in the axes of the map. Empty without memberships.
+std::optional<Matrix3d> covariance_in_maps(const PoseGraph& graph,
+                                           const std::vector<std::size_t>& memberships) {
+  if (memberships.empty()) return std::nullopt;
+  Matrix3d information = Matrix3d::Zero();
+  for (const std::size_t i : memberships)
+    information += turned(graph.constraint(i).information, graph.pose(graph.constraint(i).from).phi);
+  return inverse_of(information / static_cast<double>(memberships.size()));
+}
+
+// The drift is a random walk. Its variance over a whole local map is twice the stated variance, which is
+// about that in the middle of the map. Half of this variance grows with the path, the other half with the
+// number of nodes, because a robot that turns on the spot drifts too. `placed` is the covariance of the node
+// at the end of the step in its local maps.
+Matrix3d drift_of_step(double step_m, const Matrix3d& placed, const MeanLocalMap& mean,
+                       const SharedErrorOptions& options) {
+  return with_scaled_position((step_m / std::max(mean.travel_m, 1e-3) + 1 / mean.nodes) * placed,
+                              options.drift_position_factor);
+}
 
 class SharedErrors {
  public:
   SharedErrors(const PoseGraph& graph, const SharedErrorOptions& options);
 
   PoseGraph model();
+  const MeanLocalMap& mean_local_map() const { return mean_; }
 
  private:
   void divide_path();
@@ -103,22 +118,15 @@ SharedErrors::SharedErrors(const PoseGraph& graph, const SharedErrorOptions& opt
   members_.resize(graph.num_nodes());
   for (std::size_t node = 0; node < graph.num_nodes(); ++node) {
     memberships_.push_back(memberships(graph, node));
-    placed_.emplace_back();
+    placed_.push_back(covariance_in_maps(graph, memberships_.back()));
     travelled_m_.push_back(node == 0 ? 0 : travelled_m_.back() + distance_m(graph, node - 1, node));
-    if (memberships_.back().empty()) continue;
-    Matrix3d information = Matrix3d::Zero();
-    for (const std::size_t i : memberships_.back()) {
-      const Constraint& membership = graph.constraint(i);
-      members_[membership.from].push_back(node);
-      information += turned(membership.information, graph.pose(membership.from).phi);
-    }
-    placed_.back() = inverse_of(information / static_cast<double>(memberships_.back().size()));
+    for (const std::size_t i : memberships_.back()) members_[graph.constraint(i).from].push_back(node);
   }
+  measure_local_maps();
 }
 
 PoseGraph SharedErrors::model() {
   divide_path();
-  measure_local_maps();
   for (const mrpt::math::TPose2D& pose : graph_.poses()) model_.add_node(pose);
   for (const std::size_t middle : middles_) model_.add_node(graph_.pose(middle));
   if (graph_.root() != 0) model_.set_root(graph_.root());
@@ -192,9 +200,6 @@ void SharedErrors::add_scans() {
   }
 }
 
-// The drift is a random walk. Its variance over a whole local map is twice the stated variance, which is
-// about that in the middle of the map. Half of this variance grows with the path, the other half with the
-// number of nodes, because a robot that turns on the spot drifts too.
 void SharedErrors::add_drift() {
   for (std::size_t stretch = 0; stretch + 1 < middles_.size(); ++stretch) {
     Matrix3d drift = Matrix3d::Zero();
@@ -202,13 +207,9 @@ void SharedErrors::add_drift() {
     for (std::size_t node = middles_[stretch] + 1; node <= middles_[stretch + 1] && continues; ++node) {
       continues = placed_[node].has_value();
       if (continues)
-        drift += ((travelled_m_[node] - travelled_m_[node - 1]) / std::max(mean_.travel_m, 1e-3) +
-                  1 / mean_.nodes) *
-                 *placed_[node];
+        drift += drift_of_step(travelled_m_[node] - travelled_m_[node - 1], *placed_[node], mean_, options_);
     }
-    if (continues)
-      link(node_of(stretch), node_of(stretch + 1),
-           with_scaled_position(drift, options_.drift_position_factor));
+    if (continues) link(node_of(stretch), node_of(stretch + 1), drift);
   }
 }
 
@@ -271,6 +272,17 @@ Matrix3d pose_covariance(const PoseGraph& graph, std::size_t node, const SharedE
   MarginalCovariance of_model;
   of_model.update(graph_with_shared_errors(graph, options));
   return of_model.marginal(node);
+}
+
+MeanLocalMap mean_local_map(const PoseGraph& graph) {
+  return SharedErrors(graph, {}).mean_local_map();
+}
+
+std::optional<Matrix3d> drift_covariance(const PoseGraph& graph, std::size_t node, const MeanLocalMap& mean,
+                                         const SharedErrorOptions& options) {
+  const std::optional<Matrix3d> placed = covariance_in_maps(graph, memberships(graph, node));
+  if (node == 0 || !placed || mean.nodes == 0) return std::nullopt;
+  return drift_of_step(distance_m(graph, node - 1, node), *placed, mean, options);
 }
 
 }  // namespace psi_slam

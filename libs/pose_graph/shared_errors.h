@@ -17,6 +17,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "psi_slam/pose_graph.h"
@@ -29,7 +30,8 @@ struct SharedErrorOptions {
   double stretch_m = 3;  ///< length of a stretch of path, metres
   /// Share of the variance of a scan's pose in a local map that is the scan's own.
   double scan_share = 0.2;
-  /// Share of the variance of a loop that all loops between the same two stretches have in common.
+  /// Share of the variance of a loop that all loops between the same two stretches have in common. Chosen a
+  /// little above the correlation of loops of neighbouring scans, which is 0.7.
   double common_loop_share = 0.8;
   /// Factor on the variance of the drift in position. Accounts for the part of the drift that repeats, such
   /// as a wrong scale of odometry along bare corridors, which a random walk lacks.
@@ -52,5 +54,21 @@ std::vector<Eigen::Matrix3d> pose_covariances(const PoseGraph& graph, const Shar
 /// Returns pose_covariances(graph, options)[node] in less time.
 Eigen::Matrix3d pose_covariance(const PoseGraph& graph, std::size_t node,
                                 const SharedErrorOptions& options = {});
+
+/// Mean path and number of nodes of the local maps of a graph. Zero without local maps.
+struct MeanLocalMap {
+  double travel_m = 0;
+  double nodes = 0;
+};
+
+/// Returns the means over the local maps of a graph.
+MeanLocalMap mean_local_map(const PoseGraph& graph);
+
+/// Returns the covariance of the drift of the model from the node before `node` to `node`, in the axes of the
+/// map: m^2, m rad, rad^2. Empty if no local map holds `node`, which then begins a run. `mean` may come from
+/// an earlier state of the graph, but the drift is empty if that had no local map.
+std::optional<Eigen::Matrix3d> drift_covariance(const PoseGraph& graph, std::size_t node,
+                                                const MeanLocalMap& mean,
+                                                const SharedErrorOptions& options = {});
 
 }  // namespace psi_slam

@@ -86,9 +86,10 @@ struct ReplaySnapshot {
   /// Pose of each node after the last optimisation of the graph; never null.
   std::shared_ptr<const std::vector<mrpt::math::TPose2D>> map_T_node =
       std::make_shared<std::vector<mrpt::math::TPose2D>>();
-  /// Covariance of each node's pose, see pose_covariances(); never null, empty unless the run is finished.
-  std::shared_ptr<const std::vector<Eigen::Matrix3d>> node_covariances =
-      std::make_shared<std::vector<Eigen::Matrix3d>>();
+  /// Covariance of each node's pose, see placed_covariances(); never null, no elements unless the run is
+  /// finished.
+  std::shared_ptr<const std::vector<std::optional<Eigen::Matrix3d>>> node_covariances =
+      std::make_shared<std::vector<std::optional<Eigen::Matrix3d>>>();
   /// All loops; never null. A new pointer means that the loops may have changed.
   std::shared_ptr<const std::vector<LoopRecord>> loops = std::make_shared<std::vector<LoopRecord>>();
 

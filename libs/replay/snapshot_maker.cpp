@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "frames/discarded_ranges.h"
-#include "pose_graph/shared_errors.h"
+#include "pose_graph/placed_covariances.h"
 
 namespace psi_slam {
 namespace {
@@ -83,7 +83,7 @@ void SnapshotMaker::note_edits(const std::vector<TimedEdit>& edits, const EditHi
   now.edits = std::make_shared<std::vector<TimedEdit>>(edits);
   now.undo_text = history.undo_text();
   now.redo_text = history.redo_text();
-  now.node_covariances = std::make_shared<std::vector<Eigen::Matrix3d>>();
+  now.node_covariances = std::make_shared<std::vector<std::optional<Eigen::Matrix3d>>>();
   loops_changed_ = true;
   finished_ = false;
 }
@@ -123,7 +123,8 @@ void SnapshotMaker::take(const MappingResult& result) {
   std::vector<mrpt::math::TPose2D> poses;
   for (const std::size_t frame : result.node_frames) poses.push_back(result.frames[frame].map_T_robot);
   now.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(std::move(poses));
-  now.node_covariances = std::make_shared<std::vector<Eigen::Matrix3d>>(pose_covariances(result.graph));
+  now.node_covariances =
+      std::make_shared<std::vector<std::optional<Eigen::Matrix3d>>>(placed_covariances(result.graph));
   now.loops = std::make_shared<std::vector<LoopRecord>>(result.loops);
   now.active_local_maps.clear();
   if (!result.frames.empty()) now.map_T_robot = result.frames.back().map_T_robot;

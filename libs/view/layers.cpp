@@ -253,15 +253,16 @@ void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot) {
 
 void draw_uncertainty(SceneLayer& layer, const ReplaySnapshot& snapshot) {
   const std::vector<TPose2D>& nodes = *snapshot.map_T_node;
-  const std::vector<Eigen::Matrix3d>& covariances = *snapshot.node_covariances;
+  const std::vector<std::optional<Eigen::Matrix3d>>& covariances = *snapshot.node_covariances;
   if (covariances.size() != nodes.size()) return;
   auto lines = lines_of(palette::kUncertainty, 1.5F);
   std::optional<TPoint2D> last;
   for (std::size_t node = 0; node < nodes.size(); ++node) {
+    if (!covariances[node]) continue;
     const TPoint2D middle(nodes[node].x, nodes[node].y);
     if (last && (middle - *last).norm() < kBetweenEllipses_m) continue;
     last = middle;
-    const Eigen::Matrix2d position = covariances[node].topLeftCorner<2, 2>();
+    const Eigen::Matrix2d position = covariances[node]->topLeftCorner<2, 2>();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(position);
     const Eigen::Matrix2d radii_m =
         axes.eigenvectors() * (kChiSquare95 * axes.eigenvalues().cwiseMax(0)).cwiseSqrt().asDiagonal();

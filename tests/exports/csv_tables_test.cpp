@@ -32,21 +32,40 @@ TEST(TrajectoryCsv, has_a_pose_with_its_covariance_for_each_scan) {
   std::getline(text, line);
   EXPECT_EQ(line,
             "time_s,x_m,y_m,theta_rad,cov_xx_m2,cov_xy_m2,cov_xtheta_m_rad,cov_yy_m2,cov_ytheta_m_rad,"
-            "cov_thetatheta_rad2");
+            "cov_thetatheta_rad2,run");
   std::size_t node = 0;
   for (const FrameRecord& frame : result.frames) {
     node = frame.node.value_or(node);
     ASSERT_TRUE(std::getline(text, line));
     const std::vector<std::string> fields = split(line);
-    ASSERT_EQ(fields.size(), 10U);
+    ASSERT_EQ(fields.size(), 11U);
     EXPECT_NEAR(std::stod(fields[1]), frame.map_T_robot.x, 1e-6);
     EXPECT_NEAR(std::stod(fields[4]), covariances[node](0, 0), 1e-10);
     EXPECT_NEAR(std::stod(fields[6]), covariances[node](0, 2), 1e-10);
     EXPECT_NEAR(std::stod(fields[7]), covariances[node](1, 1), 1e-10);
     EXPECT_NEAR(std::stod(fields[9]), covariances[node](2, 2), 1e-10);
+    EXPECT_EQ(fields[10], "1");
   }
   EXPECT_FALSE(std::getline(text, line));
   EXPECT_GT(covariances.back()(0, 0), 0);
+}
+
+TEST(TrajectoryCsv, has_empty_covariances_in_a_run_that_was_never_placed) {
+  MappingResult result = walk_around_the_room();
+  const std::size_t lost = result.node_frames.size() - 1;
+  for (const std::uint32_t i : result.graph.constraints_of(lost)) result.graph.set_enabled(i, false);
+  result.later_run_frames = {result.node_frames[lost]};
+  std::istringstream text(trajectory_csv(result));
+  std::string line;
+  std::getline(text, line);
+  for (std::size_t i = 0; i < result.frames.size(); ++i) {
+    ASSERT_TRUE(std::getline(text, line));
+    const std::vector<std::string> fields = split(line);
+    ASSERT_EQ(fields.size(), 11U);
+    const bool is_lost = i >= result.node_frames[lost];
+    for (std::size_t column = 4; column < 10; ++column) EXPECT_EQ(fields[column].empty(), is_lost) << i;
+    EXPECT_EQ(fields[10], is_lost ? "2" : "1");
+  }
 }
 
 TEST(FramesCsv, has_one_row_per_scan_below_the_header) {

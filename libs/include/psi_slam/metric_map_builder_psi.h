@@ -79,8 +79,9 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
 
   /// Pose of the robot at the last mapped scan, a CPose3DPDFGaussian. Before the first scan, the pose `x0` of
   /// initialize(). The covariance combines those of `x0`, of the newest node in the graph, and of a scan in
-  /// its local map, and accounts for the errors that constraints of one local map share. The first call after
-  /// a new node or loop factorises a model of the whole graph; later calls are cheap.
+  /// its local map, and accounts for the errors that constraints of one local map share. Most calls
+  /// carry the last covariance along by the motion. A call factorises a model of the whole graph only if the
+  /// graph has grown by 0.5 % with new loops or by 2 % without, or after finish().
   mrpt::poses::CPose3DPDF::Ptr getCurrentPoseEstimation() const override;
 
   /// Stores the nodes of the graph with their observations in `out_map`. Every pose gets a placeholder

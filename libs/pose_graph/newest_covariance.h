@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Covariance of the newest node of a graph that grows, at a bounded cost.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "pose_graph/shared_errors.h"
+#include "psi_slam/pose_graph.h"
+
+namespace psi_slam {
+
+/// Covariance of the newest node as pose_covariance() defines it, for callers that ask after each node.
+/// Computes it anew only after the graph has grown by a share: 0.5 % if it gained loops, otherwise 2 %. So
+/// the cost of asking after each node is proportional to the size of the graph. In between, the last
+/// covariance is carried along by the motion, and the drift of the model is added.
+class NewestCovariance {
+ public:
+  /// Returns the covariance of (x, y, theta) of the newest node relative to the root, in the axes of the map:
+  /// m^2, m rad, rad^2. Zero for fewer than two nodes. `graph` must be the graph of the last call, which may
+  /// have gained nodes and constraints. Throws UserError like pose_covariance().
+  const Eigen::Matrix3d& update(const PoseGraph& graph);
+
+  /// Number of times that the covariance was computed from the whole graph.
+  std::size_t computations() const { return computations_; }
+
+ private:
+  bool is_due(std::size_t nodes) const;
+  bool carry_to_newest(const PoseGraph& graph);
+  void compute(const PoseGraph& graph);
+
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
+  MeanLocalMap mean_local_map_;
+  std::size_t nodes_ = 0;           // of the graph at the last call
+  std::size_t constraints_ = 0;     // of the graph at the last call
+  std::size_t computed_nodes_ = 0;  // of the graph at the last computation
+  bool gained_loops_ = false;       // since the last computation
+  std::size_t computations_ = 0;
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Covariances of the nodes whose place in the map is known.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "psi_slam/pose_graph.h"
+
+namespace psi_slam {
+
+/// Standard deviation of the position of a provisional start, metres. A constraint of the kind kRunStart with
+/// at least this deviation only keeps the graph connected: it does not place its run in the map.
+constexpr double kProvisionalSigma_m = 1e3;
+
+/// Returns pose_covariances() of the nodes that enabled constraints, except provisional starts, link to the
+/// root. Empty for the other nodes, and for all nodes if the constraints do not determine the poses.
+std::vector<std::optional<Eigen::Matrix3d>> placed_covariances(const PoseGraph& graph);
+
+}  // namespace psi_slam

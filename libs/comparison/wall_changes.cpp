@@ -217,7 +217,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Returns the shift, in cells, from a change to parallel walls beside it. Empty if there are none.
+/// Returns the shift, in cells, from a change to parallel walls beside it. Empty without such walls.
 std::optional<cv::Point2d> shift_to(const NearestCells& walls, const Change& change, double farthest_cells,
                                     double tolerance_cells) {
   if (walls.empty()) return std::nullopt;

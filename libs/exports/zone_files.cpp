@@ -36,7 +36,7 @@ double limit_of(const MapEdit& zone) {
   return zone.percent > 0 ? zone.percent : zone.max_speed_mps;
 }
 
-/// Returns the largest speed in m/s of the slow zones; 0 if there is none.
+/// Returns the largest speed in m/s of the slow zones; 0 without slow zones.
 double fastest_of(const std::vector<MapEdit>& edits) {
   double fastest_mps = 0;
   for (const MapEdit& edit : edits)

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Matrix3d;
 
-// Growth of the graph, as a share of its nodes, after which the covariance is computed anew.
+// Growth of the graph, as a share of its nodes, after which the covariance is computed again.
 constexpr double kGrowth = 0.02;
 constexpr double kGrowthWithLoops = 0.005;
 

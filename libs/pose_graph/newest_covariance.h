@@ -11,7 +11,7 @@
 namespace psi_slam {
 
 /// Covariance of the newest node as pose_covariance() defines it, for callers that ask after each node.
-/// Computes it anew only after the graph has grown by a share: 0.5 % if it gained loops, otherwise 2 %. So
+/// Computes it again only after the graph has grown by a share: 0.5 % if it gained loops, otherwise 2 %. So
 /// the cost of asking after each node is proportional to the size of the graph. In between, the last
 /// covariance is carried along by the motion, and the drift of the model is added.
 class NewestCovariance {

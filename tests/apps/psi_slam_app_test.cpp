@@ -287,8 +287,9 @@ TEST_F(PsiSlamApp, rejects_a_file_without_edits) {
   write_bytes(file, "forget scan=1 local_map=0\n");
   const AppRun run = map(room_log(), "out", {"--edits", file});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err,
-              HasSubstr("mine.edits:1: unknown edit \"forget\": expected delete, force, match, restore, erase"));
+  EXPECT_THAT(
+      run.err,
+      HasSubstr("mine.edits:1: unknown edit \"forget\": expected delete, force, match, restore, erase"));
   EXPECT_FALSE(fs::exists(output("out")));
 }
 

@@ -125,6 +125,7 @@ EndsOfCells ends_of(const PairOfLogs& logs) {
 GridMapOptions without_moving_things() {
   GridMapOptions options;
   options.keep_moving = false;
+  options.min_beams = 2;
   return options;
 }
 
@@ -293,6 +294,7 @@ TEST_F(MovingThingsInARoom, without_times_nothing_vanishes) {
   for (Frame& frame : recorder_.logs.moving) frame.time_us = 0;
   GridMapOptions everything;
   everything.keep_moving = true;
+  everything.min_beams = 2;
   const auto drawn = [&](const GridMapOptions& options) {
     return draw_grid_map(recorder_.logs.moving, recorder_.logs.map_T_robot, options)->getRawMap();
   };

@@ -43,7 +43,7 @@ struct GridMapOptions {
   bool keep_moving = true;
   /// Least number of beams that must have seen an obstacle or free space, from 1 to 3. A beam counts as two
   /// where a neighbouring beam of its scan reaches as far. What fewer beams saw stays unknown.
-  int min_beams = 2;
+  int min_beams = 1;
 };
 
 /// Draws the scans of each frame of `log` at the robot pose with the same index. A cell holds the probability

@@ -23,17 +23,14 @@ std::string closing_text(const RunSummary& summary, const std::string& log_name,
   if (summary.real_time_factor > 0)
     lines += mrpt::format(", real-time factor %.1f", summary.real_time_factor);
   lines += mrpt::format(", and %.0f MiB of memory.\n", summary.peak_memory_mib);
-  if (summary.verdict && summary.verdict->state == MapState::kGood)
-    lines += "Verdict: " + verdict_sentence(*summary.verdict) + ".\n";
+  if (summary.verdict && summary.verdict->state != MapState::kBroken)
+    lines += "Verdict: " + verdict_text(*summary.verdict) + ".\n";
   return lines;
 }
 
-std::optional<std::string> doubtful_map_text(const RunSummary& summary) {
-  if (!summary.verdict || summary.verdict->state == MapState::kGood) return std::nullopt;
-  std::string text = verdict_sentence(*summary.verdict);
-  if (!summary.verdict->hot_spots.empty())
-    text += ". Try: " + advice_text(summary.verdict->hot_spots.front());
-  return text;
+std::optional<std::string> broken_map_text(const RunSummary& summary) {
+  if (!summary.verdict || summary.verdict->state != MapState::kBroken) return std::nullopt;
+  return verdict_text(*summary.verdict);
 }
 
 std::string interrupted_text(std::size_t scans) {

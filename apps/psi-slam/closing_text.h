@@ -12,12 +12,12 @@
 
 namespace psi_slam {
 
-/// Path of the map and the main figures of the run, in a few lines, with the verdict if the map is good.
+/// Path of the map and the main figures of the run, in a few lines, with the verdict unless the map is broken.
 std::string closing_text(const RunSummary& summary, const std::string& log_name, const OutputFolder& folder);
 
-/// Warning about a map that the verdict does not find good: the worst place and what would help. Empty for a
-/// good map.
-std::optional<std::string> doubtful_map_text(const RunSummary& summary);
+/// Warning about a map that the verdict finds broken: the worst place and what would help. Empty for other
+/// maps.
+std::optional<std::string> broken_map_text(const RunSummary& summary);
 
 /// Sentence about a run that the user interrupted after `scans` scans.
 std::string interrupted_text(std::size_t scans);

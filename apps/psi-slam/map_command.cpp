@@ -164,7 +164,7 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   if (const auto coarser = coarser_cells_text(summary.map)) warn(*coarser);
   if (const auto unmatched = unmatched_scans_text(session.result())) warn(*unmatched);
   for (const std::string& interruption : interruption_texts(session.result())) warn(interruption);
-  if (const auto doubtful = doubtful_map_text(summary)) warn(*doubtful);
+  if (const auto broken = broken_map_text(summary)) warn(*broken);
   for (const std::string& warning : session.warnings_of_logs_before()) warn(warning);
   if (session.broken_off()) warn(broken_off_text(*session.broken_off(), session.result().frames.size()));
   if (failure) std::rethrow_exception(failure);

@@ -55,15 +55,18 @@ TEST_F(ClosingText, ends_with_the_verdict_about_a_good_map) {
   summary_.verdict = MapVerdict();
   summary_.verdict->checked_share = 0.5;
   EXPECT_THAT(text(), HasSubstr("Verdict: the map is good: "));
-  EXPECT_FALSE(doubtful_map_text(summary_));
+  EXPECT_FALSE(broken_map_text(summary_));
 }
 
-TEST_F(ClosingText, warns_of_a_doubtful_map) {
-  EXPECT_FALSE(doubtful_map_text(summary_)) << "not judged";
+TEST_F(ClosingText, names_the_worst_place_of_a_doubtful_map_and_warns_of_a_broken_one) {
+  EXPECT_FALSE(broken_map_text(summary_)) << "not judged";
   summary_.verdict = doubtful_map();
+  constexpr const char* kAdvice = ". Try: delete the loop of scan 45 with local map 3";
+  EXPECT_THAT(text(), HasSubstr(kAdvice));
+  EXPECT_FALSE(broken_map_text(summary_));
+  summary_.verdict->state = MapState::kBroken;
   EXPECT_THAT(text(), Not(HasSubstr("Verdict")));
-  EXPECT_THAT(doubtful_map_text(summary_).value_or(""),
-              testing::EndsWith(". Try: delete the loop of scan 45 with local map 3"));
+  EXPECT_THAT(broken_map_text(summary_).value_or(""), testing::EndsWith(kAdvice));
 }
 
 TEST_F(ClosingText, lists_the_stages) {

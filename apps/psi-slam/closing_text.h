@@ -12,7 +12,8 @@
 
 namespace psi_slam {
 
-/// Path of the map and the main figures of the run, in a few lines, with the verdict unless the map is broken.
+/// Path of the map and the main figures of the run, in a few lines, with the verdict unless the map is
+/// broken.
 std::string closing_text(const RunSummary& summary, const std::string& log_name, const OutputFolder& folder);
 
 /// Warning about a map that the verdict finds broken: the worst place and what would help. Empty for other

@@ -9,6 +9,17 @@
 #include "base/number_text.h"
 
 namespace psi_slam {
+namespace {
+
+/// The verdict and what would help at the worst place, without full stop.
+std::string text_of(const MapVerdict& verdict) {
+  std::string text = verdict_sentence(verdict);
+  if (!verdict.hot_spots.empty()) text += ". Try: " + advice_text(verdict.hot_spots.front());
+  return text;
+}
+
+}  // namespace
+
 std::string closing_text(const RunSummary& summary, const std::string& log_name, const OutputFolder& folder) {
   const std::filesystem::path picture = folder.path() / "map.png";
   const std::string report = (folder.path() / "report.html").string();
@@ -24,13 +35,13 @@ std::string closing_text(const RunSummary& summary, const std::string& log_name,
     lines += mrpt::format(", real-time factor %.1f", summary.real_time_factor);
   lines += mrpt::format(", and %.0f MiB of memory.\n", summary.peak_memory_mib);
   if (summary.verdict && summary.verdict->state != MapState::kBroken)
-    lines += "Verdict: " + verdict_text(*summary.verdict) + ".\n";
+    lines += "Verdict: " + text_of(*summary.verdict) + ".\n";
   return lines;
 }
 
 std::optional<std::string> broken_map_text(const RunSummary& summary) {
   if (!summary.verdict || summary.verdict->state != MapState::kBroken) return std::nullopt;
-  return verdict_text(*summary.verdict);
+  return text_of(*summary.verdict);
 }
 
 std::string interrupted_text(std::size_t scans) {

@@ -4,6 +4,7 @@
 #include <exception>
 #include <utility>
 
+#include "base/thread_priority.h"
 #include "exports/map_files.h"
 #include "exports/map_server_pair.h"
 
@@ -59,6 +60,7 @@ std::optional<std::string> LiveMapWriter::failure() const {
 }
 
 void LiveMapWriter::work() {
+  set_priority_of_this_thread(ThreadPriority::kLow);
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return stop_ || wanted_.has_value(); });

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "base/thread_priority.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -81,6 +82,7 @@ void SessionJournal::end() {
 }
 
 void SessionJournal::work() {
+  set_priority_of_this_thread(ThreadPriority::kLow);
   std::unique_lock lock(mutex_);
   auto next = Clock::now();
   for (bool is_last = false; !is_last;) {

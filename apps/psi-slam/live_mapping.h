@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
+#include "base/failure_notice.h"
 #include "exports/live_map_writer.h"
-#include "failure_notice.h"
 #include "psi_slam/mapping_session.h"
 #include "session/settings.h"
 

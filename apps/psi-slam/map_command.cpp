@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "base/exit_code.h"
+#include "base/failure_notice.h"
 #include "batch/kept_run.h"
 #include "closing_text.h"
 #include "commands.h"
@@ -12,7 +13,6 @@
 #include "exports/interruptions.h"
 #include "exports/run_summary.h"
 #include "exports/unmatched_scans.h"
-#include "failure_notice.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/user_error.h"
 #include "report/output_folder.h"

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/thread_priority.h"
-#include "exports/map_files.h"
 #include "exports/map_server_pair.h"
 
 namespace psi_slam {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <new>
 
+#include "base/failure_notice.h"
 #include "base/scope_exit.h"
 #include "replay/snapshot_maker.h"
 #include "report/output_folder.h"
@@ -327,7 +328,7 @@ void Replay::publish() {
                                            : SnapshotMaker::ActiveMaps::kNowAndThen);
     maker_->now.warnings = session_->warnings();
     if (const auto why = session_->journal_failure())
-      maker_->now.warnings.push_back("the journal is not written for now, and psi-slam tries again: " + *why);
+      maker_->now.warnings.push_back(unwritten_text("the journal", *why));
     if (stale_) painter_.request(maker_->sketch());
   }
   publish_as_it_is();

@@ -25,7 +25,9 @@ class Judge {
         checks_(check_passes(views_, options.passes)),
         errors_(errors_of_views(views_.size(), checks_)),
         residuals_(loop_residuals(result)),
-        path_suspects_(path_suspects(result)) {
+        path_suspects_(path_suspects(result)),
+        searched_loops_(std::any_of(result.frames.begin(), result.frames.end(),
+                                    [](const FrameRecord& frame) { return frame.searched_loops; })) {
     sum_blame();
     for (const PathSuspect& suspect : path_suspects_)
       if (suspect.kind == PathSuspect::Kind::kLost && is_contradicted(suspect))
@@ -68,9 +70,7 @@ class Judge {
   }
 
   Suspect stretch(Suspect::Kind kind, std::size_t first_frame, std::size_t last_frame) const {
-    const bool searched_loops = std::any_of(result_.frames.begin(), result_.frames.end(),
-                                            [](const FrameRecord& frame) { return frame.searched_loops; });
-    return {kind, 0, 0, first_frame, last_frame, place_of((first_frame + last_frame) / 2), searched_loops};
+    return {kind, 0, 0, first_frame, last_frame, place_of((first_frame + last_frame) / 2), searched_loops_};
   }
 
   Suspect suspect_of(const LoopResidual& residual) const {
@@ -327,6 +327,7 @@ class Judge {
   std::vector<std::optional<double>> errors_;  // of each view
   std::vector<LoopResidual> residuals_;
   std::vector<PathSuspect> path_suspects_;
+  bool searched_loops_ = false;                   // by any scan
   std::vector<const PathSuspect*> contradicted_;  // interruptions after which the robot was misplaced
   std::vector<double> blame_;                     // of the step after each view
 };

@@ -55,6 +55,12 @@ class LiveApp : public testing::Test {
 
   std::string out() const { return bytes_of(folder("stdout")); }
   std::string err() const { return bytes_of(folder("stderr")); }
+  std::filesystem::path journal() const { return folder("live") / "session.journal"; }
+
+  /// Whether the journal holds this number of scans.
+  bool are_recorded(std::size_t scans) const {
+    return std::filesystem::exists(journal()) && read_session_file(journal()).frames.size() == scans;
+  }
 
   /// Expects the same map and path as those of the whole log.
   void expect_same_map() const {
@@ -114,16 +120,12 @@ TEST_F(LiveApp, a_second_interrupt_at_any_time_leaves_the_map) {
 }
 
 TEST_F(LiveApp, writes_the_map_and_a_journal_while_it_maps_and_can_be_resumed_after_a_crash) {
-  const auto journal = folder("live") / "session.journal";
   const auto growing = folder("growing.log");
   write_file(growing, text_of(lines_, 0, 30));
   {
     const AppProcess process(live({"--follow", growing.string(), "--look-over-s", "1", "--set",
                                    "live.map_period_s=0.05", "--set", "live.journal_period_s=0.05"}),
                              folder_.path());
-    const auto are_recorded = [&](std::size_t scans) {
-      return std::filesystem::exists(journal) && read_session_file(journal).frames.size() == scans;
-    };
     EXPECT_TRUE(soon([&] { return are_recorded(30); })) << err();
     std::ofstream(growing, std::ios::app) << text_of(lines_, 30, kScans);
     EXPECT_TRUE(soon([&] { return are_recorded(kScans); })) << err();
@@ -136,27 +138,24 @@ TEST_F(LiveApp, writes_the_map_and_a_journal_while_it_maps_and_can_be_resumed_af
   EXPECT_EQ(again.code, 2);
   EXPECT_THAT(again.err,
               AllOf(HasSubstr("session.journal holds a run that was not finished"), HasSubstr("--resume")));
-  const AppRun resumed = run_app({"--resume", journal.string(), "-q", "-o", folder("resumed").string()});
+  const AppRun resumed = run_app({"--resume", journal().string(), "-q", "-o", folder("resumed").string()});
   EXPECT_EQ(resumed.code, 0) << resumed.err;
   for (const char* name : {"map.pgm", "map.yaml", "trajectory.tum", "graph.g2o"})
     EXPECT_EQ(bytes_of(folder("resumed") / name), bytes_of(folder("whole") / name)) << name;
 }
 
 TEST_F(LiveApp, goes_on_live_after_a_crash) {
-  const auto journal = folder("live") / "session.journal";
   const auto growing = folder("growing.log");
   write_file(growing, text_of(lines_, 0, 30));
   {
     const AppProcess process(
         live({"--follow", growing.string(), "--look-over-s", "0", "--set", "live.journal_period_s=0.05"}),
         folder_.path());
-    ASSERT_TRUE(soon([&] {
-      return std::filesystem::exists(journal) && read_session_file(journal).frames.size() == 30;
-    })) << err();
+    ASSERT_TRUE(soon([&] { return are_recorded(30); })) << err();
   }  // killed
   std::ofstream(growing, std::ios::app) << text_of(lines_, 30, kScans);
   const std::vector<std::string> again = {
-      "--resume", journal.string(), "--follow", growing.string(), "--idle-s", "0", "--poses", "tum", "-q"};
+      "--resume", journal().string(), "--follow", growing.string(), "--idle-s", "0", "--poses", "tum", "-q"};
   EXPECT_THAT(run_app(live(again)).err, HasSubstr("is not empty")) << "the folder has the journal";
   std::vector<std::string> with_force = live(again);
   with_force.push_back("--force");
@@ -165,20 +164,16 @@ TEST_F(LiveApp, goes_on_live_after_a_crash) {
   EXPECT_EQ(resumed.err,
             "psi-slam: skipping scans up to 1005.800000 s, the time of the last recorded scan\n");
   EXPECT_EQ(lines_in(resumed.out), kScans - 30) << "poses of the new scans only";
-  EXPECT_FALSE(std::filesystem::exists(journal));
+  EXPECT_FALSE(std::filesystem::exists(journal()));
   expect_same_map();
 }
 
 TEST_F(LiveApp, tells_at_once_that_the_journal_cannot_be_written_and_completes_it_later) {
-  const auto journal = folder("live") / "session.journal";
   const auto growing = folder("growing.log");
   write_file(growing, text_of(lines_, 0, 20));
   const AppProcess process(live({"--follow", growing.string(), "--look-over-s", "0", "--set",
                                  "live.map_period_s=0", "--set", "live.journal_period_s=0.05"}),
                            folder_.path(), [] { std::signal(SIGXFSZ, SIG_IGN); });
-  const auto are_recorded = [&](std::size_t scans) {
-    return std::filesystem::exists(journal) && read_session_file(journal).frames.size() == scans;
-  };
   const auto tells = [&](const std::string& text) { return err().find(text) != std::string::npos; };
   const auto append = [&](std::size_t begin, std::size_t end) {
     std::ofstream(growing, std::ios::app) << text_of(lines_, begin, end);
@@ -186,13 +181,13 @@ TEST_F(LiveApp, tells_at_once_that_the_journal_cannot_be_written_and_completes_i
   ASSERT_TRUE(soon([&] { return are_recorded(20); })) << err();
   rlimit before{};
   ASSERT_EQ(::prlimit(process.pid(), RLIMIT_FSIZE, nullptr, &before), 0);
-  const rlimit full{std::filesystem::file_size(journal), before.rlim_max};
+  const rlimit full{std::filesystem::file_size(journal()), before.rlim_max};
   ASSERT_EQ(::prlimit(process.pid(), RLIMIT_FSIZE, &full, nullptr), 0);
   append(20, 25);
   EXPECT_TRUE(soon([&] {
     append(25, 26);  // the next scan tells
     return tells("the journal is not written for now, and psi-slam tries again: cannot write " +
-                 journal.string());
+                 journal().string());
   })) << err();
   ASSERT_EQ(::prlimit(process.pid(), RLIMIT_FSIZE, &before, nullptr), 0);
   EXPECT_TRUE(soon([&] {
@@ -201,7 +196,7 @@ TEST_F(LiveApp, tells_at_once_that_the_journal_cannot_be_written_and_completes_i
   })) << err();
   process.send(SIGKILL);
   process.finish();
-  const SessionRecording recording = read_session_file(journal);
+  const SessionRecording recording = read_session_file(journal());
   EXPECT_GT(recording.frames.size(), 25U);
   EXPECT_FALSE(recording.lost_end);
 }
@@ -211,7 +206,7 @@ TEST_F(LiveApp, saves_the_session_and_leaves_no_journal) {
   const AppProcess process(live({"--stdin", "-q", "--save-session", saved.string()}), folder_.path(),
                            [&] { ::dup2(::open(log_.c_str(), O_RDONLY), STDIN_FILENO); });
   EXPECT_EQ(process.finish().code, 0) << err();
-  EXPECT_FALSE(std::filesystem::exists(folder("live") / "session.journal"));
+  EXPECT_FALSE(std::filesystem::exists(journal()));
   EXPECT_EQ(read_session_file(saved).frames.size(), kScans);
   ASSERT_EQ(run_app({"--resume", saved.string(), "-q", "-o", folder("resumed").string()}).code, 0);
   EXPECT_EQ(bytes_of(folder("resumed") / "map.pgm"), bytes_of(folder("whole") / "map.pgm"));
@@ -282,7 +277,7 @@ TEST_F(LiveApp, a_stream_without_scans_is_an_error) {
   const AppRun run = process.finish();
   EXPECT_EQ(run.code, 2);
   EXPECT_THAT(run.err, HasSubstr("has no laser scans"));
-  EXPECT_FALSE(std::filesystem::exists(folder("live") / "session.journal")) << "nothing could be resumed";
+  EXPECT_FALSE(std::filesystem::exists(journal())) << "nothing could be resumed";
 }
 
 TEST_F(LiveApp, says_what_is_wrong_with_the_arguments) {

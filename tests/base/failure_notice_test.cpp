@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "failure_notice.h"
+#include "base/failure_notice.h"
 
 #include <gtest/gtest.h>
 

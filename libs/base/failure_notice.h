@@ -7,6 +7,12 @@
 
 namespace psi_slam {
 
+/// Returns the sentence, without full stop, about a file that could not be written the last time and that is
+/// written again later. `file`: what is written, such as "the journal". `why`: a sentence without full stop.
+inline std::string unwritten_text(const std::string& file, const std::string& why) {
+  return file + " is not written for now, and psi-slam tries again: " + why;
+}
+
 /// Tells once when a file that is written again and again cannot be written, and once when it can be again.
 class FailureNotice {
  public:
@@ -17,8 +23,7 @@ class FailureNotice {
   /// was written. Returns a sentence for the user, without full stop, if failures have begun or ended.
   std::optional<std::string> news(const std::optional<std::string>& failure) {
     if (std::exchange(fails_, failure.has_value()) == fails_) return std::nullopt;
-    return fails_ ? file_ + " is not written for now, and psi-slam tries again: " + *failure
-                  : file_ + " is written again";
+    return fails_ ? unwritten_text(file_, *failure) : file_ + " is written again";
   }
 
  private:

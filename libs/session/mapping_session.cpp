@@ -111,6 +111,10 @@ bool MappingSession::step() {
   return true;
 }
 
+bool MappingSession::scan_waits() const {
+  return m_->state == Members::State::kReading && m_->source->is_ready();
+}
+
 void MappingSession::Members::read_from(OpenedInput opened) {
   source = std::move(opened.frames);
   logs.back().calibration = std::move(opened.calibration);

@@ -91,6 +91,9 @@ class MappingSession {
   /// Throws UserError if the log is damaged before its first scan.
   bool step();
 
+  /// Returns whether step() would not wait for a scan. Always true for a log that is read in this thread.
+  bool scan_waits() const;
+
   /// Damage of the log after its last readable scan, as a sentence. Empty if there is none.
   const std::optional<std::string>& broken_off() const;
   /// Returns whether the current log or an earlier log of the session is damaged.

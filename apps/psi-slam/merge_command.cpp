@@ -29,14 +29,15 @@ EditJournal edits_of_later_run(const SessionInput& input, const std::string& nam
   const auto without_place =
       count([](const MapEdit& edit) { return edit.kind != MapEdit::Kind::kCrop && !follows_run(edit); });
   if (crops > 0)
-    streams.err << "psi-slam: " << name << ": the merged map is not cropped to this run, which would cut off "
-                << "the other runs. Crop the merged map with psi-slam --resume SESSION --edits FILE\n";
+    streams.err << "psi-slam: " << name
+                << ": its crop of the drawn map is left out, because it would cut off "
+                << "the other runs. Crop the merged map instead\n";
   if (without_place > 0)
     streams.err << "psi-slam: " << name << ": " << without_place
                 << (without_place == 1 ? " edit of the drawn map is" : " edits of the drawn map are")
-                << " left out, because map.align = walls turned the "
-                << "map by an angle that is not recorded. Save the session again with psi-slam --resume "
-                << name << " --save-session FILE, and merge that file\n";
+                << " left out, because map.align = walls turned the map by an angle that is not recorded. "
+                << "Save the session again with psi-slam --resume " << name
+                << " -o DIR --save-session FILE, and merge FILE\n";
   return edits;
 }
 

@@ -98,10 +98,9 @@ void insert_line_with_ends(SceneLayer& layer, const Planar& a, const Planar& b, 
   layer.insert(dots_of({raised(a, z_m), raised(b, z_m)}, colour, dot_px));
 }
 
-// Heights for sorting: transparent planes are drawn from far to near. The grid map must come before its
-// zones, and both before the local maps.
+// Height for sorting: transparent planes are drawn from far to near, and the grid map must come before the
+// local maps.
 constexpr float kFarBelow_m = -1000;
-constexpr float kBelow_m = -900;
 
 constexpr std::uint8_t kZoneOpacity = 110;  // out of 255
 constexpr std::uint8_t kClosingOpacity = 120;
@@ -205,7 +204,8 @@ void draw_zones(SceneLayer& layer, const DrawnMap& map) {
       tinted.pixels[i + 3] = kZoneOpacity;
     }
     const auto plane = textured_plane(tinted);
-    plane->setLocalRepresentativePoint({0, 0, kBelow_m});
+    const double z_m = zones.kind == MapEdit::Kind::kKeepOut ? height_m::kKeepOutZones : 0;
+    plane->setPose(mrpt::math::TPose3D(0, 0, z_m, 0, 0, 0));
     layer.insert(plane);
   }
 }

@@ -19,6 +19,7 @@ using SceneLayer = mrpt::opengl::CSetOfObjects;
 /// heights are small because perspective shifts higher layers.
 namespace height_m {
 inline constexpr double kLocalMaps = 0.005;
+inline constexpr double kKeepOutZones = 0.005;
 inline constexpr double kOdometry = 0.01;
 inline constexpr double kConstraints = 0.015;
 inline constexpr double kLoops = 0.02;

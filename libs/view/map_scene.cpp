@@ -14,6 +14,7 @@ namespace psi_slam {
 namespace {
 
 constexpr const char* kMaps = "main";
+constexpr const char* kAboveMaps = "above maps";
 constexpr const char* kLines = "lines";
 constexpr const char* kMarks = "marks";
 constexpr const char* kLegend = "legend";
@@ -34,7 +35,7 @@ constexpr std::array<LayerFacts, kMapLayers> kLayers{{{"Grid map", kMaps, true},
                                                       {"Robot", kMarks, true},
                                                       {"Search windows", kMarks, true},
                                                       {"Uncertainty (95 %)", kLines, false},
-                                                      {"Zones", kMaps, true}}};
+                                                      {"Zones", kAboveMaps, true}}};
 
 bool active_maps_differ(const ReplaySnapshot& a, const ReplaySnapshot& b) {
   const auto& before = a.active_local_maps;
@@ -54,7 +55,7 @@ bool shown_at_first(MapLayer layer) {
 
 MapScene::MapScene() {
   scene_->getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(palette::kBackground));
-  for (const char* upper : {kLines, kMarks}) {
+  for (const char* upper : {kAboveMaps, kLines, kMarks}) {
     const auto viewport = scene_->createViewport(upper);
     viewport->setTransparent(true);
     viewport->setClonedCameraFrom(kMaps);

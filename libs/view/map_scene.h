@@ -67,8 +67,8 @@ struct MapDraft {
 /// only the layers whose data has changed.
 ///
 /// The layers are millimetres apart in height, which OpenGL cannot always resolve from far above. So maps,
-/// lines and marks have a viewport each, and the viewports are drawn on top of each other. All viewports use
-/// the camera of the first viewport, "main".
+/// zones, lines and marks have a viewport each, and the viewports are drawn on top of each other. All
+/// viewports use the camera of the first viewport, "main".
 class MapScene {
  public:
   MapScene();

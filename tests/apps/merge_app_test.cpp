@@ -127,7 +127,7 @@ TEST_F(MergeApp, edits_of_the_drawn_map_follow_their_runs) {
               0);
   const AppRun run = merge({"first.session", "second.session"}, "merged", {"--save-session", file("both")});
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("second.session: the merged map is not cropped to this run"));
+  EXPECT_THAT(run.err, HasSubstr("second.session: its crop of the drawn map is left out"));
   const auto corners = corners_of_zones(file("merged"));
   ASSERT_EQ(corners.size(), 6U);
   EXPECT_EQ(corners[0], mrpt::math::TPoint2D(-2, 0));

@@ -30,6 +30,7 @@ class Configuration;
 class EditJournal;
 class OutputFolder;
 class SessionInput;
+struct MapEdit;
 struct RunInfo;
 struct RunSummary;
 struct Settings;
@@ -109,6 +110,11 @@ class MappingSession {
   /// Changes a loop by hand now. An edit after finish() needs stay_open() and reopens the map: call finish()
   /// again.
   LoopEditOutcome edit(const LoopEdit& edit);
+  /// Adds an edit of the drawn map, after all edits of the drawn map so far. The next export_to() makes it.
+  /// Does not reopen a finished map. Throws UserError, and adds nothing, if zones contradict each other.
+  void edit(const MapEdit& edit);
+  /// Removes the last edit of the drawn map, if there is one.
+  void remove_last_map_edit();
   /// Restores planned edits that a later edit removed from the journal. Makes edits whose time has passed at
   /// once.
   void plan(const std::vector<TimedEdit>& edits);

@@ -91,7 +91,8 @@ wxMenu* view_menu() {
                                            {}});
   for (std::size_t i = 0; i < kMapLayers; ++i)
     menu->AppendCheckItem(kLayer + static_cast<int>(i),
-                          name_of(static_cast<MapLayer>(i)) + wxString::Format("\tCtrl+%zu", (i + 1) % 10));
+                          name_of(static_cast<MapLayer>(i)) +
+                              (i < 10 ? wxString::Format("\tCtrl+%zu", (i + 1) % 10) : wxString()));
   return append(menu, {{kRefusedLoops, "Refused loops", wxITEM_CHECK},
                        {},
                        {kLoopsByMatcher, "Colour loops by matcher", wxITEM_RADIO},

@@ -84,6 +84,7 @@ void SnapshotMaker::note_edits(const std::vector<TimedEdit>& edits, const EditHi
   now.undo_text = history.undo_text();
   now.redo_text = history.redo_text();
   now.node_covariances = std::make_shared<std::vector<std::optional<Eigen::Matrix3d>>>();
+  now.verdict.reset();
   loops_changed_ = true;
   finished_ = false;
 }
@@ -125,6 +126,7 @@ void SnapshotMaker::take(const MappingResult& result) {
   now.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(std::move(poses));
   now.node_covariances =
       std::make_shared<std::vector<std::optional<Eigen::Matrix3d>>>(placed_covariances(result.graph));
+  now.verdict = std::make_shared<MapVerdict>(judge_map(result));
   now.loops = std::make_shared<std::vector<LoopRecord>>(result.loops);
   now.active_local_maps.clear();
   if (!result.frames.empty()) now.map_T_robot = result.frames.back().map_T_robot;

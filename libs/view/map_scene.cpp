@@ -33,7 +33,8 @@ constexpr std::array<LayerFacts, kMapLayers> kLayers{{{"Grid map", kMaps, true},
                                                       {"Scan", kMarks, true},
                                                       {"Robot", kMarks, true},
                                                       {"Search windows", kMarks, true},
-                                                      {"Uncertainty (95 %)", kLines, false}}};
+                                                      {"Uncertainty (95 %)", kLines, false},
+                                                      {"Hot spots", kMarks, true}}};
 
 bool active_maps_differ(const ReplaySnapshot& a, const ReplaySnapshot& b) {
   const auto& before = a.active_local_maps;
@@ -150,6 +151,7 @@ bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
     redraw(MapLayer::kNodes, draw_nodes, snapshot);
     redraw(MapLayer::kConstraints, draw_constraints, snapshot);
     redraw(MapLayer::kUncertainty, draw_uncertainty, snapshot);
+    redraw(MapLayer::kHotSpots, draw_hot_spots, snapshot);
   }
   const bool loops_changed =
       poses_changed || snapshot.loops != shown_.snapshot->loops || !(loop_style_ == shown_.loop_style);

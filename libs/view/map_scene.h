@@ -28,8 +28,9 @@ enum class MapLayer {
   kRobot,
   kWindows,
   kUncertainty,
+  kHotSpots,
 };
-inline constexpr std::size_t kMapLayers = 11;
+inline constexpr std::size_t kMapLayers = 12;
 
 /// Name of a layer for menus, such as "Grid map".
 const char* name_of(MapLayer layer);

@@ -44,7 +44,7 @@ Arguments parse(const std::vector<std::string>& arguments, CLI::App& app) {
                  "Log to open: an MRPT rawlog or a CARMEN log, plain or gzipped, a ROS bag, or a session")
       ->type_name("");
   app.add_option("--edits", line.edits,
-                 "File of edits of loops and of the drawn map, as saved with Edit > Save loop edits")
+                 "File of edits of loops and of the drawn map, as saved with Edit > Save edits")
       ->type_name("FILE");
   add_source_options(app, line.live);
   add_value(app, "--journal", line.journal,

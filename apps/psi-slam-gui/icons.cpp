@@ -10,7 +10,7 @@ constexpr int kSide = 20;
 constexpr int kProgramSide = 64;
 
 /// SVG shapes of each Icon, in a square of 20 x 20. INK stands for the colour, LINE for the style of strokes.
-constexpr std::array<const char*, 15> kShapes{
+constexpr std::array<const char*, 16> kShapes{
     R"(<path d="M2.5 16V4.5H8l2 2.5h7.5v9z" LINE/>)",
     R"(<path d="M5 3l12 7-12 7z" fill="INK"/>)",
     R"(<path d="M4.5 3h4v14h-4zM11.5 3h4v14h-4z" fill="INK"/>)",
@@ -22,6 +22,7 @@ constexpr std::array<const char*, 15> kShapes{
     R"(<path d="M3 13l7-4 7 4-7 4zM10 1.5V7M8 5l2 2.2L12 5" LINE/>)",
     R"(<path d="M10 2l6 15-6-4-6 4z" LINE/>)",
     R"(<path d="M2.5 13.5l11-11 4 4-11 11zM5.5 10.5l2 2M8.5 7.5l2 2M11.5 4.5l2 2" LINE/>)",
+    R"(<path d="M2.5 16.5l1-4.5 8.5-8.5 3.5 3.5-8.5 8.5zM10 17h7.5" LINE/>)",
     R"(<circle cx="10" cy="10" r="7.5" LINE/><path d="M10 9v5M10 6.2v.1" LINE/>)",
     R"(<path d="M10 2.5l8 14.5H2zM10 8v4.5M10 14.8v.1" LINE/>)",
     R"(<circle cx="10" cy="10" r="7.5" LINE/><path d="M7 7l6 6M13 7l-6 6" LINE/>)",

@@ -19,6 +19,7 @@ enum class Icon {
   kTop,
   kFollow,
   kMeasure,
+  kMapEdits,
   kNote,
   kWarning,
   kError,

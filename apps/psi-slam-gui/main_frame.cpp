@@ -99,6 +99,7 @@ MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "psi-slam"), recent_(9), tim
   enable_commands();
   ask_for_file_ = ask_in_dialogs(*this);
   ask_for_port_ = ask_port_in_dialog(*this);
+  ask_for_speed_ = [this](const SpeedLimit& proposed) { return ask_for_speed(*this, proposed); };
   default_panes_ = panes_.SavePerspective();
   restore_layout(*wxConfigBase::Get(), *this, panes_, canvas_->map_scene());
   check_choices();
@@ -173,6 +174,7 @@ void MainFrame::build_toolbar() {
   add(kTopView, "Top view", Icon::kTop, "Look straight down on the map (T)");
   add(kFollow, "Follow", Icon::kFollow, "Keep the robot in the middle of the view (F)", wxITEM_CHECK);
   add(kMeasure, "Measure", Icon::kMeasure, "Measure a distance by dragging in the map (M)", wxITEM_CHECK);
+  add(kMapEdits, "Edit map", Icon::kMapEdits, "Erase, draw or mark zones in the map");
   bar->Realize();
 }
 
@@ -279,6 +281,7 @@ void MainFrame::enable_commands() {
   enable_edit_commands();
   GetToolBar()->EnableTool(kRestart, open && !live);
   GetToolBar()->EnableTool(kExport, finished);
+  GetToolBar()->EnableTool(kMapEdits, menu.IsEnabled(kMapTool));
 }
 
 void MainFrame::play_or_pause() {
@@ -354,7 +357,7 @@ void MainFrame::ask_before_loss(const std::string& question, const std::string& 
   const bool loses_map = is_live() && has_unsaved_work();
   if (!loses_map && !has_unsaved_edits()) return action();
   messages_->warn(
-      (loses_map ? "The live map has not been exported or saved. " : "Loop edits have not been saved. ") +
+      (loses_map ? "The live map has not been exported or saved. " : "Edits have not been saved. ") +
           question,
       {{answer, action}});
 }

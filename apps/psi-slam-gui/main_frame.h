@@ -22,6 +22,7 @@
 #include "replay_slot.h"
 #include "session/settings.h"
 #include "session_reader.h"
+#include "speed_dialog.h"
 #include "unsaved_work.h"
 
 class wxSimplebook;
@@ -50,6 +51,9 @@ using AskForFile = std::function<std::optional<std::filesystem::path>(const File
 /// Asks the user for the number of a TCP port. Returns nothing if the user cancels.
 using AskForPort = std::function<std::optional<std::uint16_t>()>;
 
+/// Asks the user for the largest speed in a zone, and proposes one. Returns nothing if the user cancels.
+using AskForSpeed = std::function<std::optional<SpeedLimit>(const SpeedLimit& proposed)>;
+
 /// The window. The map is in the middle, with the transport bar and the loops below it, and settings and
 /// plots on its right. The window reads the state of the run 20 times a second and never waits for the run.
 class MainFrame : public wxFrame {
@@ -70,7 +74,7 @@ class MainFrame : public wxFrame {
   void connect(const LiveInput& source, const std::filesystem::path& journal);
   /// Asks for the journal and calls connect(). Asks first if edits or another live map would be lost.
   void connect_other(const LiveInput& source);
-  /// Opens a file that was dropped on the window: settings, loop edits, a log or a session.
+  /// Opens a file that was dropped on the window: settings, edits, a log or a session.
   void open_dropped(const std::filesystem::path& file);
   void open_settings(const std::filesystem::path& file);
   void save_settings(const std::filesystem::path& file);
@@ -91,6 +95,7 @@ class MainFrame : public wxFrame {
   // Access for tests.
   void set_ask_for_file(AskForFile ask) { ask_for_file_ = std::move(ask); }
   void set_ask_for_port(AskForPort ask) { ask_for_port_ = std::move(ask); }
+  void set_ask_for_speed(AskForSpeed ask) { ask_for_speed_ = std::move(ask); }
   wxAuiManager& panes() { return panes_; }
   const ReplaySlot& replay() const { return replay_; }
   BoundSettings& settings() { return settings_; }
@@ -171,8 +176,20 @@ class MainFrame : public wxFrame {
   void choose_loop(std::optional<std::size_t> loop);
   void edit_selected(LoopEdit::Kind kind, MatcherKind matcher = MatcherKind::kCsm);
   void toggle_adding_loop();
-  void set_adding_loop(bool on);
   void click_place(const mrpt::math::TPoint2D& place);
+  void bind_map_tools();
+  /// Begins to draw an edit of the map, or cancels it if it is being drawn.
+  void choose_map_tool(MapEdit::Kind kind);
+  /// Ends a tool that waits for clicks, without an edit.
+  void stop_pointing();
+  void add_point(const mrpt::math::TPoint2D& place);
+  void remove_last_point();
+  /// Makes the edit that is being drawn if it has enough points.
+  void close_draft();
+  void show_draft();
+  /// Returns whether a key belongs to the drawing of an edit, after having served it.
+  bool serve_drawing_key(int key);
+  void show_map_menu();
   void map_again_with(const std::filesystem::path& edits);
   /// All edits of the run. Throws UserError while an edit is pending.
   EditJournal edits() const;
@@ -188,9 +205,11 @@ class MainFrame : public wxFrame {
   std::filesystem::path opened_;                         ///< log or session that is open
   std::map<std::string, std::string> session_settings_;  ///< settings of the session that cannot change
   std::optional<mrpt::math::TPoint2D> first_place_;      ///< first of the two clicks that add a loop
+  std::optional<MapEdit> draft_;                         ///< edit of the map that is being drawn
 
   AskForFile ask_for_file_;
   AskForPort ask_for_port_;
+  AskForSpeed ask_for_speed_;
   wxAuiManager panes_;
   wxString default_panes_;
   wxFileHistory recent_;

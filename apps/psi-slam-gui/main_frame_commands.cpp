@@ -66,8 +66,9 @@ void MainFrame::bind_commands() {
 }
 
 void MainFrame::press_key(wxKeyEvent& event) {
-  if (event.GetKeyCode() == WXK_ESCAPE && canvas_->pointing()) return toggle_adding_loop();
+  if (event.GetKeyCode() == WXK_ESCAPE && canvas_->pointing()) return stop_pointing();
   const bool types = dynamic_cast<wxTextEntry*>(wxWindow::FindFocus()) != nullptr;
+  if (!types && !event.HasAnyModifiers() && serve_drawing_key(event.GetKeyCode())) return;
   const int command = types || event.HasAnyModifiers() ? wxID_NONE : command_of_key(event.GetKeyCode());
   if (command == wxID_NONE || !GetMenuBar()->IsEnabled(command)) {
     event.Skip();
@@ -222,7 +223,7 @@ void MainFrame::open_log(const Path& log, std::optional<EditJournal> edits,
             open_input(input, remarks);
           };
           if (!replay_ || replay_->edits_asked() == edits_before) return open_session();
-          messages_->warn("Loops were edited while " + log.string() + " was read. Open it anyway?",
+          messages_->warn("Edits were made while " + log.string() + " was read. Open it anyway?",
                           {{"Open it", [=] { attempt(open_session); }}});
         });
   });
@@ -307,7 +308,7 @@ void MainFrame::clear_run() {
   session_reader_.give_up();  // a session that is being read belongs to the previous run
   messages_->dismiss();
   run_ = {};
-  set_adding_loop(false);
+  stop_pointing();
   loops_->show_nothing();
   plots_->show(std::make_shared<ReplaySnapshot>(), {});
   run_.settings = settings_file_text(settings_.table);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Actions of the Edit menu, which change loops by hand.
+// Actions of the Edit menu, which change loops by hand, and files of edits.
 #include "base/number_text.h"
 #include "loop_inspector.h"
 #include "main_frame.h"
@@ -9,6 +9,7 @@
 #include "psi_slam/loop_record.h"
 #include "psi_slam/user_error.h"
 #include "replay/loop_between_places.h"
+#include "view/palette.h"
 #include "wx_text.h"
 
 namespace psi_slam {
@@ -36,10 +37,13 @@ void MainFrame::bind_edit_commands() {
   for (std::size_t i = 0; i < kMatcherKinds.size(); ++i)
     on(kMatchLoopBy + static_cast<int>(i), [this, i] { edit_selected(Kind::kMatch, kMatcherKinds[i]); });
   on(kAddLoop, [this] { toggle_adding_loop(); });
-  on_file(kOpenEdits, {FileQuestion::Kind::kOpen, "Open loop edits", kEditFiles, ""}, &MainFrame::open_edits);
-  on_file(kSaveEdits, {FileQuestion::Kind::kSave, "Save the loop edits", kEditFiles, "my.edits"},
+  on_file(kOpenEdits, {FileQuestion::Kind::kOpen, "Open edits", kEditFiles, ""}, &MainFrame::open_edits);
+  on_file(kSaveEdits, {FileQuestion::Kind::kSave, "Save the edits", kEditFiles, "my.edits"},
           &MainFrame::save_edits);
-  canvas_->on.clicked = [this](const mrpt::math::TPoint2D& place) { click_place(place); };
+  canvas_->on.clicked = [this](const mrpt::math::TPoint2D& place) {
+    draft_ ? add_point(place) : click_place(place);
+  };
+  bind_map_tools();
 }
 
 void MainFrame::edit_selected(Kind kind, MatcherKind matcher) {
@@ -57,31 +61,35 @@ void MainFrame::edit_selected(Kind kind, MatcherKind matcher) {
 
 void MainFrame::toggle_adding_loop() {
   if (!run_.snapshot || run_.snapshot->map_T_node->empty()) return;
-  const bool on = !canvas_->pointing();
-  set_adding_loop(on);
-  show_status(
-      on ? "Add a loop: click an object that the map shows twice, where it was seen later (Esc cancels)"
-         : hint_text());
+  const bool on = draft_ || !canvas_->pointing();
+  stop_pointing();
+  if (!on) return;
+  canvas_->set_pointing(true);
+  GetMenuBar()->Check(kAddLoop, true);
+  show_status("Add a loop: click an object that the map shows twice, where it was seen later (Esc cancels)");
 }
 
-void MainFrame::set_adding_loop(bool on) {
-  canvas_->set_pointing(on);
+void MainFrame::stop_pointing() {
+  canvas_->set_pointing(false);
+  canvas_->show_draft({});
   first_place_.reset();
-  canvas_->show_pointed(std::nullopt);
-  GetMenuBar()->Check(kAddLoop, on);
+  draft_.reset();
+  GetMenuBar()->Check(kAddLoop, false);
+  for (std::size_t i = 0; i < kMapTools.size(); ++i)
+    GetMenuBar()->Check(kMapTool + static_cast<int>(i), false);
+  show_status(hint_text());
 }
 
 void MainFrame::click_place(const mrpt::math::TPoint2D& place) {
   if (!replay_ || !run_.snapshot) return;
   if (!first_place_) {
     first_place_ = place;
-    canvas_->show_pointed(place);
+    canvas_->show_draft({{place}, false, palette::kMeasure});
     show_status("Add a loop: now click the same object where it was seen earlier (Esc cancels)");
     return;
   }
   const auto edit = loop_between_places(*run_.snapshot, *first_place_, place, MatcherKind::kCsm);
-  set_adding_loop(false);
-  show_status(hint_text());
+  stop_pointing();
   if (edit)
     replay_->edit(*edit);
   else
@@ -92,11 +100,13 @@ void MainFrame::click_place(const mrpt::math::TPoint2D& place) {
 
 /// Shows the outcome of the newest edit.
 void MainFrame::report_edit(const ReplaySnapshot& snapshot) {
-  const auto& [number, edit, outcome] = *snapshot.edited;
+  const auto& [number, edit, outcome, undone] = *snapshot.edited;
   const bool made = outcome.state != LoopEditOutcome::State::kImpossible;
-  const LoopRecord* const loop = record_of(snapshot, edit);
+  const LoopEdit* const of_loop = std::get_if<LoopEdit>(&edit);
+  const LoopRecord* const loop = of_loop != nullptr ? record_of(snapshot, *of_loop) : nullptr;
   std::string words = text_of(edit);
   words.front() = static_cast<char>(std::toupper(words.front()));
+  if (of_loop == nullptr && made) return show_status(words + (undone ? ": undone" : ": done"));
   if (!outcome.reason.empty())
     words += ": " + outcome.reason;
   else if (loop != nullptr)
@@ -106,7 +116,7 @@ void MainFrame::report_edit(const ReplaySnapshot& snapshot) {
     show_status(words);  // the message bar keeps its question
   else
     messages_->say(made ? MessageBar::Kind::kNote : MessageBar::Kind::kWarning, words);
-  if (made && edit.kind == Kind::kMatch && loop != nullptr)
+  if (made && loop != nullptr && of_loop->kind == Kind::kMatch)
     loops_->select(static_cast<std::size_t>(loop - snapshot.loops->data()));
 }
 
@@ -126,12 +136,13 @@ void MainFrame::enable_edit_commands() {
   for (std::size_t i = 0; i < kMatcherKinds.size(); ++i)
     enable(kMatchLoopBy + static_cast<int>(i), loop != nullptr);
   enable(kAddLoop, open && !snapshot->map_T_node->empty());
+  for (std::size_t i = 0; i < kMapTools.size(); ++i)
+    GetMenuBar()->Enable(kMapTool + static_cast<int>(i), open && !snapshot->map_T_node->empty());
   enable(kUndo, open && !snapshot->undo_text.empty());
   enable(kRedo, open && !snapshot->redo_text.empty());
   enable(kOpenEdits, snapshot != nullptr && !snapshot->live);
   // Edits can also be saved after a failure of the run.
-  enable(kSaveEdits,
-         snapshot != nullptr && (!snapshot->edits->empty() || !replay_->input().edits().map_edits().empty()));
+  enable(kSaveEdits, snapshot != nullptr && !snapshot->edits->empty());
   const auto title = [&](int command, const char* name, const char* key, const std::string& what) {
     const wxString label =
         wxString::FromUTF8(name) + (what.empty() ? wxString() : ": " + text_of(what)) + key;
@@ -144,9 +155,7 @@ void MainFrame::enable_edit_commands() {
 EditJournal MainFrame::edits() const {
   if (!replay_) return {};
   if (edits_are_pending()) throw UserError("The last edit is still in progress: try again in a moment");
-  EditJournal journal = journal_of(*replay_->snapshot()->edits);
-  for (const MapEdit& edit : replay_->input().edits().map_edits()) journal.add(edit);
-  return journal;
+  return *replay_->snapshot()->edits;
 }
 
 void MainFrame::open_edits(const std::filesystem::path& file) {
@@ -156,7 +165,7 @@ void MainFrame::open_edits(const std::filesystem::path& file) {
         "A live source cannot be mapped again with other edits. Save the session, open it, and open the "
         "edits then.");
   if (!has_unsaved_edits()) return map_again_with(file);
-  messages_->warn("Loop edits have not been saved. Open other edits anyway?",
+  messages_->warn("Edits have not been saved. Open other edits anyway?",
                   {{"Open other edits", [this, file] { map_again_with(file); }}});
 }
 

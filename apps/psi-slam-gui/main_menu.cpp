@@ -63,11 +63,11 @@ wxMenu* edit_menu() {
   for (std::size_t i = 0; i < kMatcherKinds.size(); ++i)
     menu->Append(kMatchLoopBy + static_cast<int>(i),
                  wxString("Match selected loop again: ") + kMatcherTitles[i]);
-  return append(menu, {{kRestoreLoop, "Re&store selected loop"},
-                       {kAddLoop, "&Add loop by two clicks (L)", wxITEM_CHECK},
-                       {},
-                       {kOpenEdits, "&Open loop edits…"},
-                       {kSaveEdits, "Sa&ve loop edits…"}});
+  append(menu, {{kRestoreLoop, "Re&store selected loop"},
+                {kAddLoop, "&Add loop by two clicks (L)", wxITEM_CHECK},
+                {}});
+  menu->AppendSubMenu(make_map_menu(), "&Map");
+  return append(menu, {{}, {kOpenEdits, "&Open edits…"}, {kSaveEdits, "Sa&ve edits…"}});
 }
 
 wxMenu* run_menu() {
@@ -122,6 +122,13 @@ wxMenuBar* make_menu_bar(wxMenu* recent) {
   return bar;
 }
 
+wxMenu* make_map_menu() {
+  auto* const menu = new wxMenu;
+  for (std::size_t i = 0; i < kMapTools.size(); ++i)
+    menu->AppendCheckItem(kMapTool + static_cast<int>(i), utf8(kMapTools[i].label));
+  return menu;
+}
+
 void choose_command(wxWindow& from, int command) {
   from.GetEventHandler()->QueueEvent(new wxCommandEvent(wxEVT_MENU, command));
 }
@@ -142,7 +149,9 @@ const char* hint_text() {
 const char* shortcuts_text() {
   return "Space plays or pauses, \".\" maps one scan. In the map: drag to move, right-drag to rotate and "
          "tilt, turn the wheel to zoom. Home fits the map, T shows the top view, F follows the robot, M "
-         "measures a distance. L adds a loop, Delete deletes the selected loop, Ctrl+Z undoes the last edit.";
+         "measures a distance. L adds a loop, Delete deletes the selected loop, Ctrl+Z undoes the last edit. "
+         "Edit "
+         "> Map: click the corners, close with Enter, a double click or a right click.";
 }
 
 wxAboutDialogInfo about_info() {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include "view/layers.h"
@@ -25,6 +26,7 @@ constexpr double kLowest_deg = 10;       // least elevation of the camera
 constexpr double kFromAbove_deg = 89.9;  // at 90, MRPT's camera has no upward direction
 constexpr double kFollowDistance_m = 25;
 constexpr int kLegendMargin = 10;
+constexpr int kClickReach = 4;  // a button that moves further while it is down drags, in pixels
 // Clipping distances, as multiples of the distance from the camera to its target.
 constexpr double kNearShare = 0.2;
 constexpr double kFarShare = 8;
@@ -92,7 +94,8 @@ void MapCanvas::bind_mouse() {
   for (const auto& down : {wxEVT_LEFT_DOWN, wxEVT_RIGHT_DOWN, wxEVT_MIDDLE_DOWN})
     Bind(down, [this](wxMouseEvent& event) { press(event); });
   for (const auto& up : {wxEVT_LEFT_UP, wxEVT_RIGHT_UP, wxEVT_MIDDLE_UP})
-    Bind(up, [this](wxMouseEvent&) { release(); });
+    Bind(up, [this](wxMouseEvent& event) { release(event); });
+  Bind(wxEVT_LEFT_DCLICK, [this](wxMouseEvent& event) { pointing_ ? on.closed() : event.Skip(); });
   Bind(wxEVT_MOTION, [this](wxMouseEvent& event) { move(event); });
   Bind(wxEVT_MOUSEWHEEL, [this](wxMouseEvent& event) { zoom(event); });
   Bind(wxEVT_MOUSE_CAPTURE_LOST, [this](wxMouseCaptureLostEvent&) { drag_ = Drag::kNone; });
@@ -183,9 +186,9 @@ void MapCanvas::set_pointing(bool pointing) {
   SetCursor(wxCursor(pointing ? wxCURSOR_BULLSEYE : measuring_ ? wxCURSOR_CROSS : wxCURSOR_ARROW));
 }
 
-void MapCanvas::show_pointed(const std::optional<mrpt::math::TPoint2D>& place) {
-  pointed_ = place;
-  map_scene_.set_measure(place ? std::optional(Measure{*place, *place}) : measure_);
+void MapCanvas::show_draft(MapDraft draft) {
+  draft_ = std::move(draft);
+  map_scene_.set_draft(draft_);
   Refresh(false);
 }
 
@@ -232,7 +235,7 @@ void MapCanvas::press(wxMouseEvent& event) {
     if (const auto place = ground(event)) on.clicked(*place);
     return;
   }
-  dragged_from_ = event.GetPosition();
+  dragged_from_ = pressed_at_ = event.GetPosition();
   drag_ = left ? Drag::kMove : Drag::kTurn;
   if (left && measuring_) {
     drag_ = Drag::kMeasure;
@@ -241,15 +244,19 @@ void MapCanvas::press(wxMouseEvent& event) {
   if (!HasCapture()) CaptureMouse();
 }
 
-void MapCanvas::release() {
+void MapCanvas::release(const wxMouseEvent& event) {
   drag_ = Drag::kNone;
   if (HasCapture()) ReleaseMouse();
+  const wxPoint moved = event.GetPosition() - pressed_at_;
+  if (pointing_ && event.RightUp() && std::abs(moved.x) + std::abs(moved.y) <= kClickReach) on.closed();
 }
 
 void MapCanvas::move(wxMouseEvent& event) {
   const std::optional<mrpt::math::TPoint2D> place = ground(event);
-  if (pointed_ && place) {
-    map_scene_.set_measure(Measure{*pointed_, *place});
+  if (!draft_.points.empty() && place) {
+    MapDraft with_pointer = draft_;
+    with_pointer.points.push_back(*place);
+    map_scene_.set_draft(with_pointer);
     Refresh(false);
   }
   if (drag_ == Drag::kNone) return show_hint(place);

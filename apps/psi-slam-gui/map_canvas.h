@@ -23,6 +23,8 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   /// Functions that the canvas calls when the user clicks, measures, or starts or stops following the robot.
   struct Callbacks {
     std::function<void(const mrpt::math::TPoint2D&)> clicked = [](const mrpt::math::TPoint2D&) {};
+    /// Called after a double click or a click with the right button while pointing.
+    std::function<void()> closed = [] {};
     std::function<void(const Measure&)> measured = [](const Measure&) {};
     std::function<void(bool)> followed = [](bool) {};
     /// Called with an error message if OpenGL cannot draw: once for the view, and once for each picture.
@@ -53,8 +55,8 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   /// While pointing, a click with the left button calls on.clicked instead of moving the map.
   void set_pointing(bool pointing);
   bool pointing() const { return pointing_; }
-  /// Draws a line from `place` to the pointer, or removes the line if `place` is empty.
-  void show_pointed(const std::optional<mrpt::math::TPoint2D>& place);
+  /// Shows a draft that ends at the pointer; nothing if it has no points.
+  void show_draft(MapDraft draft);
   const std::optional<Measure>& measure() const { return measure_; }
   void look_at(const mrpt::math::TPoint2D& place, double distance_m);
 
@@ -72,7 +74,7 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   void press(wxMouseEvent& event);
   void move(wxMouseEvent& event);
   void show_hint(const std::optional<mrpt::math::TPoint2D>& place);
-  void release();
+  void release(const wxMouseEvent& event);
   void zoom(wxMouseEvent& event);
   void key(wxKeyEvent& event);
   mrpt::img::TImageSize picture_size() const { return {GetClientSize().x, GetClientSize().y}; }
@@ -94,11 +96,12 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   bool follow_ = false;
   bool measuring_ = false;
   bool pointing_ = false;
-  std::optional<mrpt::math::TPoint2D> pointed_;
+  MapDraft draft_;
   std::optional<Measure> measure_;
   enum class Drag { kNone, kMove, kTurn, kMeasure };
   Drag drag_ = Drag::kNone;
   wxPoint dragged_from_;
+  wxPoint pressed_at_;
   std::function<void(const wxImage&)> picture_taken_;
   bool reported_failure_ = false;
 };

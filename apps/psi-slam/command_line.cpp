@@ -32,7 +32,9 @@ constexpr const char* kExamples =
     "  psi-slam live --tcp 5000 -o out/         map while the robot drives\n"
     "  psi-slam -c my.ini my.log -o out/ --set map.resolution_m=0.025\n"
     "  psi-slam --dump-config > my.ini          print settings to start from\n"
-    "  psi-slam sweep *.log -o out/ --set loop_closure.matcher=csm,ga --seeds 10\n";
+    "  psi-slam sweep *.log -o out/ --set loop_closure.matcher=csm,ga --seeds 10\n"
+    "  psi-slam options range                   explain the options about a word\n"
+    "  psi-slam gui my.log                      watch how the map is built\n";
 
 std::string unexpected_argument_text(const std::string& argument, const std::string& program) {
   return "unexpected argument \"" + argument + "\" (see " + program + " --help)";
@@ -130,9 +132,31 @@ CLI::App* add_merge(CLI::App& app, CommandLine& line) {
 }
 
 CLI::App* add_options(CLI::App& app, CommandLine& line) {
-  CLI::App* const options = app.add_subcommand("options", "Explain all options of the settings files");
-  options->add_flag("--markdown", line.markdown, "Print a Markdown page");
+  CLI::App* const options = app.add_subcommand("options", "Explain the options of the settings files");
+  add_value(*options, "WORD", line.options.word, "Only options with this word in their name or description",
+            "");
+  options->add_flag("--common", line.options.common, "Only the ten options that most users need");
+  options->add_flag("--json", line.json, "Print JSON");
+  options->add_flag("--markdown", line.options.markdown, "Print a Markdown page of all options");
   return options;
+}
+
+/// Adds the commands that only stand for other arguments, so that they are listed.
+void add_names(CLI::App& app) {
+  app.add_subcommand("help", "Explain a command: psi-slam help COMMAND");
+  for (const OtherProgram& other : other_programs()) app.add_subcommand(other.command, other.description);
+}
+
+/// Replaces "map" by nothing, and "help COMMAND" by "COMMAND --help".
+std::vector<std::string> in_long_form(std::vector<std::string> arguments) {
+  if (arguments.empty() || (arguments[0] != "map" && arguments[0] != "help")) return arguments;
+  const bool asks = arguments[0] == "help";
+  arguments.erase(arguments.begin());
+  if (!asks) return arguments;
+  if (arguments.size() > 1) throw UserError(unexpected_argument_text(arguments[1], "psi-slam"));
+  if (!arguments.empty() && (arguments[0] == "map" || arguments[0] == "help")) arguments.clear();
+  arguments.emplace_back("--help");
+  return arguments;
 }
 
 CLI::App* add_sweep(CLI::App& app, CommandLine& line) {
@@ -145,8 +169,11 @@ CLI::App* add_sweep(CLI::App& app, CommandLine& line) {
 
 /// Throws UserError for an argument that is neither the log nor a known option.
 [[noreturn]] void fail_unknown(const std::string& argument, const CommandLine& line, const CLI::App& app) {
-  const auto command =
-      nearest_name(line.log, {"check", "diff", "live", "localize", "merge", "options", "sweep"});
+  const CLI::App* whole = &app;
+  while (whole->get_parent() != nullptr) whole = whole->get_parent();
+  std::vector<std::string> names;
+  for (const CLI::App* command : whole->get_subcommands({})) names.push_back(command->get_name());
+  const auto command = nearest_name(line.log, names);
   if (command && !is_option(argument))
     throw UserError("there is no command \"" + line.log + "\"; did you mean \"" + *command + "\"?");
   throw UserError(unknown_argument_text(argument, app, "psi-slam"));
@@ -179,6 +206,8 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
       line.json && pose_format(line.live),
       "--json contradicts --poses: only poses go to standard output. Read the figures in the results folder");
   if (compares) require(line.inputs.size() == 2, "name two maps: psi-slam diff OLDER NEWER");
+  refuse(line.options.markdown && (line.json || line.options.common || !line.options.word.empty()),
+         "--markdown prints all options: leave out WORD, --common and --json");
   refuse(line.diff.aligned && !line.start.empty(), "--aligned contradicts --start: give only one of them");
   if (merges) require(line.inputs.size() >= 2, "name the runs: psi-slam merge FIRST SECOND -o DIR");
   if (maps || merges || is_live) require(!line.output.empty(), "name the folder for the results: -o DIR");
@@ -245,9 +274,16 @@ std::string unknown_argument_text(const std::string& argument, const CLI::App& a
          (near ? "; did you mean \"" + *near + "\"?" : " (see " + program + " --help)");
 }
 
-CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::App& app) {
+CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& app) {
   using Command = CommandLine::Command;
   CommandLine line;
+  const std::vector<std::string> arguments = in_long_form(given);
+  line.other_program = arguments.empty() ? nullptr : other_program(arguments.front());
+  if (line.other_program != nullptr) {
+    line.command = Command::kOtherProgram;
+    line.other_arguments.assign(arguments.begin() + 1, arguments.end());
+    return line;
+  }
   std::string log_to_map;
   bool dump_config = false;
   add_value(app, "LOG", log_to_map,
@@ -270,11 +306,13 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   app.add_flag("-v,--verbose", line.verbose, "Also print the changed settings and the times of all stages");
   app.add_flag("--dump-config", dump_config, "Print a settings file with all options and exit");
   app.set_version_flag("--version", "psi-slam " PSI_SLAM_VERSION, "Print the version and exit");
+  app.add_subcommand("map", "Map a log. The word map may be left out");
   const std::vector<std::pair<CLI::App*, Command>> commands{
       {add_check(app, line), Command::kCheck}, {add_diff(app, line), Command::kDiff},
       {add_live(app, line), Command::kLive},   {add_localize(app, line), Command::kLocalize},
       {add_merge(app, line), Command::kMerge}, {add_options(app, line), Command::kOptions},
       {add_sweep(app, line), Command::kSweep}};
+  add_names(app);
   app.require_subcommand(0, 1);
   app.allow_extras();
   for (const auto& [command, kind] : commands) command->allow_extras();

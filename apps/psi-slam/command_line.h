@@ -11,6 +11,7 @@
 
 #include "config/option_table.h"
 #include "live_arguments.h"
+#include "other_programs.h"
 #include "psi_slam_app.h"
 #include "session/settings.h"
 #include "sweep_command.h"
@@ -24,9 +25,27 @@ struct DiffArguments {
   std::string min_length_m;  ///< empty: the default of WallChangeOptions
 };
 
+/// The arguments of psi-slam options alone.
+struct OptionsArguments {
+  std::string word;       ///< shows only options with this word in their name or description
+  bool common = false;    ///< shows only the options that most users need
+  bool markdown = false;  ///< prints a Markdown page of all options
+};
+
 /// The arguments of psi-slam, before their values are examined.
 struct CommandLine {
-  enum class Command { kMap, kCheck, kDiff, kLive, kLocalize, kMerge, kOptions, kDumpConfig, kSweep };
+  enum class Command {
+    kMap,
+    kCheck,
+    kDiff,
+    kLive,
+    kLocalize,
+    kMerge,
+    kOptions,
+    kDumpConfig,
+    kSweep,
+    kOtherProgram
+  };
 
   Command command = Command::kMap;
   std::string log;
@@ -46,10 +65,12 @@ struct CommandLine {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
-  bool markdown = false;
+  OptionsArguments options;
   DiffArguments diff;
   LiveArguments live;
   SweepArguments sweep;
+  const OtherProgram* other_program = nullptr;  ///< program to start instead
+  std::vector<std::string> other_arguments;     ///< its arguments
 };
 
 /// Parses the arguments with `app`, which must be new. Throws CLI::ParseError for --help, --version and

@@ -13,8 +13,9 @@
 namespace psi_slam {
 namespace {
 
-LivePose live_pose(const FrameRecord& record, std::size_t frame) {
-  return {record.time_us, record.map_T_robot, frame, record.match == ScanMatch::kMatched};
+LivePose live_pose(const FrameRecord& record, std::size_t frame, const Mapper& mapper) {
+  return {record.time_us, record.map_T_robot, frame, record.match == ScanMatch::kMatched,
+          mapper.newest_covariance()};
 }
 
 /// Throws UserError if the folder of the results has a journal of a run that was not finished, unless that
@@ -61,6 +62,7 @@ int map_live(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
   const SessionInput input = input_of(line, source, run.control(), bound, texts);
   const std::size_t resumed_scans = input.recording() ? input.recording()->frames.size() : 0;
+  bound.settings.mapper.estimates_covariance = poses == PoseFormat::kJson;
   MappingSession session(input, bound.settings);
   const ScopeExit leave([&] { run.leave(); });  // the source ends before the session, also after an error
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
@@ -68,7 +70,7 @@ int map_live(const CommandLine& line, const Streams& streams) {
   if (poses)
     session.set_pose_observer([&](const FrameRecord& record) {
       const std::size_t frame = session.mapper().frames().size() - 1;
-      if (frame >= resumed_scans) print_pose(streams.out, live_pose(record, frame), *poses);
+      if (frame >= resumed_scans) print_pose(streams.out, live_pose(record, frame, session.mapper()), *poses);
     });
   try {
     LiveMapping mapping(session, folder.path(), bound.settings, run.control().notify);

@@ -13,7 +13,7 @@ LiveMapping::LiveMapping(MappingSession& session, const std::filesystem::path& f
 
 bool LiveMapping::step() {
   if (!session_.step()) return false;
-  map_.update(session_.mapper());
+  map_.update(session_.mapper(), [&] { return session_.scan_waits(); });
   if (const auto news = journal_notice_.news(session_.journal_failure())) notify_(*news);
   if (const auto news = map_notice_.news(map_.failure())) notify_(*news);
   return true;

@@ -1,14 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <ostream>
 
 #include "commands.h"
+#include "exports/zone_files.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"
+#include "session/map_frame.h"
 #include "session/place_run.h"
 #include "session/recorded_settings.h"
 
 namespace psi_slam {
 namespace {
+
+/// Returns the edits of a session that is not the first input. Those of the drawn map follow its run. Says
+/// which of them cannot.
+EditJournal edits_of_later_run(const SessionInput& input, const std::string& name, const Streams& streams) {
+  BoundSettings recorded;
+  load_recorded(recorded, input.recording()->facts, name);
+  EditJournal edits = input.edits();
+  const auto frame = fixed_export_T_map(recorded.settings.map_frame);
+  if (frame) edits = edits.with_frames(*frame);
+  const auto count = [&](const auto& condition) {
+    return static_cast<std::size_t>(
+        std::count_if(edits.map_edits().begin(), edits.map_edits().end(), condition));
+  };
+  const auto crops = count([](const MapEdit& edit) { return edit.kind == MapEdit::Kind::kCrop; });
+  const auto without_place =
+      count([](const MapEdit& edit) { return edit.kind != MapEdit::Kind::kCrop && !follows_run(edit); });
+  if (crops > 0)
+    streams.err << "psi-slam: " << name
+                << ": its crop of the drawn map is left out, because it would cut off "
+                << "the other runs. Crop the merged map instead\n";
+  if (without_place > 0)
+    streams.err << "psi-slam: " << name << ": " << without_place
+                << (without_place == 1 ? " edit of the drawn map is" : " edits of the drawn map are")
+                << " left out, because map.align = walls turned the map by an angle that is not recorded. "
+                << "Save the session again with psi-slam --resume " << name
+                << " -o DIR --save-session FILE, and merge FILE\n";
+  return edits;
+}
+
+/// Throws UserError if zones of different inputs contradict each other.
+void check_zones_of(const std::vector<SessionInput>& inputs) {
+  EditJournal all;
+  for (const SessionInput& input : inputs) all.add(input.edits());
+  try {
+    check_zones(all.map_edits());
+  } catch (const UserError& error) {
+    throw UserError("the zones of these runs cannot be combined: " + std::string(error.what()));
+  }
+}
 
 /// Opens the inputs. The settings are those of the first session among the inputs, overridden by the command
 /// line.
@@ -25,6 +67,10 @@ std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bo
   // Edits at the end of the first run take effect before the next run begins.
   if (const auto& recording = inputs.front().recording())
     inputs.front() = inputs.front().with_edits(inputs.front().edits().of_run(0, recording->frames.size(), 0));
+  for (std::size_t i = 1; i < inputs.size(); ++i)
+    if (inputs[i].recording())
+      inputs[i] = inputs[i].with_edits(edits_of_later_run(inputs[i], line.inputs[i], streams));
+  check_zones_of(inputs);
   load_settings(line, bound, streams);
   for (std::size_t i = 0; i < inputs.size(); ++i)
     if (const auto& recording = inputs[i].recording())

@@ -5,7 +5,6 @@
 
 #include "base/exit_code.h"
 #include "commands.h"
-#include "config/settings_text.h"
 #include "run_program.h"
 
 namespace psi_slam {
@@ -33,12 +32,13 @@ int run(const CommandLine& line, const Streams& streams) {
     case CommandLine::Command::kMerge:
       return merge_runs(line, streams);
     case CommandLine::Command::kOptions:
-      streams.out << (line.markdown ? markdown_reference : help_text)(*default_settings());
-      return kExitDone;
+      return explain_options(line, streams);
     case CommandLine::Command::kDumpConfig:
       return dump_config(line, streams);
     case CommandLine::Command::kSweep:
       return run_sweep_command(line.sweep, local_workers(line.sweep.processes), "/proc/self/exe", streams);
+    case CommandLine::Command::kOtherProgram:
+      become(*line.other_program, line.other_arguments);
   }
   return kExitFailed;
 }

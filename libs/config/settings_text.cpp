@@ -79,14 +79,17 @@ std::string dump(const OptionTable& table) {
   return text;
 }
 
-std::string help_text(const OptionTable& table) {
+std::string help_text(const OptionTable& table, const std::function<bool(const Option&)>& selects) {
   std::string text;
   for (const OptionSection& section : table.sections()) {
-    if (!text.empty()) text += '\n';
-    text += '[' + section.name + "]  " + section.title + '\n';
+    std::string options;
     for (const Option& option : section.options)
-      text +=
-          "  " + option.name() + "\n      " + option.help + "\n      " + values_and_default(option) + '\n';
+      if (selects(option))
+        options +=
+            "  " + option.name() + "\n      " + option.help + "\n      " + values_and_default(option) + '\n';
+    if (options.empty()) continue;
+    if (!text.empty()) text += '\n';
+    text += '[' + section.name + "]  " + section.title + '\n' + options;
   }
   return text;
 }

@@ -3,6 +3,7 @@
 // to. Lists all options as a commented settings file, as help for a terminal, and as a page of the manual.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -30,8 +31,11 @@ std::string commented(const Option& option, const std::string& name);
 /// that its option does not accept.
 std::string dump(const OptionTable& table);
 
-/// Returns all options with their help, range and default, for a terminal.
-std::string help_text(const OptionTable& table);
+/// Returns the options that `selects` accepts with their help, range and default, for a terminal. Empty if
+/// there is none.
+std::string help_text(
+    const OptionTable& table,
+    const std::function<bool(const Option&)>& selects = [](const Option&) { return true; });
 
 /// Returns a Markdown page of all options, with a heading and a table for each section.
 std::string markdown_reference(const OptionTable& table);

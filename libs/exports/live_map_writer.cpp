@@ -34,12 +34,12 @@ LiveMapWriter::~LiveMapWriter() {
   thread_.join();
 }
 
-void LiveMapWriter::update(const Mapper& mapper) {
+void LiveMapWriter::update(const Mapper& mapper, const LiveGridMap::Hurry& hurry) {
   if (period_.count() == 0) return;
   const std::vector<FrameRecord>& frames = mapper.frames();
   poses_.take(frames);
-  map_.update(mapper.log(),
-              [&](std::size_t i) { return poses_.map_T_robot(i, frames, mapper.node_poses()); });
+  const auto map_T_robot = [&](std::size_t i) { return poses_.map_T_robot(i, frames, mapper.node_poses()); };
+  map_.update(mapper.log(), map_T_robot, hurry);
   const bool has_news = map_.work() != handed_work_ || failure();
   if (Clock::now() - last_ >= period_ && has_news && map_.is_complete()) hand_over();
 }

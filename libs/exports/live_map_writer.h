@@ -31,9 +31,10 @@ class LiveMapWriter {
   LiveMapWriter(const LiveMapWriter&) = delete;
   LiveMapWriter& operator=(const LiveMapWriter&) = delete;
 
-  /// Draws the new scans of the mapper and some of those that moved. If the period is over, hands the map to
-  /// the writing thread. Call it in the thread that calls the mapper, before finish().
-  void update(const Mapper& mapper);
+  /// Draws the new scans of the mapper and some of those that moved, fewer if `hurry` becomes true. If the
+  /// period is over, hands the map to the writing thread. Call it in the thread that calls the mapper, before
+  /// finish().
+  void update(const Mapper& mapper, const LiveGridMap::Hurry& hurry = {});
 
   /// Why the map could not be written the last time, a sentence without full stop; empty if it was written.
   std::optional<std::string> failure() const;

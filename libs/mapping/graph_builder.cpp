@@ -9,6 +9,7 @@
 #include "mapping/unplaced_runs.h"
 #include "pose_graph/information_matrix.h"
 #include "pose_graph/placed_covariances.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -65,6 +66,7 @@ BackEndStep GraphBuilder::add(const TrackedFrame& tracked) {
     for (const PlacedLocalMap& finished : tracked.step.finished) remember(finished);
     if (options_.close_loops) close_loops(*done.node, done);
     follow_graph();
+    if (options_.estimates_covariance) done.covariance = newest_covariance();
   }
   done.map_T_local = map_T_local_;
   return done;
@@ -141,6 +143,17 @@ void GraphBuilder::follow_graph() {
   map_T_local_ = graph_.pose(newest) + inverse(keyframes_.nodes[newest].local_T_robot);
 }
 
+/// Empty if the constraints do not determine the pose of the newest node.
+std::optional<NodeCovariance> GraphBuilder::newest_covariance() {
+  try {
+    const Eigen::Matrix3d& covariance = newest_covariance_.update(graph_);
+    return NodeCovariance{graph_.poses().back(), covariance, newest_covariance_.newest_drift(graph_)};
+  } catch (const UserError&) {
+    newest_covariance_ = {};
+    return std::nullopt;
+  }
+}
+
 GraphBuilder::Edited GraphBuilder::carry_out(const LoopEdit& edit, std::size_t node) {
   using State = LoopEditOutcome::State;
   const LoopPair pair{node, edit.local_map};
@@ -168,6 +181,7 @@ GraphBuilder::Edited GraphBuilder::carry_out(const LoopEdit& edit, std::size_t n
   if (edited.outcome.state == State::kImpossible) return edited;
   edited.joined = place_joined_runs(constraints_before);
   back_end_.optimize(graph_, solver_);
+  newest_covariance_ = {};  // the edit may have removed constraints
   follow_graph();
   return edited;
 }
@@ -182,6 +196,7 @@ void GraphBuilder::restore(Checkpoint&& before) {
   graph_ = std::move(before.graph);
   back_end_.ledger() = std::move(before.ledger);
   solver_ = std::move(before.solver);
+  newest_covariance_ = {};
 }
 
 }  // namespace psi_slam

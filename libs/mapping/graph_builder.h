@@ -14,6 +14,7 @@
 #include "loop_closure/loop_closure_factor.h"
 #include "mapping/back_end.h"
 #include "mapping/mapper_options.h"
+#include "pose_graph/newest_covariance.h"
 #include "pose_graph/sparse_pose_adjustment.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/pose_graph.h"
@@ -27,6 +28,13 @@ struct TrackedFrame {
   FrontEndStep step;
 };
 
+/// Covariance of a node relative to the root, in the axes of the map: m^2, m rad, rad^2.
+struct NodeCovariance {
+  mrpt::math::TPose2D map_T_node;
+  Eigen::Matrix3d covariance;
+  Eigen::Matrix3d drift;  ///< part of `covariance` that came with the way from the node before
+};
+
 /// Result of the back end for one frame.
 struct BackEndStep {
   std::size_t frame = 0;
@@ -37,6 +45,8 @@ struct BackEndStep {
   mrpt::math::TPose2D map_T_local;  ///< pose of the front end's frame in the map, with the loops of the frame
   /// Poses of all nodes if the frame moved earlier nodes; otherwise empty.
   std::vector<mrpt::math::TPose2D> map_T_node;
+  /// Covariance of the node, with the loops of the frame, if MapperOptions::estimates_covariance.
+  std::optional<NodeCovariance> covariance;
   std::vector<std::size_t> joined;  ///< interruptions whose runs the loops of this frame joined to the map
 };
 
@@ -94,6 +104,7 @@ class GraphBuilder {
   void close_loops(std::size_t node, BackEndStep& done);
   std::vector<std::size_t> place_joined_runs(std::size_t first_constraint);
   void follow_graph();
+  std::optional<NodeCovariance> newest_covariance();
 
   MapperOptions options_;
   BackEnd back_end_;
@@ -104,6 +115,7 @@ class GraphBuilder {
   bool is_start_provisional_ = false;
   std::optional<RunStart> run_start_;  ///< start of a run that begins with the next node; otherwise empty
   mrpt::math::TPose2D map_T_local_;
+  NewestCovariance newest_covariance_;
 };
 
 }  // namespace psi_slam

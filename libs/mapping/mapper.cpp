@@ -126,7 +126,7 @@ void Mapper::Implementation::complete_record(BackEndStep&& done) {
   for (const std::size_t interruption : done.joined)
     result_.interruptions[interruption].found_frame = done.frame;
   if (!done.node) return;
-  corrections_.push_back({*done.node, done.map_T_local, std::move(done.map_T_node)});
+  corrections_.push_back({*done.node, done.map_T_local, std::move(done.map_T_node), done.covariance});
   if (!options_.close_loops) return;
   const NodeLoops& loops = done.loops;
   record.matcher = loops.matcher;
@@ -149,6 +149,7 @@ void Mapper::Implementation::apply_corrections(std::size_t end_node) {
   for (; !corrections_.empty() && corrections_.front().node < end_node; corrections_.pop_front()) {
     Correction& correction = corrections_.front();
     map_T_local_ = correction.map_T_local;
+    note_covariance(correction);
     if (correction.map_T_node.empty()) continue;
     std::swap(map_T_node_, correction.map_T_node);
     for (std::size_t node = map_T_node_.size(); node < result_.node_frames.size(); ++node)
@@ -163,6 +164,7 @@ void Mapper::Implementation::wait() {
 // Waits for the back end and applies all its results, for a change by hand or a new run.
 void Mapper::Implementation::catch_up() {
   wait();
+  if (!corrections_.empty()) note_covariance(corrections_.back());
   corrections_.clear();
   map_T_local_ = builder_.map_T_local();
   map_T_node_ = builder_.graph().poses();
@@ -314,6 +316,25 @@ MappingResult Mapper::Implementation::finish(const std::function<bool(double)>& 
   return std::move(result_);
 }
 
+void Mapper::Implementation::note_covariance(const Correction& correction) {
+  corrected_node_ = correction.node;
+  covariance_ = correction.covariance;
+}
+
+// The covariance of the last node with a result of the back end is carried to the newest frame. Each node
+// between the two adds the drift of that node, and the frame the noise of its match.
+std::optional<Eigen::Matrix3d> Mapper::Implementation::newest_covariance() const {
+  if (!covariance_ || result_.frames.empty()) return std::nullopt;
+  const FrameRecord& newest = result_.frames.back();
+  Eigen::Matrix3d covariance =
+      carried_covariance(covariance_->covariance, covariance_->map_T_node, newest.map_T_robot);
+  covariance += static_cast<double>(result_.node_frames.size() - 1 - corrected_node_) * covariance_->drift;
+  const double sigma_m = options_.local_map_sigma_m;
+  const double sigma_rad = options_.local_map_sigma_rad;
+  covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
+  return covariance;
+}
+
 TPose2D Mapper::Implementation::map_T_robot() const {
   return result_.frames.empty() ? TPose2D(0, 0, 0) : map_T_local_ + result_.frames.back().front_end_T_robot;
 }
@@ -364,6 +385,9 @@ const std::vector<FrameRecord>& Mapper::frames() const {
 }
 const std::vector<TPose2D>& Mapper::node_poses() const {
   return implementation_->map_T_node();
+}
+std::optional<Eigen::Matrix3d> Mapper::newest_covariance() const {
+  return implementation_->newest_covariance();
 }
 std::size_t Mapper::missed_deadlines() const {
   return implementation_->missed_deadlines();

@@ -31,6 +31,7 @@ class Mapper::Implementation {
   mrpt::math::TPose2D map_T_robot() const;
   const std::vector<mrpt::math::TPose2D>& map_T_node() const { return map_T_node_; }
   std::size_t missed_deadlines() const { return missed_deadlines_; }
+  std::optional<Eigen::Matrix3d> newest_covariance() const;
   const MappingResult& result() const { return result_; }
   void wait();
   // The state of the back end; call wait() first.
@@ -52,6 +53,7 @@ class Mapper::Implementation {
     std::size_t node = 0;
     mrpt::math::TPose2D map_T_local;
     std::vector<mrpt::math::TPose2D> map_T_node;
+    std::optional<NodeCovariance> covariance;
   };
 
   double follow_odometry(FrameRecord& record);
@@ -65,6 +67,7 @@ class Mapper::Implementation {
   void take_results(std::size_t end);
   void complete_record(BackEndStep&& done);
   void apply_corrections(std::size_t end_node);
+  void note_covariance(const Correction& correction);
   void catch_up();
   void begin_run();
   void begin_unplaced_run();
@@ -92,6 +95,9 @@ class Mapper::Implementation {
   std::optional<mrpt::math::TPose2D> odom_T_run_;
   mrpt::math::TPose2D map_T_local_;              ///< pose of the front end's frame in the map
   std::vector<mrpt::math::TPose2D> map_T_node_;  ///< poses of all nodes, see Mapper::node_poses()
+  /// Node of the last correction that was applied, and its covariance.
+  std::size_t corrected_node_ = 0;
+  std::optional<NodeCovariance> covariance_;
   std::optional<Frame> bent_last_;    ///< last frame before the motion during its sweep was removed
   std::deque<std::size_t> repeated_;  ///< scans that lose their ranges if the robot stands a little longer
   MappingResult result_;

@@ -23,6 +23,8 @@ struct MapperOptions {
   std::size_t latency_nodes = 5;
   /// Whether loops are closed in a thread of their own, beside the front end. Has no effect on the results.
   bool back_end_thread = false;
+  /// Whether Mapper::newest_covariance() is estimated. Has no effect on other results.
+  bool estimates_covariance = false;
 };
 
 }  // namespace psi_slam

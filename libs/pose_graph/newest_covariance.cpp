@@ -13,15 +13,15 @@ using Eigen::Matrix3d;
 constexpr double kGrowth = 0.02;
 constexpr double kGrowthWithLoops = 0.005;
 
-// Derivative of the pose at the end of a motion by the pose at its beginning. Both are in the map.
-Matrix3d adjoint(const mrpt::math::TPose2D& begin, const mrpt::math::TPose2D& end) {
-  Matrix3d derivative = Matrix3d::Identity();
+}  // namespace
+
+Matrix3d carried_covariance(const Matrix3d& covariance, const mrpt::math::TPose2D& begin,
+                            const mrpt::math::TPose2D& end) {
+  Matrix3d derivative = Matrix3d::Identity();  // of the pose at the end by the pose at the beginning
   derivative(0, 2) = begin.y - end.y;
   derivative(1, 2) = end.x - begin.x;
-  return derivative;
+  return derivative * covariance * derivative.transpose();
 }
-
-}  // namespace
 
 const Matrix3d& NewestCovariance::update(const PoseGraph& graph) {
   // Constraints of local maps alone place the newest nodes. All others change the covariances of earlier
@@ -31,6 +31,11 @@ const Matrix3d& NewestCovariance::update(const PoseGraph& graph) {
   if (graph.num_nodes() > 1 && (is_due(graph.num_nodes()) || !carry_to_newest(graph))) compute(graph);
   nodes_ = graph.num_nodes();
   return covariance_;
+}
+
+Matrix3d NewestCovariance::newest_drift(const PoseGraph& graph) const {
+  if (graph.num_nodes() < 2) return Matrix3d::Zero();
+  return drift_covariance(graph, graph.num_nodes() - 1, mean_local_map_).value_or(Matrix3d::Zero());
 }
 
 bool NewestCovariance::is_due(std::size_t nodes) const {
@@ -43,8 +48,7 @@ bool NewestCovariance::carry_to_newest(const PoseGraph& graph) {
   for (std::size_t node = nodes_; node < graph.num_nodes(); ++node) {
     const std::optional<Matrix3d> drift = drift_covariance(graph, node, mean_local_map_);
     if (!drift) return false;
-    const Matrix3d moved = adjoint(graph.pose(node - 1), graph.pose(node));
-    covariance_ = moved * covariance_ * moved.transpose() + *drift;
+    covariance_ = carried_covariance(covariance_, graph.pose(node - 1), graph.pose(node)) + *drift;
   }
   return true;
 }

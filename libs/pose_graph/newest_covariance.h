@@ -2,6 +2,8 @@
 // Covariance of the newest node of a graph that grows, at a bounded cost.
 #pragma once
 
+#include <mrpt/math/TPose2D.h>
+
 #include <Eigen/Core>
 #include <cstddef>
 
@@ -9,6 +11,11 @@
 #include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
+
+/// Returns the covariance of the pose at the end of a motion that is known exactly, from that of the pose at
+/// its beginning. Both poses are in the map.
+Eigen::Matrix3d carried_covariance(const Eigen::Matrix3d& covariance, const mrpt::math::TPose2D& begin,
+                                   const mrpt::math::TPose2D& end);
 
 /// Covariance of the newest node as pose_covariance() defines it, for callers that ask after each node.
 /// Computes it again only after the graph has grown by a share: 0.5 % if it gained loops, otherwise 2 %. So
@@ -20,6 +27,10 @@ class NewestCovariance {
   /// m^2, m rad, rad^2. Zero for fewer than two nodes. `graph` must be the graph of the last call, which may
   /// have gained nodes and constraints. Throws UserError like pose_covariance().
   const Eigen::Matrix3d& update(const PoseGraph& graph);
+
+  /// Returns the drift of the model to the newest node of the graph of the last update(), see
+  /// drift_covariance(). Zero if the model has none.
+  Eigen::Matrix3d newest_drift(const PoseGraph& graph) const;
 
   /// Number of times that the covariance was computed from the whole graph.
   std::size_t computations() const { return computations_; }

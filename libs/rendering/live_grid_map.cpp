@@ -55,7 +55,7 @@ LiveGridMap::LiveGridMap(const LiveGridOptions& options)
   check_drawable(options.map);
 }
 
-void LiveGridMap::update(const std::vector<Frame>& log, const Poses& map_T_robot) {
+void LiveGridMap::update(const std::vector<Frame>& log, const Poses& map_T_robot, const Hurry& hurry) {
   follow_changes(log);
   for (std::size_t i = drawn_.size(); i < log.size(); ++i) {
     drawn_.emplace_back();
@@ -64,7 +64,7 @@ void LiveGridMap::update(const std::vector<Frame>& log, const Poses& map_T_robot
     if (i + kRecentFrames >= log.size()) recent_.push_back(log[i]);
   }
   while (recent_.size() > kRecentFrames) recent_.pop_front();
-  draw_moved(log, map_T_robot);
+  draw_moved(log, map_T_robot, hurry);
   use_coarser_cells_if_needed();
 }
 
@@ -80,7 +80,7 @@ void LiveGridMap::follow_changes(const std::vector<Frame>& log) {
   }
 }
 
-void LiveGridMap::draw_moved(const std::vector<Frame>& log, const Poses& map_T_robot) {
+void LiveGridMap::draw_moved(const std::vector<Frame>& log, const Poses& map_T_robot, const Hurry& hurry) {
   std::size_t redrawn = 0;
   const std::size_t checks = std::min(options_.checked_scans, drawn_.size());
   for (std::size_t check = 0; check < checks; ++check) {
@@ -88,7 +88,8 @@ void LiveGridMap::draw_moved(const std::vector<Frame>& log, const Poses& map_T_r
     Drawn& drawn = drawn_[next_check_];
     const TPose2D pose = map_T_robot(next_check_);
     if (!drawn.is_drawn || !is_same_place(pose, drawn.map_T_robot, options_.moved)) {
-      if (redrawn++ == options_.redrawn_scans) return;
+      if (redrawn == options_.redrawn_scans || (redrawn > 0 && hurry && hurry())) return;
+      ++redrawn;
       const Frame& frame = as_drawn(next_check_, log);
       if (drawn.is_drawn && has_ranges(frame) != drawn.has_ranges) return start_again(resolution_m_);
       take_out(frame, drawn);

@@ -37,14 +37,17 @@ class LiveGridMap {
  public:
   /// Returns the pose of the robot in the map at a frame.
   using Poses = std::function<mrpt::math::TPose2D(std::size_t frame)>;
+  /// Returns whether other work waits.
+  using Hurry = std::function<bool()>;
 
   /// Throws std::invalid_argument if an option is out of range.
   explicit LiveGridMap(const LiveGridOptions& options);
 
   /// Draws the frames that `log` has more than at the last call. Then compares the poses of earlier frames in
-  /// turn, from where the last call ended, and draws those again that have moved. The mapper may change or
-  /// discard the ranges of the last frames between the calls. Throws as draw_grid_map() does.
-  void update(const std::vector<Frame>& log, const Poses& map_T_robot);
+  /// turn, from where the last call ended, and draws those again that have moved: one of them at least, and
+  /// no more once `hurry` is true. The mapper may change or discard the ranges of the last frames between the
+  /// calls. Throws as draw_grid_map() does.
+  void update(const std::vector<Frame>& log, const Poses& map_T_robot, const Hurry& hurry = {});
 
   /// Whether all frames of the last call were drawn close to their poses in that and earlier calls.
   bool is_settled() const { return unmoved_ >= drawn_.size(); }
@@ -72,7 +75,7 @@ class LiveGridMap {
   void draw(const Frame& frame, const mrpt::math::TPose2D& map_T_robot, Drawn& drawn);
   void take_out(const Frame& frame, Drawn& drawn);
   void follow_changes(const std::vector<Frame>& log);
-  void draw_moved(const std::vector<Frame>& log, const Poses& map_T_robot);
+  void draw_moved(const std::vector<Frame>& log, const Poses& map_T_robot, const Hurry& hurry);
   const Frame& as_drawn(std::size_t frame, const std::vector<Frame>& log) const;
   void use_coarser_cells_if_needed();
   void start_again(double resolution_m);

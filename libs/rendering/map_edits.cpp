@@ -105,6 +105,25 @@ std::string complaint(const MapEdit& edit) {
 
 }  // namespace
 
+std::string text_of(const MapEdit& edit) {
+  switch (edit.kind) {
+    case Kind::kErase:
+      return "erase polygon";
+    case Kind::kUnknown:
+      return "mark polygon as unknown";
+    case Kind::kWall:
+      return "draw wall";
+    case Kind::kCrop:
+      return "crop map";
+    case Kind::kKeepOut:
+      return "add keep-out zone";
+    case Kind::kSlow:
+      return "add slow zone of " + (edit.percent > 0 ? trimmed_text(edit.percent, 2) + " %"
+                                                     : trimmed_text(edit.max_speed_mps, 3) + " m/s");
+  }
+  return "";
+}
+
 std::size_t for_each_cell_of(const MapEdit& edit, const Grid& grid,
                              const std::function<void(int x, int y)>& visit) {
   const bool is_line = edit.kind == Kind::kWall;

@@ -12,9 +12,11 @@
 
 #include "psi_slam/frame.h"
 #include "psi_slam/grid_map.h"
+#include "rendering/map_edits.h"
 #include "rendering/map_image.h"
 #include "replay/background_thread.h"
 #include "replay/shared_history.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 
@@ -25,22 +27,33 @@ struct MapSketch {
   std::vector<mrpt::math::TPose2D> map_T_robot;  ///< pose of the robot at each of `frames`
 };
 
-/// A drawn grid map, which never changes.
+/// The zones of one kind.
+struct DrawnZones {
+  MapEdit::Kind kind = MapEdit::Kind::kKeepOut;
+  MapRaster raster;  ///< dark in the zones, transparent elsewhere
+};
+
+/// A drawn grid map with its edits, which never changes.
 struct DrawnMap {
   MapRaster raster;  ///< transparent where nothing was observed
   std::size_t scans = 0;
+  std::vector<DrawnZones> zones{};
 };
 
 /// Draws the grid map of a run in a thread of its own, so that neither the mapper nor the window waits.
 class MapPainter {
  public:
-  explicit MapPainter(const GridMapOptions& options);
+  /// `frame` is the frame of edits that state none.
+  MapPainter(const GridMapOptions& options, MapFrameOptions frame, std::vector<MapEdit> edits);
   /// Waits until the current drawing is finished.
   ~MapPainter() { stop(); }
 
   /// Asks for a drawing; replaces a request that still waits. After each drawing the thread sleeps twice as
   /// long as it worked, so that it uses at most a third of one processor.
   void request(MapSketch sketch);
+
+  /// Replaces the edits. Applies them at once to the scans that were drawn last.
+  void show_edits(std::vector<MapEdit> edits);
 
   /// Makes the thread start no further drawing.
   void stop();
@@ -54,9 +67,12 @@ class MapPainter {
   void work();
 
   const GridMapOptions options_;
+  const MapFrameOptions frame_;
   mutable std::mutex mutex_;  // guards the members up to stop_
   std::condition_variable changed_;
   std::optional<MapSketch> wanted_;
+  std::vector<MapEdit> edits_;
+  bool edits_changed_ = false;
   std::shared_ptr<const DrawnMap> drawn_;
   bool stop_ = false;
 

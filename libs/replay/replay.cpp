@@ -6,6 +6,7 @@
 
 #include "base/failure_notice.h"
 #include "base/scope_exit.h"
+#include "psi_slam/user_error.h"
 #include "replay/snapshot_maker.h"
 #include "report/output_folder.h"
 
@@ -50,10 +51,10 @@ Replay::Replay(SessionInput input, const Settings& settings, std::shared_ptr<Liv
       settings_(settings),
       live_(std::move(live)),
       outline_(live_ ? nullptr : std::make_unique<LogOutline>(input_, log_options(settings))),
-      painter_(settings.map),
+      painter_(settings.map, settings.map_frame, input_.edits().map_edits()),
       maker_(std::make_unique<SnapshotMaker>(
           PsiThresholds{settings.mapper.back_end.psi.psi_1, settings.mapper.back_end.psi.psi_2},
-          input_.edits().edits(), live_ != nullptr)),
+          input_.edits(), live_ != nullptr)),
       snapshot_(maker_->snapshot(phase_)),
       thread_(run_in_background([this] { run(); })) {}
 
@@ -122,7 +123,11 @@ void Replay::map_until_closed(MappingSession& session) {
 void Replay::finish_map(MappingSession& session) {
   phase_ = ReplayPhase::kFinalSearch;
   publish();  // the last snapshot before finish(), with all scans
-  locked([&] { stop_final_search_ = close_ || cut_final_search_ || !edit_requests_.empty(); });
+  locked([&] {
+    stop_final_search_ = close_ || cut_final_search_ ||
+                         std::any_of(edit_requests_.begin(), edit_requests_.end(),
+                                     [](const EditRequest& request) { return request.is_of_loop(); });
+  });
   session.finish(stop_final_search_);
   session_ = nullptr;
   locked([&] { final_search_stopped_ = stop_final_search_ && !cut_final_search_ && !close_; });
@@ -226,37 +231,100 @@ void Replay::serve_edits(MappingSession& session) {
     cut_final_search_ = false;
     return std::exchange(edit_requests_, {});
   });
-  for (const EditRequest& request : requests) make_edit(session, request);
+  bool concerned_loops = false;
+  for (const EditRequest& request : requests) concerned_loops |= make_edit(session, request);
   maker_->now.edits_served += static_cast<int>(requests.size());
-  if (session.finished()) {  // no edit could be made
+  note_edits(session);
+  if (session.finished()) {  // no loop could be edited
     if (!final_search_stopped_) return;
     session.reopen();
+    concerned_loops = true;
   }
   if (phase_ == ReplayPhase::kFinished) phase_ = ReplayPhase::kFinalSearch;
-  stale_ = true;
   session_ = &session;
-  maker_->note_edits(session.edits().edits(), edit_history_);
+  if (concerned_loops) {
+    stale_ = true;
+    maker_->note_changed_loops();
+  }
   publish();
 }
 
-void Replay::make_edit(MappingSession& session, const EditRequest& request) {
-  EditHistory::Reversal wanted{request.edit, {}};
+/// Makes, undoes or redoes an edit. Returns whether it is an edit of a loop.
+bool Replay::make_edit(MappingSession& session, const EditRequest& request) {
+  const bool of_loop = concerns_loop(request);
   if (request.kind == EditKind::kUndo) {
-    auto back = edit_history_.undo();
-    if (!back) return;
-    wanted = *std::move(back);
-  } else if (request.kind == EditKind::kRedo) {
-    const auto again = edit_history_.redo();
-    if (!again) return;
-    wanted.edit = *again;
+    const auto back = edit_history_.undo();
+    if (back && of_loop) make_loop_edit(session, std::get<EditHistory::Reversal>(*back), false);
+    if (back && !of_loop) undo_map_edit(session, std::get<MapEdit>(*back));
+    return of_loop;
   }
+  const bool is_new = request.kind == EditKind::kEdit;
+  const std::optional<AnyEdit> edit = is_new ? request.edit : edit_history_.redo();
+  if (edit && of_loop) make_loop_edit(session, {std::get<LoopEdit>(*edit), {}}, is_new);
+  if (edit && !of_loop) make_map_edit(session, std::get<MapEdit>(*edit), is_new);
+  return of_loop;
+}
+
+void Replay::make_loop_edit(MappingSession& session, const EditHistory::Reversal& wanted, bool is_new) {
   const std::optional<LoopEdit> before = session.edits().in_force(wanted.edit);
   std::vector<TimedEdit> later = session.edits().to_come(wanted.edit);
   const LoopEditOutcome outcome = session.edit(wanted.edit);
   session.plan(wanted.later);
   const bool made = outcome.state != LoopEditOutcome::State::kImpossible;
-  if (made && request.kind == EditKind::kEdit) edit_history_.note(wanted.edit, before, std::move(later));
+  if (made && is_new) edit_history_.note(wanted.edit, before, std::move(later));
   maker_->now.edited = EditOutcome{++edits_made_, wanted.edit, outcome};
+}
+
+void Replay::make_map_edit(MappingSession& session, const MapEdit& edit, bool is_new) {
+  LoopEditOutcome outcome;
+  try {
+    session.edit(edit);
+    if (is_new) edit_history_.note(edit);
+  } catch (const UserError& error) {
+    outcome = {LoopEditOutcome::State::kImpossible, error.what()};
+  }
+  maker_->now.edited = EditOutcome{++edits_made_, edit, outcome};
+}
+
+void Replay::undo_map_edit(MappingSession& session, const MapEdit& edit) {
+  session.remove_last_map_edit();  // all later ones were undone before
+  maker_->now.edited = EditOutcome{++edits_made_, edit, {}, true};
+}
+
+/// Shows the edits of the session.
+void Replay::note_edits(const MappingSession& session) {
+  maker_->note_edits(session.edits(), edit_history_);
+  painter_.show_edits(session.edits().map_edits());
+}
+
+/// Returns whether a request makes, undoes or redoes an edit of a loop.
+bool Replay::concerns_loop(const EditRequest& request) const {
+  if (request.kind == EditKind::kEdit) return request.is_of_loop();
+  const AnyEdit* const edit =
+      request.kind == EditKind::kUndo ? edit_history_.next_undo() : edit_history_.next_redo();
+  return edit != nullptr && std::holds_alternative<LoopEdit>(*edit);
+}
+
+/// Makes the waiting edits of the drawn map during the final loop search. An edit of a loop stops the search,
+/// and serve_edits() makes it.
+void Replay::serve_map_edits() {
+  const auto next = [this]() -> std::optional<EditRequest> {
+    const std::lock_guard lock(mutex_);
+    if (edit_requests_.empty()) return std::nullopt;
+    const EditRequest request = edit_requests_.front();
+    if (concerns_loop(request)) {
+      stop_final_search_ = true;
+      return std::nullopt;
+    }
+    edit_requests_.erase(edit_requests_.begin());
+    return request;
+  };
+  while (const std::optional<EditRequest> request = next()) {
+    make_edit(*session_, *request);
+    ++maker_->now.edits_served;
+    note_edits(*session_);
+    publish_as_it_is();
+  }
 }
 
 void Replay::save_once(const MappingSession& session) {
@@ -294,7 +362,10 @@ void Replay::observe(const SessionProgress& progress) {
     maker_->follow_local_maps(session_->mapper());
   }
   if (Clock::now() >= next_publication()) publish();
-  if (progress.phase == SessionProgress::Phase::kFinalSearch) hold_final_search();
+  if (progress.phase == SessionProgress::Phase::kFinalSearch) {
+    serve_map_edits();
+    hold_final_search();
+  }
 }
 
 /// Publishes only now and then while scans wait, because a snapshot waits for the back end.
@@ -310,7 +381,12 @@ void Replay::hold_final_search() {
   if (continues()) return;
   maker_->now.final_search_held = true;
   publish_unlocked(lock);
-  changed_.wait(lock, continues);
+  while (!continues()) {
+    changed_.wait(lock, [&] { return continues() || !edit_requests_.empty(); });
+    lock.unlock();
+    serve_map_edits();
+    lock.lock();
+  }
   lock.unlock();
   maker_->now.final_search_held = false;
   publish();

@@ -112,6 +112,8 @@ class Replay {
   /// Changes a loop by hand, between two scans or after the last scan. An edit after the last scan repeats
   /// the final loop search. ReplaySnapshot::edited has the outcome.
   void edit(const LoopEdit& edit) { request({EditKind::kEdit, edit}); }
+  /// Adds an edit of the drawn map, which drawn_map() then shows, also during the final loop search.
+  void edit(const MapEdit& edit) { request({EditKind::kEdit, edit}); }
   /// Undoes the last edit made by edit(). Never undoes edits given to the constructor.
   void undo() { request({EditKind::kUndo}); }
   /// Redoes the edit that was undone last.
@@ -153,7 +155,8 @@ class Replay {
   enum class EditKind { kEdit, kUndo, kRedo };
   struct EditRequest {
     EditKind kind = EditKind::kEdit;
-    LoopEdit edit{};
+    AnyEdit edit{};
+    bool is_of_loop() const { return kind == EditKind::kEdit && std::holds_alternative<LoopEdit>(edit); }
   };
   struct ExportRequest {
     std::filesystem::path folder;
@@ -178,7 +181,7 @@ class Replay {
     ++edits_asked_;
     change([&] {
       edit_requests_.push_back(edit);
-      stop_final_search_ = true;
+      if (edit.is_of_loop()) stop_final_search_ = true;
     });
   }
   void run() noexcept;
@@ -192,7 +195,13 @@ class Replay {
   void finish_map(MappingSession& session);
   bool serve_finished(MappingSession& session);
   void serve_edits(MappingSession& session);
-  void make_edit(MappingSession& session, const EditRequest& request);
+  bool make_edit(MappingSession& session, const EditRequest& request);
+  void make_loop_edit(MappingSession& session, const EditHistory::Reversal& wanted, bool is_new);
+  void make_map_edit(MappingSession& session, const MapEdit& edit, bool is_new);
+  void undo_map_edit(MappingSession& session, const MapEdit& edit);
+  void note_edits(const MappingSession& session);
+  bool concerns_loop(const EditRequest& request) const;
+  void serve_map_edits();
   void save_once(const MappingSession& session);
   void export_once(MappingSession& session);
   void observe(const SessionProgress& progress);

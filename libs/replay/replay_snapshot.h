@@ -44,7 +44,7 @@ struct ActiveLocalMap {
 /// The part of a run that has been written to files.
 struct WrittenWork {
   std::size_t scans = 0;
-  std::shared_ptr<const std::vector<TimedEdit>> edits = std::make_shared<std::vector<TimedEdit>>();
+  std::shared_ptr<const EditJournal> edits = std::make_shared<EditJournal>();
 };
 
 /// Outcome of exporting results or saving a session.
@@ -59,8 +59,9 @@ struct WriteOutcome {
 /// Outcome of an edit.
 struct EditOutcome {
   int number = 0;  ///< number of the edit, from 1
-  LoopEdit edit;
+  AnyEdit edit;
   LoopEditOutcome outcome;
+  bool undone = false;  ///< an edit of the drawn map that was removed again
 };
 
 struct ReplaySnapshot {
@@ -97,7 +98,7 @@ struct ReplaySnapshot {
   std::shared_ptr<const std::vector<LoopRecord>> loops = std::make_shared<std::vector<LoopRecord>>();
 
   /// Edits made so far and edits planned for later scans; never null.
-  std::shared_ptr<const std::vector<TimedEdit>> edits = std::make_shared<std::vector<TimedEdit>>();
+  std::shared_ptr<const EditJournal> edits = std::make_shared<EditJournal>();
   std::optional<EditOutcome> edited;  ///< outcome of the last edit
   int edits_served = 0;               ///< number of calls in Replay::edits_asked() that have an outcome
   std::string undo_text;  ///< text of the edit that Replay::undo() would undo; empty if there is none

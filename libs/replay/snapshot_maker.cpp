@@ -31,10 +31,10 @@ mrpt::math::TPose2D map_T_frame(const ReplaySnapshot& snapshot, std::size_t fram
   return (*snapshot.map_T_node)[node] + node_T_frame;
 }
 
-SnapshotMaker::SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits, bool live) {
+SnapshotMaker::SnapshotMaker(const PsiThresholds& psi, const EditJournal& edits, bool live) {
   now.psi = psi;
   now.live = live;
-  now.edits = std::make_shared<std::vector<TimedEdit>>(edits);
+  now.edits = std::make_shared<EditJournal>(edits);
 }
 
 void SnapshotMaker::note_save(WriteOutcome outcome) {
@@ -79,10 +79,13 @@ void SnapshotMaker::follow_log(const std::vector<Frame>& log) {
   }
 }
 
-void SnapshotMaker::note_edits(const std::vector<TimedEdit>& edits, const EditHistory& history) {
-  now.edits = std::make_shared<std::vector<TimedEdit>>(edits);
+void SnapshotMaker::note_edits(const EditJournal& edits, const EditHistory& history) {
+  now.edits = std::make_shared<EditJournal>(edits);
   now.undo_text = history.undo_text();
   now.redo_text = history.redo_text();
+}
+
+void SnapshotMaker::note_changed_loops() {
   now.node_covariances = std::make_shared<std::vector<std::optional<Eigen::Matrix3d>>>();
   now.verdict.reset();
   loops_changed_ = true;

@@ -16,10 +16,10 @@ namespace psi_slam {
 class SnapshotMaker {
  public:
   /// `edits` are the edits that are planned before the run starts. `live`: see ReplaySnapshot::live.
-  SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits, bool live);
+  SnapshotMaker(const PsiThresholds& psi, const EditJournal& edits, bool live);
 
   /// The next snapshot. The caller may set all members except the histories and the members that
-  /// note_export(), note_save(), note_edits(), follow() and take() set.
+  /// note_export(), note_save(), note_edits(), note_changed_loops(), follow() and take() set.
   ReplaySnapshot now;
 
   /// Notes that a scan was mapped. `share` is the share of the log read so far, in [0, 1].
@@ -28,8 +28,10 @@ class SnapshotMaker {
   void note_export(WriteOutcome outcome);
   /// Notes the outcome of saving a session.
   void note_save(WriteOutcome outcome);
+  /// Notes that edits were made or undone.
+  void note_edits(const EditJournal& edits, const EditHistory& history);
   /// Notes that edits have changed loops and poses.
-  void note_edits(const std::vector<TimedEdit>& edits, const EditHistory& history);
+  void note_changed_loops();
 
   /// When follow() copies the active local maps, which is expensive: at each call, or at most every 400 ms.
   enum class ActiveMaps { kAtOnce, kNowAndThen };

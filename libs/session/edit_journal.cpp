@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <sstream>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
@@ -13,6 +14,7 @@
 #include "compression/line_reader.h"
 #include "exports/zone_files.h"
 #include "psi_slam/user_error.h"
+#include "rendering/placed_edits.h"
 #include "session/edit_values.h"
 #include "session/map_edit_line.h"
 
@@ -192,7 +194,11 @@ bool EditJournal::forget_later(const LoopEdit& same) {
 EditJournal EditJournal::of_run(std::size_t first_scan, std::size_t scans,
                                 std::size_t first_local_map) const {
   EditJournal journal;
-  if (first_scan == 0) journal.map_edits_ = map_edits_;
+  for (MapEdit edit : map_edits_) {
+    if (first_scan > 0 && !follows_run(edit)) continue;
+    edit.scan += first_scan;
+    journal.add(edit);
+  }
   for (TimedEdit edit : edits_) {
     edit.edit.frame += first_scan;
     edit.edit.local_map += first_local_map;
@@ -204,6 +210,12 @@ EditJournal EditJournal::of_run(std::size_t first_scan, std::size_t scans,
       edit.time = {EditTime::Kind::kAfterScan, first_scan - 1};
     journal.add(edit);
   }
+  return journal;
+}
+
+EditJournal EditJournal::with_frames(const mrpt::math::TPose2D& export_T_map) const {
+  EditJournal journal = *this;
+  for (MapEdit& edit : journal.map_edits_) edit = with_frame(std::move(edit), export_T_map);
   return journal;
 }
 

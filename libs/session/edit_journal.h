@@ -17,6 +17,8 @@
 //     keep_out polygon=7,1;9,1;9,3
 //     slow polygon=10,1;12,1;12,3 percent=40
 //     slow polygon=10,1;12,1;12,3 max_speed_mps=0.3
+//     erase polygon=1,2;3,2;3,4.5 frame=2.5,0,90
+//     erase polygon=1,2;3,2;3,4.5 frame=0,0,0 scan=1500
 //
 // Without `after`, an edit is made as soon as its scan and its local map exist. x_m, y_m and yaw_deg are the
 // pose of the robot at the scan in the frame of the local map; window_m and window_deg are half-widths of the
@@ -24,7 +26,8 @@
 // final loop search finds. Older files call it attempt=last_pass.
 //
 // The edits from `erase` on change the drawn map, see MapEdit. They are made in the order of their lines,
-// after the last scan. Their points are metres in the frame of the exported map.
+// after the last scan. Their points are metres: in the frame of the exported map, or in a frame in which the
+// robot has the pose `frame` (x, y, yaw in degrees) at its first scan, or at the scan `scan`.
 #pragma once
 
 #include <cstddef>
@@ -32,6 +35,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <variant>
 #include <vector>
 
 #include "psi_slam/loop_record.h"
@@ -59,17 +63,35 @@ struct TimedEdit {
   EditTime time;
 };
 
+/// A change that a person makes: of a loop, or of the drawn map.
+using AnyEdit = std::variant<LoopEdit, MapEdit>;
+
+inline std::string text_of(const AnyEdit& edit) {
+  return std::visit([](const auto& of_kind) { return text_of(of_kind); }, edit);
+}
+
+/// Returns whether an edit can follow its run into a map of several runs: it states its frame, and it is no
+/// crop, which would cut off the other runs.
+inline bool follows_run(const MapEdit& edit) {
+  return edit.frame_T_robot && edit.kind != MapEdit::Kind::kCrop;
+}
+
 class EditJournal {
  public:
   /// All edits of loops, in the order in which they are made.
   const std::vector<TimedEdit>& edits() const { return edits_; }
   /// Edits of the drawn map, in their order.
   const std::vector<MapEdit>& map_edits() const { return map_edits_; }
-  bool empty() const { return edits_.empty() && map_edits_.empty(); }
+  std::size_t size() const { return edits_.size() + map_edits_.size(); }
+  bool empty() const { return size() == 0; }
 
   /// Inserts an edit by its time, after the edits of the same time.
   void add(const TimedEdit& edit);
   void add(const MapEdit& edit) { map_edits_.push_back(edit); }
+  /// Removes the last edit of the drawn map, if there is one.
+  void remove_last_map_edit() {
+    if (!map_edits_.empty()) map_edits_.pop_back();
+  }
   /// Adds all edits of another journal.
   void add(const EditJournal& others);
 
@@ -91,9 +113,12 @@ class EditJournal {
 
   /// Returns these edits of one run, renumbered for a map of several runs. The run has `scans` scans,
   /// numbered from `first_scan`, and local maps numbered from `first_local_map`. Edits at the end of the run
-  /// are made after its last scan. Edits of the drawn map are kept only for the first run, whose frame the
-  /// map has.
+  /// are made after its last scan. Of a run that is not the first one, keeps only the edits of the drawn map
+  /// for which follows_run() is true.
   EditJournal of_run(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
+
+  /// Returns the edits with the frame of each edit of the drawn map, see with_frame().
+  EditJournal with_frames(const mrpt::math::TPose2D& export_T_map) const;
 
   /// Returns the edits as the text of a file.
   std::string text() const;

@@ -24,7 +24,18 @@ std::vector<std::string> keys_of(MapEditKind kind) {
   std::vector<std::string> keys{points_key(kind)};
   if (kind == MapEditKind::kWall) keys.emplace_back("width_m");
   if (kind == MapEditKind::kSlow) keys.insert(keys.end(), {"percent", "max_speed_mps"});
+  keys.insert(keys.end(), {"frame", "scan"});
   return keys;
+}
+
+/// Reads "X,Y", two coordinates in metres. Empty for any other text.
+std::optional<mrpt::math::TPoint2D> point_of(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos) return std::nullopt;
+  const auto x = parse_number(text.substr(0, comma));
+  const auto y = parse_number(text.substr(comma + 1));
+  if (!x || !y || std::abs(*x) > kFarthest_m || std::abs(*y) > kFarthest_m) return std::nullopt;
+  return mrpt::math::TPoint2D(*x, *y);
 }
 
 std::vector<mrpt::math::TPoint2D> points_of(const EditValues& values, const char* key, std::size_t least) {
@@ -36,15 +47,24 @@ std::vector<mrpt::math::TPoint2D> points_of(const EditValues& values, const char
   std::vector<mrpt::math::TPoint2D> points;
   std::istringstream parts(text);
   for (std::string part; std::getline(parts, part, ';');) {
-    const std::size_t comma = part.find(',');
-    const auto x = parse_number(std::string_view(part).substr(0, comma));
-    const auto y =
-        comma == std::string::npos ? std::nullopt : parse_number(std::string_view(part).substr(comma + 1));
-    if (!x || !y || std::abs(*x) > kFarthest_m || std::abs(*y) > kFarthest_m) refuse();
-    points.emplace_back(*x, *y);
+    const auto point = point_of(part);
+    if (!point) refuse();
+    points.push_back(*point);
   }
   if (points.size() < least) refuse();
   return points;
+}
+
+/// Reads frame=X,Y,YAW in metres and degrees.
+mrpt::math::TPose2D frame_of(const EditValues& values) {
+  const std::string_view text = values.text("frame");
+  const std::size_t comma = text.rfind(',');
+  const auto point = point_of(text.substr(0, comma));
+  const auto yaw_rad = comma == std::string_view::npos ? std::nullopt : parse_degrees(text.substr(comma + 1));
+  if (!point || !yaw_rad)
+    throw UserError("frame=" + std::string(text) +
+                    ": expected the pose of the robot X,Y,YAW in metres and degrees, such as 2.5,0,90");
+  return {point->x, point->y, *yaw_rad};
 }
 
 double number_in(const EditValues& values, const char* key, double most) {
@@ -73,7 +93,12 @@ std::optional<MapEdit> parse_map_edit_line(std::string_view line) {
     const EditValues values(words, keys_of(kind));
     MapEdit edit;
     edit.kind = kind;
-    edit.points = points_of(values, points_key(kind), kind == MapEditKind::kWall ? 2 : 3);
+    edit.points = points_of(values, points_key(kind), least_points(kind));
+    if (values.has("frame")) edit.frame_T_robot = frame_of(values);
+    if (values.has("scan")) edit.scan = values.whole("scan");
+    if (values.has("scan") && !values.has("frame"))
+      throw UserError("scan=" + values.text("scan") +
+                      ": expected also frame=X,Y,YAW, the pose of the robot at this scan. Add it");
     if (values.has("width_m")) edit.width_m = number_in(values, "width_m", 100);
     if (values.has("percent")) edit.percent = percent_of(values);
     if (values.has("max_speed_mps")) edit.max_speed_mps = number_in(values, "max_speed_mps", 100);
@@ -95,6 +120,10 @@ std::string map_edit_line(const MapEdit& edit) {
   if (edit.width_m > 0) line += " width_m=" + exact_text(edit.width_m);
   if (edit.percent > 0) line += " percent=" + exact_text(edit.percent);
   if (edit.max_speed_mps > 0) line += " max_speed_mps=" + exact_text(edit.max_speed_mps);
+  if (edit.frame_T_robot)
+    line += " frame=" + exact_text(edit.frame_T_robot->x) + ',' + exact_text(edit.frame_T_robot->y) + ',' +
+            exact_degrees_text(edit.frame_T_robot->phi);
+  if (edit.scan > 0) line += " scan=" + std::to_string(edit.scan);
   return line;
 }
 

@@ -21,17 +21,27 @@ std::vector<mrpt::math::TPose2D> moved(std::vector<mrpt::math::TPose2D> poses,
   return poses;
 }
 
+mrpt::math::TPose2D exported_frame(double turn_rad, const MapFrameOptions& options) {
+  return {0 - options.origin_x_m, 0 - options.origin_y_m, turn_rad};  // never -0, which has another text
+}
+
 }  // namespace
 
+mrpt::math::TPose2D export_T_map(const std::vector<Frame>& log,
+                                 const std::vector<mrpt::math::TPose2D>& map_T_robot,
+                                 const MapFrameOptions& options) {
+  if (const auto fixed = fixed_export_T_map(options)) return *fixed;
+  return exported_frame(0 - wall_direction_rad(log, map_T_robot), options);
+}
+
 mrpt::math::TPose2D export_T_map(const MappingResult& result, const MapFrameOptions& options) {
-  mrpt::math::TPose2D frame(0, 0, 0);
-  if (options.align == MapFrameOptions::kWalls)
-    frame.phi -= wall_direction_rad(result.log, mapped_poses(result));
-  else if (options.align != MapFrameOptions::kNone)
-    frame.phi = parse_degrees(options.align).value_or(0);
-  frame.x -= options.origin_x_m;
-  frame.y -= options.origin_y_m;
-  return frame;
+  return export_T_map(result.log, mapped_poses(result), options);
+}
+
+std::optional<mrpt::math::TPose2D> fixed_export_T_map(const MapFrameOptions& options) {
+  if (options.align == MapFrameOptions::kWalls) return std::nullopt;
+  const bool turned = options.align != MapFrameOptions::kNone;
+  return exported_frame(turned ? parse_degrees(options.align).value_or(0) : 0, options);
 }
 
 ExportedPoses::ExportedPoses(MappingResult& result, const mrpt::math::TPose2D& export_T_map)

@@ -111,6 +111,10 @@ bool MappingSession::step() {
   return true;
 }
 
+bool MappingSession::scan_waits() const {
+  return m_->state == Members::State::kReading && m_->source->is_ready();
+}
+
 void MappingSession::Members::read_from(OpenedInput opened) {
   source = std::move(opened.frames);
   logs.back().calibration = std::move(opened.calibration);
@@ -217,10 +221,10 @@ void MappingSession::reopen() {
 }
 
 void MappingSession::add_edits(const EditJournal& edits) {
-  std::vector<MapEdit> map_edits = m_->edits.map_edits();
-  map_edits.insert(map_edits.end(), edits.map_edits().begin(), edits.map_edits().end());
-  check_zones(map_edits);
-  m_->edits.add(edits);
+  EditJournal all = m_->edits;
+  all.add(edits);
+  check_zones(all.map_edits());
+  m_->edits = std::move(all);
   m_->make_due_edits({});
   m_->update_journal();
 }
@@ -257,6 +261,19 @@ LoopEditOutcome MappingSession::edit(const LoopEdit& edit) {
   m_->edits.enter({edit, now});
   m_->update_journal();
   return outcome;
+}
+
+void MappingSession::edit(const MapEdit& edit) {
+  std::vector<MapEdit> all = m_->edits.map_edits();
+  all.push_back(edit);
+  check_zones(all);
+  m_->edits.add(edit);
+  m_->update_journal();
+}
+
+void MappingSession::remove_last_map_edit() {
+  m_->edits.remove_last_map_edit();
+  m_->update_journal();
 }
 
 void MappingSession::plan(const std::vector<TimedEdit>& edits) {

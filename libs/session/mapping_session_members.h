@@ -47,7 +47,6 @@ struct MappingSession::Members {
   }
   /// SHA-256 of the log; empty if the log is no longer readable.
   std::string checksum_of_log() const;
-  void write_edits(const std::filesystem::path& file) const;
   void begin(SessionProgress::Phase new_phase);
   void report(double share) const;
 

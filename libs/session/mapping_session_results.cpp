@@ -4,12 +4,14 @@
 #include <utility>
 
 #include "base/file_checksum.h"
+#include "exports/mapped_trajectory.h"
 #include "exports/zone_files.h"
 #include "frames/discarded_ranges.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
+#include "rendering/placed_edits.h"
 #include "report/output_folder.h"
 #include "session/map_frame.h"
 #include "session/mapping_session_members.h"
@@ -45,8 +47,40 @@ void keep_first(std::size_t scans, SessionFacts& facts) {
   const EditJournal edits = std::exchange(facts.edits, {});
   for (const TimedEdit& edit : edits.edits())
     if (edit.edit.frame < lost->scan) facts.edits.add(edit);
-  for (const MapEdit& edit : edits.map_edits()) facts.edits.add(edit);
+  for (const MapEdit& edit : edits.map_edits())
+    if (edit.scan < lost->scan) facts.edits.add(edit);
   facts.runs.erase(lost, facts.runs.end());
+}
+
+/// Edits of the drawn map for one export.
+struct PlacedMapEdits {
+  std::vector<MapEdit> edits;           ///< with their points in the frame of the exported map
+  std::vector<std::string> complaints;  ///< one sentence, without full stop, for each edit that has no place
+};
+
+/// Places the edits, which must state their frames, in the exported map.
+PlacedMapEdits placed_edits(const std::vector<MapEdit>& edits, const mrpt::math::TPose2D& export_T_map,
+                            const std::vector<mrpt::math::TPose2D>& map_T_robot) {
+  PlacedMapEdits placed;
+  for (const MapEdit& edit : edits) {
+    auto at_place = placed_edit(edit, export_T_map, [&](std::size_t scan) {
+      return scan < map_T_robot.size() ? std::optional(map_T_robot[scan]) : std::nullopt;
+    });
+    if (at_place)
+      placed.edits.push_back(*std::move(at_place));
+    else
+      placed.complaints.push_back(text_of(edit) + ": its scan " + std::to_string(edit.scan) +
+                                  " is not mapped, the last scan is " +
+                                  std::to_string(map_T_robot.size() - 1));
+  }
+  return placed;
+}
+
+/// Writes the edits, or removes the file of an earlier export if there are no edits.
+void write_edits(const EditJournal& edits, const fs::path& file) {
+  if (!edits.empty()) return edits.write(file);
+  std::error_code ignored;
+  fs::remove(file, ignored);
 }
 
 }  // namespace
@@ -60,22 +94,25 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   StageClock judging_clock("judge map");
   StageClock writing_clock("write results");
   const mrpt::math::TPose2D map_T_start = export_T_map(m.result, m.settings.map_frame);
+  const EditJournal edits = m.edits.with_frames(map_T_start);
+  const PlacedMapEdits placed = placed_edits(edits.map_edits(), map_T_start, mapped_poses(m.result));
   const ExportedPoses exported(m.result, map_T_start);
-  const std::vector<MapEdit>& map_edits = m.edits.map_edits();
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
   drawing_clock.time([&] {
     grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map);
-    m.map_edit_complaints = apply_map_edits(map_edits, *grid);
+    m.map_edit_complaints = apply_map_edits(placed.edits, *grid);
   });
+  m.map_edit_complaints.insert(m.map_edit_complaints.end(), placed.complaints.begin(),
+                               placed.complaints.end());
   m.result.stages.push_back(drawing_clock.timing());
   MapVerdict verdict;
   judging_clock.time([&] { verdict = judge_map(m.result); });
   m.result.stages.push_back(judging_clock.timing());
   writing_clock.time([&] {
     write_g2o(m.result.graph, folder.path() / "graph.g2o");
-    m.write_edits(folder.path() / "loops.edits");
+    write_edits(edits, folder.path() / "loops.edits");
     export_results(m.result, *grid, folder, m.settings.map_files);
-    write_zone_files(folder.path(), *grid, map_edits);
+    write_zone_files(folder.path(), *grid, placed.edits);
   });
   m.result.stages.push_back(writing_clock.timing());
   clock.stop();
@@ -90,13 +127,6 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
 
 void MappingSession::export_to(const fs::path& folder, bool force) {
   export_to(OutputFolder::prepare(folder, force));
-}
-
-// Writes the edits, or removes the file of an earlier export if there are no edits.
-void MappingSession::Members::write_edits(const fs::path& file) const {
-  if (!edits.empty()) return edits.write(file);
-  std::error_code ignored;
-  fs::remove(file, ignored);
 }
 
 /// Frames to save: those that were mapped, as the mapper received them, or all of the recording. `room` holds
@@ -150,7 +180,9 @@ SessionFacts MappingSession::Members::facts() const {
   facts.logs = is_replaying ? recording->facts.logs : logs;
   facts.runs = later_runs;
   facts.settings = settings_text;
-  facts.edits = edits;
+  // Without their frames, edits could lie beside their walls when the session is resumed.
+  const bool states_frames = state == State::kFinished && !edits.map_edits().empty();
+  facts.edits = states_frames ? edits.with_frames(export_T_map(result, settings.map_frame)) : edits;
   if (is_replaying) return facts;
   keep_first(scans, facts);
   if (facts.logs.size() < logs.size()) return facts;

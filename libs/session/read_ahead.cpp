@@ -38,6 +38,11 @@ std::optional<Frame> ReadAhead::next() {
   return frame;
 }
 
+bool ReadAhead::is_ready() const {
+  const std::lock_guard lock(mutex_);
+  return !ahead_.empty();
+}
+
 void ReadAhead::read_all() {
   bool more = true;
   while (more) {

@@ -27,6 +27,8 @@ class ReadAhead : public FrameSource {
   /// Returns the next frame. Throws the error of the source after the frames before it.
   std::optional<Frame> next() override;
 
+  bool is_ready() const override;
+
   /// Progress of the frames that next() has returned, not of the frames read ahead.
   double progress() const override { return progress_; }
   SkippedLines skipped_lines() const override { return skipped_; }
@@ -50,7 +52,7 @@ class ReadAhead : public FrameSource {
   SkippedLines skipped_;
   std::vector<std::string> assumptions_;
 
-  std::mutex mutex_;  ///< protects the members below
+  mutable std::mutex mutex_;  ///< protects the members below
   std::condition_variable changed_;
   std::deque<Read> ahead_;
   bool stop_ = false;

@@ -103,6 +103,9 @@ void insert_line_with_ends(SceneLayer& layer, const Planar& a, const Planar& b, 
 // local maps.
 constexpr float kFarBelow_m = -1000;
 
+constexpr std::uint8_t kZoneOpacity = 110;  // out of 255
+constexpr std::uint8_t kClosingOpacity = 120;
+
 constexpr double kWallOpacity = 200;  // opacity of a cell that is surely a wall, out of 255
 constexpr double kFreeOpacity = 70;   // opacity of a cell that is surely free, out of 255
 
@@ -192,6 +195,24 @@ void draw_grid(SceneLayer& layer, const DrawnMap& map) {
   const auto plane = textured_plane(map.raster);
   plane->setLocalRepresentativePoint({0, 0, kFarBelow_m});
   layer.insert(plane);
+}
+
+void draw_zones(SceneLayer& layer, const DrawnMap& map) {
+  for (const DrawnZones& zones : map.zones) {
+    const mrpt::img::TColor colour = map_edit_colour(zones.kind);
+    MapRaster tinted = zones.raster;
+    for (std::size_t i = 0; i + 3 < tinted.pixels.size(); i += 4) {
+      if (tinted.pixels[i + 3] == 0) continue;
+      tinted.pixels[i] = colour.B;
+      tinted.pixels[i + 1] = colour.G;
+      tinted.pixels[i + 2] = colour.R;
+      tinted.pixels[i + 3] = kZoneOpacity;
+    }
+    const auto plane = textured_plane(tinted);
+    const double z_m = zones.kind == MapEdit::Kind::kKeepOut ? height_m::kKeepOutZones : 0;
+    plane->setPose(mrpt::math::TPose3D(0, 0, z_m, 0, 0, 0));
+    layer.insert(plane);
+  }
 }
 
 void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot) {
@@ -395,6 +416,24 @@ void draw_windows(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t
 
 void draw_measure(SceneLayer& layer, const Measure& measure) {
   insert_line_with_ends(layer, measure.from, measure.to, height_m::kMeasure, palette::kMeasure, 2, 8);
+}
+
+void draw_draft(SceneLayer& layer, const MapDraft& draft) {
+  if (draft.points.empty()) return;  // MRPT cannot draw zero points
+  std::vector<TPoint3D> corners;
+  auto lines = lines_of(draft.colour, 2.5F);
+  for (std::size_t i = 0; i < draft.points.size(); ++i) {
+    corners.push_back(raised(draft.points[i], height_m::kDraft));
+    if (i > 0) join(*lines, draft.points[i - 1], draft.points[i], height_m::kDraft);
+  }
+  layer.insert(lines);
+  layer.insert(dots_of(corners, draft.colour, 8));
+  if (!draft.closed || draft.points.size() < 3) return;
+  mrpt::img::TColor pale = draft.colour;
+  pale.A = kClosingOpacity;
+  auto closing = lines_of(pale, 1.5F);
+  join(*closing, draft.points.back(), draft.points.front(), height_m::kDraft);
+  layer.insert(closing);
 }
 
 }  // namespace psi_slam

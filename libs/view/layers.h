@@ -20,6 +20,7 @@ using SceneLayer = mrpt::opengl::CSetOfObjects;
 /// heights are small because perspective shifts higher layers.
 namespace height_m {
 inline constexpr double kLocalMaps = 0.005;
+inline constexpr double kKeepOutZones = 0.005;
 inline constexpr double kOdometry = 0.01;
 inline constexpr double kConstraints = 0.015;
 inline constexpr double kLoops = 0.02;
@@ -33,10 +34,14 @@ inline constexpr double kHotSpots = 0.0425;
 inline constexpr double kRobot = 0.045;
 inline constexpr double kChosenLoop = 0.05;
 inline constexpr double kMeasure = 0.055;
+inline constexpr double kDraft = 0.06;
 }  // namespace height_m
 
 /// Draws the grid map as a textured plane.
 void draw_grid(SceneLayer& layer, const DrawnMap& map);
+
+/// Draws the zones of the grid map, in the colour of their kind.
+void draw_zones(SceneLayer& layer, const DrawnMap& map);
 
 /// Draws the active local maps, each in its own tint, at the origin.
 void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
@@ -73,5 +78,9 @@ void draw_scan(SceneLayer& layer, const Frame& frame, const mrpt::math::TPose2D&
 void draw_windows(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t frame);
 
 void draw_measure(SceneLayer& layer, const Measure& measure);
+
+/// Draws the points of a draft with lines between them, and a paler line back to the first point of a
+/// polygon.
+void draw_draft(SceneLayer& layer, const MapDraft& draft);
 
 }  // namespace psi_slam

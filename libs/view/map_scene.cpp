@@ -14,6 +14,7 @@ namespace psi_slam {
 namespace {
 
 constexpr const char* kMaps = "main";
+constexpr const char* kAboveMaps = "above maps";
 constexpr const char* kLines = "lines";
 constexpr const char* kMarks = "marks";
 constexpr const char* kLegend = "legend";
@@ -34,6 +35,7 @@ constexpr std::array<LayerFacts, kMapLayers> kLayers{{{"Grid map", kMaps, true},
                                                       {"Robot", kMarks, true},
                                                       {"Search windows", kMarks, true},
                                                       {"Uncertainty (95 %)", kLines, false},
+                                                      {"Zones", kAboveMaps, true},
                                                       {"Hot spots", kMarks, true}}};
 
 bool active_maps_differ(const ReplaySnapshot& a, const ReplaySnapshot& b) {
@@ -54,7 +56,7 @@ bool shown_at_first(MapLayer layer) {
 
 MapScene::MapScene() {
   scene_->getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(palette::kBackground));
-  for (const char* upper : {kLines, kMarks}) {
+  for (const char* upper : {kAboveMaps, kLines, kMarks}) {
     const auto viewport = scene_->createViewport(upper);
     viewport->setTransparent(true);
     viewport->setClonedCameraFrom(kMaps);
@@ -68,6 +70,7 @@ MapScene::MapScene() {
   }
   scene_->insert(chosen_layer_, kMarks);
   scene_->insert(measure_layer_, kMarks);
+  scene_->insert(draft_layer_, kMarks);
 }
 
 void MapScene::set_clip_distances(double nearest_m, double farthest_m) {
@@ -122,14 +125,22 @@ void MapScene::set_measure(const std::optional<Measure>& measure) {
   });
 }
 
+void MapScene::set_draft(const MapDraft& draft) {
+  fill(*draft_layer_, [&](SceneLayer& layer) { draw_draft(layer, draft); });
+}
+
 bool MapScene::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
                     const std::shared_ptr<const DrawnMap>& map, std::optional<std::size_t> frame) {
   const bool first = shown_.snapshot == nullptr;
   const bool map_changed = map != shown_.map;
-  if (map_changed)
+  if (map_changed) {
     fill(of(MapLayer::kGrid), [&](SceneLayer& layer) {
       if (map) draw_grid(layer, *map);
     });
+    fill(of(MapLayer::kZones), [&](SceneLayer& layer) {
+      if (map) draw_zones(layer, *map);
+    });
+  }
   const bool poses_changed = first || snapshot->map_T_node != shown_.snapshot->map_T_node;
   const bool frames_changed = first || snapshot->frames.size() != shown_.snapshot->frames.size() ||
                               snapshot->phase != shown_.snapshot->phase;
@@ -150,9 +161,12 @@ bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
   if (poses_changed) {
     redraw(MapLayer::kNodes, draw_nodes, snapshot);
     redraw(MapLayer::kConstraints, draw_constraints, snapshot);
-    redraw(MapLayer::kUncertainty, draw_uncertainty, snapshot);
-    redraw(MapLayer::kHotSpots, draw_hot_spots, snapshot);
   }
+  const bool covariances_changed =
+      poses_changed || snapshot.node_covariances != shown_.snapshot->node_covariances;
+  if (covariances_changed) redraw(MapLayer::kUncertainty, draw_uncertainty, snapshot);
+  const bool verdict_changed = poses_changed || snapshot.verdict != shown_.snapshot->verdict;
+  if (verdict_changed) redraw(MapLayer::kHotSpots, draw_hot_spots, snapshot);
   const bool loops_changed =
       poses_changed || snapshot.loops != shown_.snapshot->loops || !(loop_style_ == shown_.loop_style);
   if (loops_changed) redraw(MapLayer::kLoops, draw_loops, snapshot, loop_style_);
@@ -162,7 +176,7 @@ bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
       if (chosen_loop_ && *chosen_loop_ < snapshot.loops->size())
         draw_chosen_loop(layer, snapshot, *chosen_loop_);
     });
-  return maps_changed || loops_changed || chosen_changed;
+  return maps_changed || covariances_changed || verdict_changed || loops_changed || chosen_changed;
 }
 
 void MapScene::show_robot(const ReplaySnapshot& snapshot, std::optional<std::size_t> frame) {

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "replay/map_painter.h"
 #include "replay/replay_snapshot.h"
@@ -28,9 +29,10 @@ enum class MapLayer {
   kRobot,
   kWindows,
   kUncertainty,
+  kZones,
   kHotSpots,
 };
-inline constexpr std::size_t kMapLayers = 12;
+inline constexpr std::size_t kMapLayers = 13;
 
 /// Name of a layer for menus, such as "Grid map".
 const char* name_of(MapLayer layer);
@@ -55,12 +57,19 @@ struct Measure {
   double distance_m() const { return (to - from).norm(); }
 };
 
+/// A line or polygon that a person is drawing, in the map's frame.
+struct MapDraft {
+  std::vector<mrpt::math::TPoint2D> points;
+  bool closed = false;  ///< a polygon
+  mrpt::img::TColor colour;
+};
+
 /// A run as an MRPT scene, for windows, reports and tests. Has one layer for each kind of object, and redraws
 /// only the layers whose data has changed.
 ///
 /// The layers are millimetres apart in height, which OpenGL cannot always resolve from far above. So maps,
-/// lines and marks have a viewport each, and the viewports are drawn on top of each other. All viewports use
-/// the camera of the first viewport, "main".
+/// zones, lines and marks have a viewport each, and the viewports are drawn on top of each other. All
+/// viewports use the camera of the first viewport, "main".
 class MapScene {
  public:
   MapScene();
@@ -82,6 +91,8 @@ class MapScene {
   /// Selects the loop to highlight, by its index in ReplaySnapshot::loops; empty selects none.
   void choose_loop(std::optional<std::size_t> loop) { chosen_loop_ = loop; }
   void set_measure(const std::optional<Measure>& measure);
+  /// Shows a draft; nothing if it has no points.
+  void set_draft(const MapDraft& draft);
 
   /// Multiplies the sizes of lines and points by a factor, for desktops that are scaled.
   void set_pixel_scale(float scale);
@@ -113,6 +124,7 @@ class MapScene {
   std::array<mrpt::opengl::CSetOfObjects::Ptr, kMapLayers> layers_;
   mrpt::opengl::CSetOfObjects::Ptr chosen_layer_ = mrpt::opengl::CSetOfObjects::Create();
   mrpt::opengl::CSetOfObjects::Ptr measure_layer_ = mrpt::opengl::CSetOfObjects::Create();
+  mrpt::opengl::CSetOfObjects::Ptr draft_layer_ = mrpt::opengl::CSetOfObjects::Create();
   LoopStyle loop_style_;
   std::optional<std::size_t> chosen_loop_;
   float pixel_scale_ = 1;

@@ -35,6 +35,14 @@ TColor verdict_colour(LoopVerdict verdict) {
   return kColours.at(verdict);
 }
 
+TColor map_edit_colour(MapEdit::Kind kind) {
+  static const std::map<MapEdit::Kind, TColor> kColours{
+      {MapEdit::Kind::kErase, {0, 122, 204}},   {MapEdit::Kind::kUnknown, {117, 76, 180}},
+      {MapEdit::Kind::kWall, {20, 24, 32}},     {MapEdit::Kind::kCrop, {0, 130, 70}},
+      {MapEdit::Kind::kKeepOut, {196, 30, 40}}, {MapEdit::Kind::kSlow, {214, 132, 0}}};
+  return kColours.at(kind);
+}
+
 TColor heat_colour(double share) {
   constexpr std::array<std::array<double, 3>, 3> kStops{{{26, 150, 65}, {240, 190, 40}, {200, 20, 30}}};
   const double at = std::clamp(share, 0.0, 1.0) * 2;

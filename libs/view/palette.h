@@ -35,6 +35,9 @@ mrpt::img::TColor matcher_colour(MatcherKind matcher);
 /// Colour of a verdict in tables and scenes.
 mrpt::img::TColor verdict_colour(LoopVerdict verdict);
 
+/// Colour of an edit of the drawn map while it is drawn, and of zones.
+mrpt::img::TColor map_edit_colour(MapEdit::Kind kind);
+
 /// Colour from green (0) over yellow to red (1); values outside [0, 1] are clamped.
 mrpt::img::TColor heat_colour(double share);
 

@@ -60,7 +60,13 @@ TEST(CommandLine, knows_its_commands) {
   EXPECT_TRUE(diff.diff.aligned);
   EXPECT_EQ(diff.diff.tolerance_m, "0.2");
   EXPECT_EQ(parsed({"options"}).command, Command::kOptions);
-  EXPECT_TRUE(parsed({"options", "--markdown"}).markdown);
+  EXPECT_TRUE(parsed({"options", "--markdown"}).options.markdown);
+  EXPECT_EQ(parsed({"options", "range"}).options.word, "range");
+  EXPECT_EQ(parsed({"map", "my.log", "-o", "out"}).log, "my.log");
+  const CommandLine eval = parsed({"eval", "a.tum", "--json"});
+  EXPECT_EQ(eval.command, Command::kOtherProgram);
+  EXPECT_STREQ(eval.other_program->program, "psi-slam-eval");
+  EXPECT_THAT(eval.other_arguments, ElementsAre("a.tum", "--json"));
   EXPECT_EQ(parsed({"--dump-config", "-c", "my.ini"}).command, Command::kDumpConfig);
 }
 
@@ -91,6 +97,10 @@ TEST(CommandLine, prints_version_and_help) {
                              "--quiet", "--verbose", "--dump-config", "--version", "check", "options", "LOG"})
     EXPECT_THAT(help.out, HasSubstr(option));
   EXPECT_EQ(run_app({"check", "--help"}).code, 0);
+  EXPECT_EQ(run_app({"help"}).out, help.out);
+  EXPECT_EQ(run_app({"help", "map"}).out, help.out);
+  EXPECT_EQ(run_app({"help", "check"}).out, run_app({"check", "--help"}).out);
+  EXPECT_THAT(run_app({"help", "check", "x"}).err, HasSubstr("unexpected argument \"x\""));
   EXPECT_EQ(help.err, "");
 }
 

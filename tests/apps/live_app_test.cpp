@@ -238,14 +238,25 @@ TEST_F(LiveApp, prints_poses_as_json) {
   ASSERT_EQ(run.code, 0) << run.err;
   std::istringstream lines(run.out);
   std::size_t scans = 0;
+  std::size_t with_covariance = 0;
   for (std::string line; std::getline(lines, line); ++scans) {
     const auto pose = nlohmann::json::parse(line);
     EXPECT_EQ(pose.at("frame"), scans);
     EXPECT_EQ(pose.at("matched"), scans > 0);
     EXPECT_NEAR(pose.at("time_s"), 1000 + 0.2 * static_cast<double>(scans), 1e-6);
     for (const char* key : {"x_m", "y_m", "yaw_rad"}) EXPECT_TRUE(pose.at(key).is_number());
+    if (!pose.contains("covariance")) continue;
+    const auto covariance = pose["covariance"].get<std::vector<double>>();
+    ASSERT_EQ(covariance.size(), 36U);
+    ++with_covariance;
+    for (std::size_t row = 0; row < 6; ++row)
+      for (std::size_t column = 0; column < 6; ++column)
+        EXPECT_NEAR(covariance[6 * row + column], covariance[6 * column + row], 1e-12);
+    for (const std::size_t variance : {0U, 7U, 35U}) EXPECT_GT(covariance[variance], 0);
+    EXPECT_EQ(covariance[14], 0) << "the height is known";
   }
   EXPECT_EQ(scans, kScans);
+  EXPECT_GT(with_covariance, kScans / 2);
   expect_same_map();
 }
 

@@ -58,6 +58,26 @@ TEST_F(MapEditsApp, edits_change_all_files_and_repeat_to_the_last_byte) {
   EXPECT_NEAR(edited.getPos(-2.6F, 0), 0.5F, 0.1F);
 }
 
+TEST_F(MapEditsApp, edits_stay_on_their_walls_when_the_frame_turns) {
+  const std::string log = path("room.log").string();
+  write_file(path("my.edits"), "keep_out polygon=-1,0;-0.5,0;-0.5,0.5\n");
+  ASSERT_EQ(map("plain", {log, "--edits", path("my.edits").string()}).code, 0);
+  const std::string saved = (path("plain") / "loops.edits").string();
+  EXPECT_THAT(read_file(saved), HasSubstr("keep_out polygon=-1,0;-0.5,0;-0.5,0.5 frame=0,0,0"));
+  ASSERT_EQ(map("turned", {log, "--edits", saved, "--set", "map.align=90", "--set", "map.origin_x_m=2"}).code,
+            0);
+  std::istringstream zones(read_file(path("turned") / "zones.txt"));
+  std::string heading;
+  std::getline(zones, heading);
+  double number = 0, kind = 0, limit = 0, x_m = 0, y_m = 0;
+  ASSERT_TRUE(zones >> number >> kind >> limit >> x_m >> y_m);
+  EXPECT_NEAR(x_m, -2, 1e-6);
+  EXPECT_NEAR(y_m, -1, 1e-6);
+  write_file(path("late.edits"), "keep_out polygon=-1,0;-0.5,0;-0.5,0.5 frame=0,0,0 scan=900\n");
+  EXPECT_THAT(map("late", {log, "--edits", path("late.edits").string()}).err,
+              HasSubstr("add keep-out zone: its scan 900 is not mapped, the last scan is 59"));
+}
+
 TEST_F(MapEditsApp, every_file_has_the_frame_of_the_settings) {
   const std::string log = path("room.log").string();
   ASSERT_EQ(map("plain", {log}).code, 0);

@@ -2,15 +2,21 @@
 // Tests whole runs of psi-slam merge.
 #include <gmock/gmock.h>
 
+#include <mrpt/math/CMatrixDynamic.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "../session/room_log.h"
 #include "app_run.h"
 #include "command_line.h"
+#include "psi_slam/mapping_session.h"
 #include "psi_slam/open_log.h"
 #include "same_results.h"
+#include "session/edit_journal.h"
+#include "session/settings.h"
 #include "temporary_folder.h"
+#include "test_files.h"
 #include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
@@ -98,6 +104,67 @@ TEST_F(MergeApp, takes_a_start) {
   EXPECT_EQ(wrong.code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("second.log does not begin near --start"));
   EXPECT_TRUE(std::filesystem::is_empty(file("wrong"))) << "no half map";
+}
+
+/// Returns the corners of the zones in the folder, in the order of the zones.
+std::vector<mrpt::math::TPoint2D> corners_of_zones(const std::string& folder) {
+  mrpt::math::CMatrixDouble table;
+  table.loadFromTextFile(folder + "/zones.txt");
+  std::vector<mrpt::math::TPoint2D> corners;
+  for (int row = 0; row < table.rows(); ++row) corners.emplace_back(table(row, 3), table(row, 4));
+  return corners;
+}
+
+TEST_F(MergeApp, edits_of_the_drawn_map_follow_their_runs) {
+  write_file(file("first.edits"), "keep_out polygon=-2,0;-1,0;-1,1\n");
+  write_file(file("second.edits"),
+             "keep_out polygon=-1,0;-0.5,0;-0.5,0.5\ncrop polygon=-5,-5;5,-5;5,5;-5,5\n");
+  for (const std::string name : {"first", "second"})
+    ASSERT_EQ(run_app({file(name + ".log"), "-q", "-o", file(name), "--save-session", file(name + ".session"),
+                       "--edits", file(name + ".edits"), "--set",
+                       name == "second" ? "map.align=30" : "map.align=none"})
+                  .code,
+              0);
+  const AppRun run = merge({"first.session", "second.session"}, "merged", {"--save-session", file("both")});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("second.session: its crop of the drawn map is left out"));
+  const auto corners = corners_of_zones(file("merged"));
+  ASSERT_EQ(corners.size(), 6U);
+  EXPECT_EQ(corners[0], mrpt::math::TPoint2D(-2, 0));
+  const mrpt::math::TPose2D first_T_second = room_pose(2 * M_PI * kFirst / 80) - room_pose(0);
+  const mrpt::math::TPose2D second_T_turned(0, 0, -M_PI / 6);
+  const auto expected = (first_T_second + second_T_turned).composePoint({-1, 0});
+  EXPECT_LT((corners[3] - expected).norm(), 0.05) << "at its place in the room";
+  ASSERT_EQ(run_app({"--resume", file("both"), "-q", "-o", file("again")}).code, 0);
+  expect_same_results(file("merged"), file("again"));
+}
+
+TEST_F(MergeApp, says_which_edits_of_the_drawn_map_have_no_place) {
+  Settings settings;
+  settings.map_frame.align = MapFrameOptions::kWalls;
+  MappingSession unfinished(file("second.log"), settings);
+  unfinished.add_edits(EditJournal::parse("erase polygon=0,0;1,0;1,1\n", "my.edits"));
+  while (unfinished.step()) {
+  }
+  unfinished.save(file("second.session"));  // without the frame, which only the finished map has
+  const AppRun run = merge({"first.log", "second.session"}, "merged");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err,
+              HasSubstr("second.session: 1 edit of the drawn map is left out, because map.align = walls"));
+  EXPECT_FALSE(std::filesystem::exists(file("merged") + "/loops.edits"));
+
+  Settings slow;
+  MappingSession first(file("first.log"), slow);
+  first.add_edits(EditJournal::parse("slow polygon=0,0;1,0;1,1 percent=40\n", "my.edits"));
+  first.step();
+  first.save(file("percent.session"));
+  MappingSession second(file("second.log"), slow);
+  second.add_edits(EditJournal::parse("slow polygon=0,0;1,0;1,1 max_speed_mps=1\n", "my.edits"));
+  second.step();
+  second.save(file("speed.session"));
+  const AppRun mixed = merge({"percent.session", "speed.session"}, "mixed");
+  EXPECT_EQ(mixed.code, 2);
+  EXPECT_THAT(mixed.err, HasSubstr("the zones of these runs cannot be combined: the edits limit the speed"));
 }
 
 TEST_F(MergeApp, sessions_with_edits_give_the_same_map) {

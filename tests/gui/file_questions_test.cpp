@@ -146,7 +146,7 @@ TEST_F(FileQuestionsTest, edits_made_while_a_session_is_read_are_not_lost) {
         frame.open_log(path("my.session"));
         frame.replay()->edit({LoopEdit::Kind::kDelete, 31, 0});
       });
-  until_it_says("Loops were edited while");
+  until_it_says("Edits were made while");
   gui_.then([](MainFrame& frame) { EXPECT_TRUE(frame.messages().answer("Open it")); })
       .when("the session alone", [](MainFrame& frame) { return frame.replay()->log().empty(); });
   EXPECT_EQ(gui_.run({}), 0);

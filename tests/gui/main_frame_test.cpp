@@ -622,6 +622,21 @@ TEST_F(MainFrameTest, at_200_percent_scaling_everything_is_twice_as_large) {
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
+TEST_F(MainFrameTest, shows_ellipses_of_uncertainty) {
+  gui_.when_phase(ReplayPhase::kPaused)
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .when("the map is drawn", [](MainFrame& frame) { return frame.replay()->drawn_map() != nullptr; })
+      .command(kLayer + static_cast<int>(MapLayer::kUncertainty))
+      .command(kLayer + static_cast<int>(MapLayer::kLoops))
+      .screenshot("uncertainty")
+      .then([](MainFrame& frame) {
+        const auto& ellipses = frame.map().map_scene().layer(MapLayer::kUncertainty);
+        EXPECT_NE(ellipses.begin(), ellipses.end());
+      });
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
 TEST_F(MainFrameTest, shows_the_help_of_an_option_and_the_about_box) {
   gui_.mouse_to("settings", 0.3, 0.25)
       .mouse_down()

@@ -4,17 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <vector>
 
 namespace psi_slam {
 namespace {
 
-using Edits = std::vector<TimedEdit>;
-
-std::shared_ptr<const Edits> edits(std::size_t count) {
-  auto all = std::make_shared<Edits>();
+std::shared_ptr<const EditJournal> edits(std::size_t count) {
+  auto all = std::make_shared<EditJournal>();
   for (std::size_t i = 0; i < count; ++i)
-    all->push_back({{LoopEdit::Kind::kDelete, 100 + i, 2}, {EditTime::Kind::kAfterScan, 120}});
+    all->add({{LoopEdit::Kind::kDelete, 100 + i, 2}, {EditTime::Kind::kAfterScan, 120}});
   return all;
 }
 
@@ -29,7 +26,7 @@ ReplaySnapshot snapshot(std::size_t scans, std::size_t edit_count) {
 
 class UnsavedWorkTest : public testing::Test {
  protected:
-  UnsavedWorkTest() { work_.open(SessionInput("my.log").with_edits(journal_of(*edits(1)))); }
+  UnsavedWorkTest() { work_.open(SessionInput("my.log").with_edits(*edits(1))); }
 
   UnsavedWork work_;
 };
@@ -49,15 +46,25 @@ TEST_F(UnsavedWorkTest, scans_are_unsaved_until_they_are_written) {
 TEST_F(UnsavedWorkTest, edits_are_unsaved_until_they_are_written) {
   EXPECT_TRUE(work_.any_edits(snapshot(0, 2)));
   EXPECT_TRUE(work_.any_edits(snapshot(0, 0))) << "the edit of the file was undone";
-  work_.note_written_edits(journal_of(*edits(2)));
+  work_.note_written_edits(*edits(2));
   EXPECT_FALSE(work_.any_edits(snapshot(150, 2)));
   EXPECT_TRUE(work_.any(snapshot(150, 2))) << "the map was not written";
   EXPECT_TRUE(work_.any_edits(snapshot(150, 3)));
 }
 
+TEST_F(UnsavedWorkTest, edits_of_the_drawn_map_count) {
+  ReplaySnapshot now = snapshot(0, 1);
+  EditJournal drawn = *now.edits;
+  drawn.add(MapEdit{MapEdit::Kind::kWall, {{0, 0}, {1, 0}}});
+  now.edits = std::make_shared<EditJournal>(drawn);
+  EXPECT_TRUE(work_.any_edits(now));
+  work_.note_written_edits(drawn);
+  EXPECT_FALSE(work_.any(now));
+}
+
 TEST_F(UnsavedWorkTest, edits_stay_unsaved_after_a_restart) {
   work_.note_written({150, edits(1)});
-  work_.restart(SessionInput("my.log").with_edits(journal_of(*edits(2))));
+  work_.restart(SessionInput("my.log").with_edits(*edits(2)));
   EXPECT_TRUE(work_.any(snapshot(0, 2)));
   EXPECT_TRUE(work_.any(snapshot(20, 1))) << "these scans were mapped again";
 }

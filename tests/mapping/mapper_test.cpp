@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -178,6 +179,36 @@ TEST(Mapper, tells_the_pose_of_a_scan_before_drawing_it) {
     }
   }
   EXPECT_GT(mapper.keyframes().nodes.size(), 20U);
+}
+
+TEST(Mapper, estimates_the_covariance_of_each_pose_without_changing_it) {
+  constexpr double kChiSquare99 = 11.345;  // three degrees of freedom
+  std::vector<Eigen::Matrix3d> told[2];
+  std::size_t beyond = 0;
+  for (const bool thread : {false, true}) {
+    MapperOptions options;
+    options.estimates_covariance = true;
+    options.back_end_thread = thread;
+    Mapper mapper(options);
+    mapper.set_pose_observer([&](const FrameRecord& record) {
+      const auto covariance = mapper.newest_covariance();
+      if (!covariance) return;
+      told[thread].push_back(*covariance);
+      const TPose2D& truth = office_drive().map_T_robot[mapper.frames().size() - 1];
+      const Eigen::Vector3d error(record.map_T_robot.x - truth.x, record.map_T_robot.y - truth.y,
+                                  mrpt::math::wrapToPi(record.map_T_robot.phi - truth.phi));
+      if (error.dot(covariance->ldlt().solve(error)) > kChiSquare99) ++beyond;
+    });
+    for (const Frame& frame : office_drive().frames) mapper.add(frame);
+    const MappingResult result = mapper.finish();
+    ASSERT_EQ(result.frames.size(), office_map().frames.size());
+    EXPECT_EQ(result.frames.back().map_T_robot, office_map().frames.back().map_T_robot);
+  }
+  ASSERT_GT(told[0].size(), office_drive().frames.size() * 9 / 10);
+  EXPECT_TRUE(told[0] == told[1]) << "the thread has no effect";
+  EXPECT_LT(beyond, told[0].size() / 5) << "of twice as many poses";
+  EXPECT_GT(told[0].back().trace(), 0);
+  EXPECT_EQ(Mapper().newest_covariance(), std::nullopt);
 }
 
 TEST(Mapper, the_same_log_gives_the_same_poses_to_the_last_bit) {

@@ -122,6 +122,20 @@ TEST_F(LiveGridMapTest, a_call_draws_a_bounded_number_of_scans) {
   }
 }
 
+TEST_F(LiveGridMapTest, a_call_in_a_hurry_draws_one_moved_scan) {
+  drive(40);
+  settle();
+  correct(1);
+  int asked = 0;
+  const std::size_t before = map_.work();
+  const auto pose = [this](std::size_t i) { return poses_[i]; };
+  map_.update(log_, pose, [&] { return ++asked == 1; });
+  EXPECT_EQ(map_.work(), before + 2) << "taken out and drawn";
+  EXPECT_EQ(asked, 1);
+  map_.update(log_, pose, [&] { return ++asked == 4; });
+  EXPECT_EQ(map_.work(), before + 2 + 2 * 3) << "until the work waits";
+}
+
 TEST_F(LiveGridMapTest, works_off_the_oldest_debt_first) {
   options_.redrawn_scans = 1;
   map_ = LiveGridMap(options_);

@@ -447,7 +447,7 @@ TEST_F(ReplayEditsTest, of_one_run_are_repeated_in_the_next) {
     replay.play();
     const LoopEdit edit = delete_first_accepted(*wait_for(replay, ReplayPhase::kFinished));
     replay.edit(edit);
-    for (const TimedEdit& made : *wait_until_finished_after_edit(replay, 1)->edits) journal.add(made);
+    journal = *wait_until_finished_after_edit(replay, 1)->edits;
   }
   ASSERT_EQ(journal.edits().size(), 1U);
   Replay replay(path, settings_, journal);
@@ -502,6 +502,88 @@ TEST_F(ReplayEditsTest, that_were_not_made_are_reported) {
   replay.play();
   EXPECT_THAT(wait_for(replay, ReplayPhase::kFinished)->warnings,
               testing::ElementsAre(HasSubstr("an edit was not made: delete the loop of scan 5000")));
+}
+
+MapEdit drawn(MapEdit::Kind kind, std::vector<mrpt::math::TPoint2D> points) {
+  MapEdit edit{kind, std::move(points)};
+  edit.frame_T_robot = mrpt::math::TPose2D(0, 0, 0);
+  return edit;
+}
+
+/// Waits until the drawn map has edits of `zones` kinds of zones.
+std::shared_ptr<const DrawnMap> wait_for_zones(const Replay& replay, std::size_t zones) {
+  for (int i = 0; i < 600; ++i) {
+    const auto map = replay.drawn_map();
+    if (map && map->zones.size() == zones) return map;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  ADD_FAILURE() << "the drawn map never has " << zones << " kinds of zones";
+  return replay.drawn_map();
+}
+
+TEST_F(ReplayEditsTest, of_the_map_are_shown_undone_and_exported_like_psi_slam_does) {
+  settings_.map_frame.align = "30";  // the edits stay in the frame of the window
+  const auto path = log(room_log_lines(150));
+  Replay replay(path, settings_);
+  replay.hurry_to(100);
+  wait_for(replay, [](const ReplaySnapshot& now) {
+    return now.phase == ReplayPhase::kPaused && now.frames.size() == 100;
+  });
+  replay.edit(drawn(MapEdit::Kind::kKeepOut, {{-1, 0}, {-0.5, 0}, {-0.5, 0.5}}));
+  EXPECT_EQ(wait_for_edit(replay, 1)->undo_text, "add keep-out zone");
+  wait_for_zones(replay, 1);
+  replay.undo();
+  const SnapshotPtr undone = wait_for_edit(replay, 2);
+  EXPECT_TRUE(undone->edited->undone);
+  EXPECT_TRUE(undone->edits->empty());
+  wait_for_zones(replay, 0);
+  replay.redo();
+  wait_for_edit(replay, 3);
+  replay.set_speed(0);
+  replay.play();
+  wait_for(replay, ReplayPhase::kFinalSearch);
+  replay.edit(drawn(MapEdit::Kind::kCrop, {{-3, -2}, {1, -2}, {1, 2}, {-3, 2}}));
+  const SnapshotPtr finished = wait_until_finished_after_edit(replay, 4);
+  EXPECT_FALSE(finished->interrupted);
+  replay.edit(delete_first_accepted(*finished));
+  replay.edit(drawn(MapEdit::Kind::kWall, {{-1, -0.5}, {-1, 0.5}}));
+  MapEdit slow = drawn(MapEdit::Kind::kSlow, {{-2, 0}, {-1.5, 0}, {-1.5, 0.5}});
+  slow.percent = 40;
+  replay.edit(slow);
+  std::swap(slow.percent, slow.max_speed_mps);
+  replay.edit(slow);
+  const SnapshotPtr refused = wait_until_finished_after_edit(replay, 8);
+  EXPECT_EQ(refused->edited->outcome.state, LoopEditOutcome::State::kImpossible);
+  EXPECT_THAT(refused->edited->outcome.reason, HasSubstr("Write all limits in the same way"));
+  EXPECT_EQ(refused->undo_text, "add slow zone of 40 %");
+  EXPECT_EQ(refused->edits->map_edits().size(), 4U);
+  EXPECT_EQ(refused->edits->edits().size(), 1U);
+  const auto map = wait_for_zones(replay, 2);
+  EXPECT_LT(map->raster.rectangle().width_m(), 5.5) << "the map is cropped to 4 m and the margin";
+  replay.export_to(out("window"), false);
+  EXPECT_EQ(wait_for_export(replay, 1)->exported->failure, "");
+
+  MappingSession session(path, settings_);
+  session.add_edits(EditJournal::read(out("window") / "loops.edits"));
+  session.run(std::atomic<bool>(false));
+  session.export_to(OutputFolder::prepare(out("headless"), false));
+  expect_same_results(out("window"), out("headless"));
+}
+
+TEST_F(ReplayEditsTest, of_the_map_do_not_repeat_the_final_loop_search) {
+  Replay replay(log(room_log_lines(150)), settings_);
+  replay.set_speed(0);
+  replay.play();
+  wait_for(replay, ReplayPhase::kFinalSearch);
+  replay.pause();
+  wait_for(replay, [](const ReplaySnapshot& now) { return now.final_search_held; });
+  const MapEdit wall = drawn(MapEdit::Kind::kWall, {{-1, -0.5}, {-1, 0.5}});
+  replay.edit(wall);
+  replay.undo();
+  replay.edit(wall);
+  EXPECT_TRUE(wait_for_edit(replay, 3)->final_search_held) << "they are made while the search is held";
+  replay.play();
+  EXPECT_EQ(wait_for(replay, ReplayPhase::kFinished)->edits->map_edits().size(), 1U);
 }
 
 TEST_F(ReplayTest, the_threads_of_a_closed_run_end) {

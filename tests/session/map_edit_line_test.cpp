@@ -17,7 +17,9 @@ TEST(MapEditLine, survives_parsing_bit_for_bit) {
        {"erase polygon=1,2;3.5,-2;3,4.125", "unknown polygon=0,0;1,0;1,1;0,1",
         "wall line=0,0;4,0.30000000000000004 width_m=0.1", "wall line=0,0;4,0",
         "crop polygon=-10,-10;30,-10;30,20", "keep_out polygon=7,1;9,1;9,3",
-        "slow polygon=7,1;9,1;9,3 percent=40", "slow polygon=7,1;9,1;9,3 max_speed_mps=0.3"}) {
+        "slow polygon=7,1;9,1;9,3 percent=40", "slow polygon=7,1;9,1;9,3 max_speed_mps=0.3",
+        "wall line=0,0;4,0 width_m=0.1 frame=1.5,-2,90",
+        "erase polygon=1,2;3.5,-2;3,4 frame=0,0,12.3 scan=40"}) {
     const auto edit = parse_map_edit_line(line);
     ASSERT_TRUE(edit) << line;
     EXPECT_EQ(map_edit_line(*edit), line);
@@ -34,6 +36,10 @@ TEST(MapEditLine, mistakes_get_one_sentence) {
   EXPECT_THAT(complaint("wall polygon=1,2;3,4"),
               HasSubstr("unknown key \"polygon\": expected line, width_m"));
   EXPECT_THAT(complaint("wall line=1,2;3,4 width_m=0"), HasSubstr("above 0 and at most 100"));
+  EXPECT_THAT(complaint("wall line=1,2;3,4 frame=1,2"),
+              HasSubstr("frame=1,2: expected the pose of the robot"));
+  EXPECT_THAT(complaint("wall line=1,2;3,4 frame=1,2,x"), HasSubstr("X,Y,YAW in metres and degrees"));
+  EXPECT_THAT(complaint("wall line=1,2;3,4 scan=7"), HasSubstr("scan=7: expected also frame=X,Y,YAW"));
   EXPECT_THAT(complaint("crop"), HasSubstr("\"polygon\" is missing"));
   EXPECT_THAT(complaint("slow polygon=7,1;9,1;9,3"), HasSubstr("either percent or max_speed_mps"));
   for (const char* line : {"slow polygon=7,1;9,1;9,3 percent=100", "slow polygon=7,1;9,1;9,3 percent=0.5"})
@@ -53,7 +59,13 @@ TEST(MapEditLine, the_journal_keeps_edits_of_loops_and_of_the_map) {
   more.add(journal);
   EXPECT_EQ(more.text(), journal.text());
   EXPECT_EQ(journal.of_run(0, 2000, 0).map_edits().size(), 2U);
-  EXPECT_EQ(journal.of_run(5, 2000, 1).map_edits().size(), 0U) << "a later run had another frame";
+  EXPECT_EQ(journal.of_run(5, 2000, 1).map_edits().size(), 0U) << "the frame of a later run is unknown";
+  const auto later = journal.with_frames({1, 2, 0}).of_run(5, 2000, 1).map_edits();
+  ASSERT_EQ(later.size(), 2U);
+  EXPECT_EQ(map_edit_line(later[0]), "wall line=0,0;4,0 frame=1,2,0 scan=5");
+  const EditJournal crop = EditJournal::parse("crop polygon=0,0;4,0;4,4 frame=0,0,0\n", "my.edits");
+  EXPECT_EQ(crop.of_run(0, 2000, 0).map_edits().size(), 1U);
+  EXPECT_EQ(crop.of_run(5, 2000, 1).map_edits().size(), 0U) << "it would cut off the other runs";
   EXPECT_THAT(sentence_of([] { EditJournal::parse("\nwal line=0,0;4,0\n", "my.edits"); }),
               HasSubstr("my.edits:2: unknown edit \"wal\""));
 }

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <future>
+
 #include "psi_slam/user_error.h"
+#include "soon.h"
 
 namespace psi_slam {
 namespace {
@@ -29,6 +32,23 @@ class CountedFrames : public FrameSource {
   std::size_t given_ = 0;
 };
 
+/// Yields one frame as soon as it is sent.
+class WaitingFrame : public FrameSource {
+ public:
+  explicit WaitingFrame(std::future<void> sent) : sent_(std::move(sent)) {}
+
+  std::optional<Frame> next() override {
+    if (!sent_.valid()) return std::nullopt;
+    sent_.get();
+    return Frame();
+  }
+
+  double progress() const override { return 0; }
+
+ private:
+  std::future<void> sent_;
+};
+
 TEST(ReadAhead, gives_all_frames_in_order_with_the_progress_of_those_taken) {
   for (const std::size_t capacity : {0, 1, 3, 2000}) {
     ReadAhead ahead(std::make_unique<CountedFrames>(1000, false), capacity);
@@ -49,6 +69,18 @@ TEST(ReadAhead, throws_the_sources_error_after_the_frames_before_it) {
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(ahead.next().has_value());
   EXPECT_THROW(ahead.next(), UserError);
   EXPECT_THROW(ahead.next(), UserError);
+}
+
+TEST(ReadAhead, is_ready_once_a_frame_or_the_end_is_read) {
+  std::promise<void> sent;
+  ReadAhead ahead(std::make_unique<WaitingFrame>(sent.get_future()));
+  EXPECT_FALSE(ahead.is_ready());
+  sent.set_value();
+  EXPECT_TRUE(soon([&] { return ahead.is_ready(); }));
+  EXPECT_TRUE(ahead.next());
+  EXPECT_TRUE(soon([&] { return ahead.is_ready(); }));
+  EXPECT_FALSE(ahead.next());
+  EXPECT_TRUE(ahead.is_ready()) << "the end needs no waiting";
 }
 
 TEST(ReadAhead, can_be_destroyed_at_any_time) {

@@ -39,7 +39,7 @@ class MapRenderingTest : public ReplayedRoom {
     for (std::size_t i = 0; i < kMapLayers; ++i) scene_->set_visible(static_cast<MapLayer>(i), false);
     scene_->set_visible(MapLayer::kGrid, true);
     for (const MapLayer layer : layers) scene_->set_visible(layer, true);
-    scene_->show(finished_, map_);
+    scene_->show(finished_, drawn_);
     scene_->set_clip_distances(camera_.distance_m / 5, camera_.distance_m * 8);
     mrpt::opengl::CCamera eye;
     eye.setPointingAt(static_cast<float>(camera_.target.x), static_cast<float>(camera_.target.y), 0.0F);
@@ -82,6 +82,7 @@ class MapRenderingTest : public ReplayedRoom {
   std::unique_ptr<mrpt::opengl::CFBORender> renderer_;
   std::unique_ptr<MapScene> scene_;
   MapCamera camera_;
+  std::shared_ptr<const DrawnMap> drawn_ = map_;
   mrpt::img::CImage picture_;
 };
 
@@ -97,6 +98,25 @@ TEST_F(MapRenderingTest, ellipses_show_the_uncertainty_along_the_path) {
   EXPECT_EQ(share_seen(palette::kUncertainty), 0);
   draw({MapLayer::kUncertainty});
   EXPECT_GT(share_seen(palette::kUncertainty), 0.01) << "most ellipses are 1 m apart and wider than 2 px";
+}
+
+TEST_F(MapRenderingTest, zones_tint_the_map_and_keep_out_zones_cover_slow_ones) {
+  const mrpt::img::TColor slow(237, 202, 145);
+  const mrpt::img::TColor both(219, 128, 100);
+  draw({MapLayer::kZones});
+  EXPECT_EQ(share_seen(slow), 0);
+  auto map = std::make_shared<DrawnMap>(*map_);
+  map->zones = {{MapEdit::Kind::kSlow, map_->raster}};
+  drawn_ = map;
+  draw({MapLayer::kZones});
+  EXPECT_EQ(share_seen(slow), 1);
+  map = std::make_shared<DrawnMap>(*map);
+  map->zones.insert(map->zones.begin(), {MapEdit::Kind::kKeepOut, map_->raster});
+  drawn_ = map;
+  draw({MapLayer::kZones});
+  EXPECT_EQ(share_seen(both), 1);
+  draw({});
+  EXPECT_EQ(share_seen(both), 0) << "the layer is hidden";
 }
 
 TEST_F(MapRenderingTest, nodes_are_drawn_over_lines) {

@@ -145,6 +145,30 @@ TEST_F(MapSceneTest, draws_a_ring_and_the_suspect_of_each_hot_spot) {
   EXPECT_NE(hint.find(".\nTry: "), std::string::npos);
 }
 
+TEST_F(MapSceneTest, shows_zones_and_drafts) {
+  scene_.show(finished_, map_);
+  EXPECT_EQ(objects(MapLayer::kZones), 0U);
+  DrawnMap with_zone = *map_;
+  DrawnZones zones{MapEdit::Kind::kSlow, map_->raster};
+  with_zone.zones.push_back(zones);
+  scene_.show(finished_, std::make_shared<DrawnMap>(with_zone));
+  EXPECT_EQ(objects(MapLayer::kZones), 1U);
+  scene_.show(finished_, map_);
+  EXPECT_EQ(objects(MapLayer::kZones), 0U);
+  scene_.set_draft({{{0, 0}}, true, palette::kMeasure});  // a single point is no line
+  scene_.set_draft({{}, true, palette::kMeasure});
+}
+
+TEST_F(MapSceneTest, forgets_ellipses_when_loops_are_edited) {
+  scene_.set_visible(MapLayer::kUncertainty, true);
+  scene_.show(finished_, map_);
+  EXPECT_EQ(objects(MapLayer::kUncertainty), 1U);
+  auto edited = std::make_shared<ReplaySnapshot>(*finished_);
+  edited->node_covariances = std::make_shared<std::vector<std::optional<Eigen::Matrix3d>>>();
+  EXPECT_TRUE(scene_.show(edited, map_));
+  EXPECT_EQ(objects(MapLayer::kUncertainty), 0U);
+}
+
 TEST_F(MapSceneTest, draws_the_active_local_maps_of_a_run_in_progress) {
   scene_.show(paused_, nullptr);
   EXPECT_EQ(objects(MapLayer::kLocalMaps), 0U) << "the layer is hidden";

@@ -46,6 +46,9 @@ class FrameSource {
   /// which are skipped: see skipped_lines().
   virtual std::optional<Frame> next() = 0;
 
+  /// Returns whether next() gives what it has without waiting for a sensor or another thread.
+  virtual bool is_ready() const { return true; }
+
   /// Fraction of the log that has been read, in [0, 1], measured in bytes on disk.
   virtual double progress() const = 0;
 

@@ -12,9 +12,11 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,8 +71,8 @@ class Mapper {
   using PoseObserver = std::function<void(const FrameRecord&)>;
   /// Sets an observer that add() calls before it draws the scan into local maps. Drawing takes a part of the
   /// time of add(), and often less is left until the next scan. With latency_nodes = 0, the observer is
-  /// called after the loops of the frame are closed. The observer may only call frames(), active_local_maps()
-  /// and missed_deadlines().
+  /// called after the loops of the frame are closed. The observer may only call frames(),
+  /// active_local_maps(), newest_covariance() and missed_deadlines().
   void set_pose_observer(PoseObserver observer);
 
   /// Maps one frame and returns its record. Call it for all frames in the order of the log. finish()
@@ -119,6 +121,11 @@ class Mapper {
   /// Poses of all nodes in the map, as corrected by the results that have arrived. Does not wait for the back
   /// end, unlike graph().
   const std::vector<mrpt::math::TPose2D>& node_poses() const;
+  /// Covariance of (x, y, yaw) of the pose of the last frame relative to the first pose, in the axes of the
+  /// map: m^2, m rad, rad^2. Accounts for the loops whose results have arrived. Empty before the first
+  /// results, unless MapperOptions::estimates_covariance is set, and if the constraints do not determine the
+  /// pose.
+  std::optional<Eigen::Matrix3d> newest_covariance() const;
   /// Number of calls of add() that waited for a result of the back end.
   std::size_t missed_deadlines() const;
   /// Waits until the back end has worked off all frames, and completes their records. graph(), loops() and

@@ -30,6 +30,7 @@ class Configuration;
 class EditJournal;
 class OutputFolder;
 class SessionInput;
+struct MapEdit;
 struct RunInfo;
 struct RunSummary;
 struct Settings;
@@ -91,6 +92,9 @@ class MappingSession {
   /// Throws UserError if the log is damaged before its first scan.
   bool step();
 
+  /// Returns whether step() would not wait for a scan. Always true for a log that is read in this thread.
+  bool scan_waits() const;
+
   /// Damage of the log after its last readable scan, as a sentence. Empty if there is none.
   const std::optional<std::string>& broken_off() const;
   /// Returns whether the current log or an earlier log of the session is damaged.
@@ -106,6 +110,11 @@ class MappingSession {
   /// Changes a loop by hand now. An edit after finish() needs stay_open() and reopens the map: call finish()
   /// again.
   LoopEditOutcome edit(const LoopEdit& edit);
+  /// Adds an edit of the drawn map, after all edits of the drawn map so far. The next export_to() makes it.
+  /// Does not reopen a finished map. Throws UserError, and adds nothing, if zones contradict each other.
+  void edit(const MapEdit& edit);
+  /// Removes the last edit of the drawn map, if there is one.
+  void remove_last_map_edit();
   /// Restores planned edits that a later edit removed from the journal. Makes edits whose time has passed at
   /// once.
   void plan(const std::vector<TimedEdit>& edits);

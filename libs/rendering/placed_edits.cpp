@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rendering/placed_edits.h"
+
+#include "frames/pose_operations.h"
+
+namespace psi_slam {
+
+using mrpt::math::TPose2D;
+
+MapEdit with_frame(MapEdit edit, const TPose2D& export_T_map) {
+  if (edit.frame_T_robot) return edit;
+  edit.frame_T_robot = export_T_map;
+  edit.scan = 0;
+  return edit;
+}
+
+std::optional<MapEdit> placed_edit(MapEdit edit, const TPose2D& target_T_map, const PoseAtScan& map_T_robot) {
+  TPose2D target_T_robot = target_T_map;
+  if (edit.scan > 0) {
+    const std::optional<TPose2D> at_scan = map_T_robot(edit.scan);
+    if (!at_scan) return std::nullopt;
+    target_T_robot = target_T_map + *at_scan;
+  }
+  if (edit.frame_T_robot == target_T_robot) return edit;
+  const TPose2D target_T_frame = target_T_robot + inverse(edit.frame_T_robot.value());
+  for (mrpt::math::TPoint2D& point : edit.points) point = target_T_frame.composePoint(point);
+  edit.frame_T_robot = target_T_robot;
+  return edit;
+}
+
+}  // namespace psi_slam

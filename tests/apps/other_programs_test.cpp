@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "other_programs.h"
+
+#include <gmock/gmock.h>
+
+#include "app_run.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+TEST(OtherPrograms, commands_run_the_programs_of_the_family) {
+  const TemporaryFolder folder;
+  for (const OtherProgram& other : other_programs()) {
+    if (std::string(other.command) == "gui") continue;  // needs the libraries of a desktop
+    const AppRun run = AppProcess({other.command, "--version"}, folder.path()).finish();
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr(std::string(other.program) + ' '));
+    const AppRun help = AppProcess({"help", other.command}, folder.path()).finish();
+    EXPECT_THAT(help.out, HasSubstr(std::string(other.program)));
+  }
+  const AppRun wrong = AppProcess({"eval", "x", "y", "z"}, folder.path()).finish();
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("psi-slam-eval: "));
+}
+
+TEST(OtherPrograms, a_program_that_is_not_installed_is_named_with_its_package) {
+  const TemporaryFolder folder;
+  const fs::path alone = folder.path() / "psi-slam";
+  fs::copy_file(PSI_SLAM_PROGRAM, alone);
+  const AppRun run = AppProcess(
+                         {"eval"}, folder.path(), [] { ::setenv("PATH", "/nowhere", 1); }, alone.string())
+                         .finish();
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(
+      run.err,
+      "psi-slam: psi-slam eval runs psi-slam-eval, which is neither beside psi-slam nor in PATH. Debian's "
+      "package psi-slam contains it\n");
+}
+
+}  // namespace
+}  // namespace psi_slam

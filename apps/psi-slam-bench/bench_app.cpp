@@ -3,8 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <ostream>
+#include <utility>
 
 #include "base/exit_code.h"
 #include "base/text_parts.h"
@@ -143,22 +145,36 @@ void add_robustness_command(CLI::App& app, const Streams& streams) {
       });
 }
 
+/// The logs of `verdict`; none without --data.
+std::vector<BenchmarkLog> verdict_logs(const BenchArguments& arguments) {
+  if (arguments.data.empty()) return {};
+  SparseLogs found = find_sparse_logs(arguments.data, ini_folder_of(arguments), arguments.names);
+  std::move(found.sparse.begin(), found.sparse.end(), std::back_inserter(found.dense));
+  return found.dense;
+}
+
 void add_verdict_command(CLI::App& app, const Streams& streams) {
   const auto arguments = std::make_shared<Arguments<VerdictBenchmarkOptions>>();
   VerdictBenchmarkOptions& options = arguments->options;
   CLI::App& command =
-      *app.add_subcommand("verdict", "Judge simulated maps with known faults and compare with their errors");
+      *app.add_subcommand("verdict", "Judge maps with known faults and compare with their errors");
+  add_data_options(command, *arguments);
+  command.get_option("--data")->required(false)->description(
+      "Folder of logs NAME.clf.gz with NAME.relations, and of the folder sparse with more logs; default: "
+      "only "
+      "simulated buildings");
+  add_logs_option(command, *arguments);
   add_seeds_option(command, options.seeds, "Seeds of the buildings, runs and faults");
+  add_seeds_option(command, options.log_seeds, "Seeds of the faults of each log", "--log-seeds");
   command
       .add_option("--path-m", options.path_m,
                   "Length of the shortest paths in metres; the longest are 1.75 times as long")
       ->check(CLI::Range(20.0, 10'000.0))
       ->capture_default_str();
-  run_on_logs(
-      command, arguments, streams, [](const BenchArguments&) { return 0; },
-      [](int, const VerdictBenchmarkOptions& how, const ProgressObserver& progress) {
-        return verdict_report(run_verdict_benchmark(how, progress), how, machine_text());
-      });
+  run_on_logs(command, arguments, streams, verdict_logs,
+              [](const std::vector<BenchmarkLog>& logs, const auto& how, const ProgressObserver& progress) {
+                return verdict_report(run_verdict_benchmark(logs, how, progress), how, machine_text());
+              });
 }
 
 struct SimulateArguments : Arguments<SimulateOptions> {

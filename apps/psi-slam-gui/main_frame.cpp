@@ -227,6 +227,8 @@ void MainFrame::report_changes(const ReplaySnapshot& snapshot, const ReplaySnaps
   if (exported) report_export(*snapshot.exported);
   if (failed && (saved || exported || before.phase != ReplayPhase::kFailed))
     messages_->fail(snapshot.failure);  // the failure of the run makes saves and exports fail, too
+  if (snapshot.verdict && snapshot.verdict != before.verdict)
+    show_status("Verdict: " + verdict_sentence(*snapshot.verdict) + '.');
   if (is_new(snapshot.edited, before.edited)) report_edit(snapshot);
 }
 

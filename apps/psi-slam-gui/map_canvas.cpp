@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "view/layers.h"
 #include "wx_text.h"
 
 namespace psi_slam {
@@ -258,7 +259,7 @@ void MapCanvas::move(wxMouseEvent& event) {
     map_scene_.set_draft(with_pointer);
     Refresh(false);
   }
-  if (drag_ == Drag::kNone) return;
+  if (drag_ == Drag::kNone) return show_hint(place);
   MapCamera camera = this->camera();
   const wxPoint from = dragged_from_;
   if (drag_ == Drag::kMeasure && place && measure_) {
@@ -276,6 +277,16 @@ void MapCanvas::move(wxMouseEvent& event) {
   }
   dragged_from_ = event.GetPosition();
   Refresh(false);
+}
+
+/// Shows what the verdict says about the hot spot under the pointer.
+void MapCanvas::show_hint(const std::optional<mrpt::math::TPoint2D>& place) {
+  const HotSpot* const spot = place && snapshot_ && map_scene_.visible(MapLayer::kHotSpots)
+                                  ? hot_spot_at(*snapshot_, *place)
+                                  : nullptr;
+  const wxString hint = spot != nullptr ? text_of(hot_spot_hint(*spot)) : wxString();
+  if (hint == GetToolTipText()) return;
+  hint.empty() ? UnsetToolTip() : SetToolTip(hint);
 }
 
 void MapCanvas::move_target(const mrpt::math::TPoint2D& by) {

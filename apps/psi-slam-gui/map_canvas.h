@@ -73,6 +73,7 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   void bind_mouse();
   void press(wxMouseEvent& event);
   void move(wxMouseEvent& event);
+  void show_hint(const std::optional<mrpt::math::TPoint2D>& place);
   void release(const wxMouseEvent& event);
   void zoom(wxMouseEvent& event);
   void key(wxKeyEvent& event);

@@ -78,6 +78,24 @@ std::vector<Eigen::Matrix3d> MarginalCovariance::marginals() const {
   return covariances;
 }
 
+std::vector<Eigen::Vector3d> MarginalCovariance::covariances_with_sum(
+    const std::vector<Eigen::Vector3d>& weights) const {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(3 * (static_cast<Eigen::Index>(poses_.size()) - 1));
+  const auto of_variable = [&](std::size_t node) {
+    return 3 * static_cast<Eigen::Index>(equations_.variable_of(node));
+  };
+  const auto is_held = [&](std::size_t node) {
+    return equations_.variable_of(node) == NormalEquations::kHeld;
+  };
+  for (std::size_t node = 0; node < poses_.size(); ++node)
+    if (!is_held(node)) sums.segment<3>(of_variable(node)) = weights.at(node);
+  equations_.factor().solve(sums);
+  std::vector<Eigen::Vector3d> covariances(poses_.size(), Eigen::Vector3d::Zero());
+  for (std::size_t node = 0; node < poses_.size(); ++node)
+    if (!is_held(node)) covariances[node] = sums.segment<3>(of_variable(node));
+  return covariances;
+}
+
 Matrix6d MarginalCovariance::joint(std::size_t a, std::size_t b) const {
   return joint_of(columns_of(a), columns_of(b));
 }

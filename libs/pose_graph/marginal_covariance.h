@@ -28,6 +28,10 @@ class MarginalCovariance {
   /// Returns marginal(node) for all nodes, in about the time of update().
   std::vector<Eigen::Matrix3d> marginals() const;
 
+  /// Returns the covariance of (x, y, theta) of each node with the sum of weights[i] . (x, y, theta) over all
+  /// nodes i, in the axes of the map. Zero for the root. `weights` has one entry per node.
+  std::vector<Eigen::Vector3d> covariances_with_sum(const std::vector<Eigen::Vector3d>& weights) const;
+
   /// 6x6 covariance of the poses of nodes a and b, in the axes of the map.
   Eigen::Matrix<double, 6, 6> joint(std::size_t a, std::size_t b) const;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "pose_graph/shared_errors.h"
 #include "psi_slam/user_error.h"
@@ -17,7 +18,7 @@ bool is_provisional(const Constraint& constraint) {
          constraint.information(0, 0) * kProvisionalSigma_m * kProvisionalSigma_m <= kRounding;
 }
 
-// Returns the numbers of the nodes that are linked to the root, the root first.
+// Returns the numbers of the nodes that are linked to the root, in ascending order.
 std::vector<std::size_t> placed_nodes(const PoseGraph& graph) {
   std::vector<bool> reached(graph.num_nodes(), false);
   std::vector<std::size_t> placed;
@@ -35,6 +36,7 @@ std::vector<std::size_t> placed_nodes(const PoseGraph& graph) {
       reach(constraint.to);
     }
   }
+  std::sort(placed.begin(), placed.end());
   return placed;
 }
 
@@ -56,14 +58,18 @@ PoseGraph part_of(const PoseGraph& graph, const std::vector<std::size_t>& nodes)
 
 }  // namespace
 
+PlacedPart placed_part(const PoseGraph& graph) {
+  std::vector<std::size_t> nodes = placed_nodes(graph);
+  PoseGraph part = nodes.empty() ? PoseGraph() : part_of(graph, nodes);
+  return {std::move(nodes), std::move(part)};
+}
+
 std::vector<std::optional<Eigen::Matrix3d>> placed_covariances(const PoseGraph& graph) {
   std::vector<std::optional<Eigen::Matrix3d>> covariances(graph.num_nodes());
-  std::vector<std::size_t> placed = placed_nodes(graph);
-  if (placed.empty()) return covariances;
-  std::sort(placed.begin(), placed.end());
+  const PlacedPart placed = placed_part(graph);
   try {
-    const std::vector<Eigen::Matrix3d> of_placed = pose_covariances(part_of(graph, placed));
-    for (std::size_t i = 0; i < placed.size(); ++i) covariances[placed[i]] = of_placed[i];
+    const std::vector<Eigen::Matrix3d> of_placed = pose_covariances(placed.graph);
+    for (std::size_t i = 0; i < placed.nodes.size(); ++i) covariances[placed.nodes[i]] = of_placed[i];
   } catch (const UserError&) {  // a constraint is singular
   }
   return covariances;

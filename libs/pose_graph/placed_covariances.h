@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,15 @@ namespace psi_slam {
 /// Standard deviation of the position of a provisional start, metres. A constraint of the kind kRunStart with
 /// at least this deviation only keeps the graph connected: it does not place its run in the map.
 constexpr double kProvisionalSigma_m = 1e3;
+
+/// The part of a graph whose place in the map is known.
+struct PlacedPart {
+  std::vector<std::size_t> nodes;  ///< numbers of the nodes in the whole graph, ascending
+  PoseGraph graph;  ///< of these nodes in this order, with the enabled constraints between them
+};
+
+/// Returns the nodes that enabled constraints, except provisional starts, link to the root.
+PlacedPart placed_part(const PoseGraph& graph);
 
 /// Returns pose_covariances() of the nodes that enabled constraints, except provisional starts, link to the
 /// root. Empty for the other nodes, and for all nodes if the constraints do not determine the poses.

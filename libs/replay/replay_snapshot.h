@@ -20,6 +20,7 @@
 #include "psi_slam/mapping_session.h"
 #include "replay/shared_history.h"
 #include "session/edit_journal.h"
+#include "verdict/map_verdict.h"
 
 namespace psi_slam {
 
@@ -91,6 +92,8 @@ struct ReplaySnapshot {
   /// finished.
   std::shared_ptr<const std::vector<std::optional<Eigen::Matrix3d>>> node_covariances =
       std::make_shared<std::vector<std::optional<Eigen::Matrix3d>>>();
+  /// Verdict about the map; null unless the run is finished.
+  std::shared_ptr<const MapVerdict> verdict;
   /// All loops; never null. A new pointer means that the loops may have changed.
   std::shared_ptr<const std::vector<LoopRecord>> loops = std::make_shared<std::vector<LoopRecord>>();
 

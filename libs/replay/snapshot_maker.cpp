@@ -87,6 +87,7 @@ void SnapshotMaker::note_edits(const EditJournal& edits, const EditHistory& hist
 
 void SnapshotMaker::note_changed_loops() {
   now.node_covariances = std::make_shared<std::vector<std::optional<Eigen::Matrix3d>>>();
+  now.verdict.reset();
   loops_changed_ = true;
   finished_ = false;
 }
@@ -128,6 +129,7 @@ void SnapshotMaker::take(const MappingResult& result) {
   now.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(std::move(poses));
   now.node_covariances =
       std::make_shared<std::vector<std::optional<Eigen::Matrix3d>>>(placed_covariances(result.graph));
+  now.verdict = std::make_shared<MapVerdict>(judge_map(result));
   now.loops = std::make_shared<std::vector<LoopRecord>>(result.loops);
   now.active_local_maps.clear();
   if (!result.frames.empty()) now.map_T_robot = result.frames.back().map_T_robot;

@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
 
-#include "pose_graph/path_covariance.h"
+#include "pose_graph/aligned_uncertainty.h"
+#include "verdict/interruption_checks.h"
 #include "verdict/loop_residuals.h"
 #include "verdict/path_suspects.h"
+#include "verdict/uncertain_stretches.h"
 
 namespace psi_slam {
 namespace {
@@ -29,9 +33,13 @@ class Judge {
         searched_loops_(std::any_of(result.frames.begin(), result.frames.end(),
                                     [](const FrameRecord& frame) { return frame.searched_loops; })) {
     sum_blame();
-    for (const PathSuspect& suspect : path_suspects_)
-      if (suspect.kind == PathSuspect::Kind::kLost && is_contradicted(suspect))
-        contradicted_.push_back(&suspect);
+    find_fitting_reach();
+    std::vector<std::size_t> nodes;
+    for (const MapView& view : views_) nodes.push_back(view.node);
+    sigmas_m_ = aligned_sigmas_m(result.graph, nodes);
+    for (const InterruptionCheck& check :
+         check_interruptions(result, views_, checks_, path_suspects_, explained_stretches(), options.passes))
+      if (check.contradicted > options.contradiction) contradicted_.push_back(check);
   }
 
   MapVerdict verdict() const {
@@ -40,8 +48,9 @@ class Judge {
     add_misfits(verdict.hot_spots);
     add_conflicts(verdict.hot_spots);
     add_path_spots(verdict.hot_spots);
-    std::stable_sort(verdict.hot_spots.begin(), verdict.hot_spots.end(),
-                     [](const HotSpot& a, const HotSpot& b) { return weight(a) > weight(b); });
+    add_interruptions(verdict.hot_spots);
+    add_uncertain_places(verdict.hot_spots);
+    std::stable_sort(verdict.hot_spots.begin(), verdict.hot_spots.end(), is_worse);
     measure_walls(verdict);
     verdict.error_m = mean_error_m() + unconfirmed_error_m(verdict.hot_spots);
     verdict.predicted_m = mean_prediction_m();
@@ -60,8 +69,14 @@ class Judge {
   }
 
  private:
-  static double weight(const HotSpot& spot) {
-    return spot.error_m.value_or(std::numeric_limits<double>::infinity()) * (1 + spot.length_m);
+  /// Whether hot spot a comes before b. What scans show comes before what the graph predicts.
+  static bool is_worse(const HotSpot& a, const HotSpot& b) {
+    const auto weight = [](const HotSpot& spot) {
+      return spot.error_m.value_or(std::numeric_limits<double>::infinity()) * (1 + spot.length_m);
+    };
+    const bool a_is_predicted = a.kind == HotSpot::Kind::kUncertain;
+    const bool b_is_predicted = b.kind == HotSpot::Kind::kUncertain;
+    return a_is_predicted != b_is_predicted ? b_is_predicted : weight(a) > weight(b);
   }
 
   TPoint2D place_of(std::size_t frame) const {
@@ -80,13 +95,24 @@ class Judge {
   }
 
   Suspect suspect_of(const PathSuspect& suspect) const {
-    using Kind = PathSuspect::Kind;
-    const Suspect::Kind kind = suspect.kind == Kind::kUnmatched ? Suspect::Kind::kUnmatched
-                               : suspect.kind == Kind::kLost    ? Suspect::Kind::kLost
-                                                                : Suspect::Kind::kUnplaced;
-    Suspect cause = stretch(kind, suspect.first_frame, suspect.last_frame);
-    if (kind != Suspect::Kind::kUnmatched) cause.at = place_of(suspect.first_frame);
+    const bool is_unmatched = suspect.kind == PathSuspect::Kind::kUnmatched;
+    Suspect cause = stretch(kind_of(suspect.kind), suspect.first_frame, suspect.last_frame);
+    if (!is_unmatched) cause.at = place_of(suspect.first_frame);
     return cause;
+  }
+
+  static Suspect::Kind kind_of(PathSuspect::Kind kind) {
+    switch (kind) {
+      case PathSuspect::Kind::kUnmatched:
+        return Suspect::Kind::kUnmatched;
+      case PathSuspect::Kind::kLost:
+        return Suspect::Kind::kLost;
+      case PathSuspect::Kind::kUnplaced:
+        return Suspect::Kind::kUnplaced;
+      case PathSuspect::Kind::kGap:
+        break;
+    }
+    return Suspect::Kind::kGap;
   }
 
   /// Blames each step between successive views for the displacements of all pairs of views across it. Pairs
@@ -115,24 +141,20 @@ class Judge {
     return first < last_frame && last > first_frame;
   }
 
-  /// Whether a check compares views on both sides of the first frame of a stretch.
-  bool spans(const PassCheck& check, const PathSuspect& suspect) const {
-    const auto [first, last] = std::minmax(views_[check.view].frame, views_[check.other].frame);
-    return first < suspect.first_frame && last >= suspect.first_frame;
-  }
-
-  /// Whether the scans after an interruption see through the walls of those before it. The share counts over
-  /// all their checks: a robot that was placed into a similar corridor fits well at most places.
-  bool is_contradicted(const PathSuspect& suspect) const {
-    std::size_t same = 0;
-    std::size_t seen_through = 0;
-    for (const PassCheck& check : checks_) {
-      if (check.same_pass || !spans(check, suspect)) continue;
-      same += check.scans.same;
-      seen_through += check.scans.seen_through;
+  /// Stretches that explain a displacement of the passes across them: loops in conflict bend the path from
+  /// anchor to node, and long unmatched motion has errors.
+  std::vector<FrameSpan> explained_stretches() const {
+    std::vector<FrameSpan> stretches;
+    for (const LoopResidual& residual : residuals_) {
+      if (!is_conflict(residual)) continue;
+      const LoopRecord& loop = result_.loops[residual.loop];
+      const auto [first, last] = std::minmax(result_.node_frames[loop.anchor], loop.frame);
+      stretches.push_back({first, last});
     }
-    return static_cast<double>(seen_through) >
-           options_.contradiction * static_cast<double>(same + seen_through);
+    for (const PathSuspect& suspect : path_suspects_)
+      if (suspect.kind == PathSuspect::Kind::kUnmatched && suspect.doubt_m >= options_.unconfirmed_m)
+        stretches.push_back({suspect.first_frame - 1, suspect.last_frame});
+    return stretches;
   }
 
   /// The most likely cause of a displacement between two views.
@@ -144,8 +166,9 @@ class Judge {
       return is_conflict(residual) && bends_between(residual, first_frame, last_frame);
     });
     if (loop != residuals_.end()) return suspect_of(*loop);
-    for (const PathSuspect* lost : contradicted_)
-      if (lost->first_frame > first_frame && lost->first_frame <= last_frame) return suspect_of(*lost);
+    for (const InterruptionCheck& check : contradicted_)
+      if (check.suspect.first_frame > first_frame && check.suspect.first_frame <= last_frame)
+        return suspect_of(check.suspect);
     const PathSuspect* worst = nullptr;
     for (const PathSuspect& suspect : path_suspects_)
       if (suspect.kind == PathSuspect::Kind::kUnmatched && suspect.last_frame > first_frame &&
@@ -156,8 +179,18 @@ class Judge {
     const auto begin = std::max_element(at(first), at(last));
     auto end = begin;
     while (end != at(last) && *end == *begin) ++end;
-    return stretch(Suspect::Kind::kStretch, views_[static_cast<std::size_t>(begin - blame_.begin())].frame,
-                   views_[static_cast<std::size_t>(end - blame_.begin())].frame);
+    return step_suspect(views_[static_cast<std::size_t>(begin - blame_.begin())].frame,
+                        views_[static_cast<std::size_t>(end - blame_.begin())].frame);
+  }
+
+  /// The step of the path between two frames: the interruption or gap in it, or else the stretch.
+  Suspect step_suspect(std::size_t first_frame, std::size_t last_frame) const {
+    const auto lost = std::find_if(path_suspects_.begin(), path_suspects_.end(), [&](const PathSuspect& one) {
+      return one.kind != PathSuspect::Kind::kUnmatched && one.first_frame > first_frame &&
+             one.first_frame <= last_frame;
+    });
+    return lost != path_suspects_.end() ? suspect_of(*lost)
+                                        : stretch(Suspect::Kind::kStretch, first_frame, last_frame);
   }
 
   HotSpot::Kind kind_of(const PassCheck& check) const {
@@ -180,6 +213,8 @@ class Judge {
     std::vector<Series> all;
     for (const PassCheck& check : checks_) {
       if (check.same_pass != same_pass || check.error_m < least_error_m) continue;
+      // Successive scans are close. If no small motion makes them fit, the scene changed, not the pose.
+      if (same_pass && !check.fits_if_moved) continue;
       if (all.empty() || check.view > all.back().last + largest_step ||
           views_[check.view].run != views_[all.back().last].run)
         all.push_back({&check, check.view, check.view, 0});
@@ -209,7 +244,7 @@ class Judge {
         spots.push_back(spot_of(series, kind_of(*series.worst)));
   }
 
-  /// Makes one hot spot of each series of at least two scans that do not fit the scans before them.
+  /// Makes one hot spot of each series of at least two scans that are displaced from the scans before them.
   void add_misfits(std::vector<HotSpot>& spots) const {
     for (const Series& series : series_of(true, options_.misfit_m, 1))
       if (series.count >= 2) spots.push_back(spot_of(series, HotSpot::Kind::kMisfit));
@@ -225,13 +260,23 @@ class Judge {
                      std::min(worst->residual_m, options_.passes.unknown_m), 0, suspect});
   }
 
+  /// Finds up to where checks that fit reach, for is_confirmed().
+  void find_fitting_reach() {
+    for (const PassCheck& check : checks_) {
+      if (check.error_m >= options_.spot_error_m) continue;
+      const auto [first, last] = std::minmax(views_[check.view].frame, views_[check.other].frame);
+      fitting_reach_.emplace_back(first, last);
+    }
+    std::sort(fitting_reach_.begin(), fitting_reach_.end());
+    for (std::size_t i = 1; i < fitting_reach_.size(); ++i)
+      fitting_reach_[i].second = std::max(fitting_reach_[i].second, fitting_reach_[i - 1].second);
+  }
+
   /// Whether a pass that fits holds both ends of a stretch together.
   bool is_confirmed(const PathSuspect& suspect) const {
-    return std::any_of(checks_.begin(), checks_.end(), [&](const PassCheck& check) {
-      const auto [first, last] = std::minmax(views_[check.view].frame, views_[check.other].frame);
-      return check.error_m < options_.spot_error_m && first < suspect.first_frame &&
-             last > suspect.last_frame;
-    });
+    const auto after = std::lower_bound(fitting_reach_.begin(), fitting_reach_.end(),
+                                        std::pair<std::size_t, std::size_t>(suspect.first_frame, 0));
+    return after != fitting_reach_.begin() && std::prev(after)->second > suspect.last_frame;
   }
 
   void add_path_spots(std::vector<HotSpot>& spots) const {
@@ -239,8 +284,6 @@ class Judge {
       const Suspect cause = suspect_of(suspect);
       if (suspect.kind == PathSuspect::Kind::kUnplaced)
         spots.push_back({HotSpot::Kind::kUnplacedRun, cause.at, std::nullopt, 0, cause});
-      if (std::count(contradicted_.begin(), contradicted_.end(), &suspect) > 0)
-        spots.push_back({HotSpot::Kind::kRunsDisagree, cause.at, options_.passes.unknown_m, 0, cause});
       if (suspect.kind == PathSuspect::Kind::kUnmatched && suspect.doubt_m >= options_.unconfirmed_m &&
           !is_confirmed(suspect))
         spots.push_back(
@@ -248,13 +291,40 @@ class Judge {
     }
   }
 
+  /// Adds the interruptions and gaps after which the robot was misplaced. The error grows with the share of
+  /// the walls that contradict the place.
+  void add_interruptions(std::vector<HotSpot>& spots) const {
+    constexpr double kLeastShare = 0.2;  // of the error, if the place is just doubtful
+    for (const InterruptionCheck& check : contradicted_) {
+      const double share = std::clamp((check.contradicted - options_.contradiction) /
+                                          (options_.sure_contradiction - options_.contradiction),
+                                      kLeastShare, 1.0);
+      const Suspect cause = suspect_of(check.suspect);
+      const bool is_gap = check.suspect.kind == PathSuspect::Kind::kGap;
+      spots.push_back({is_gap ? HotSpot::Kind::kGapDisagrees : HotSpot::Kind::kRunsDisagree, cause.at,
+                       share * options_.passes.unknown_m, 0, cause});
+    }
+  }
+
+  void add_uncertain_places(std::vector<HotSpot>& spots) const {
+    for (const UncertainStretch& stretch :
+         uncertain_stretches(result_, views_, sigmas_m_, options_.uncertain_m)) {
+      Suspect cause = this->stretch(Suspect::Kind::kDrift, stretch.first_frame, stretch.last_frame);
+      cause.at = place_of(views_[stretch.worst].frame);
+      spots.push_back({HotSpot::Kind::kUncertain, cause.at, stretch.sigma_m, stretch.length_m, cause});
+    }
+  }
+
+  bool is_misfit(const PassCheck& check) const {
+    return check.fits_if_moved && check.error_m >= options_.misfit_m;
+  }
+
   /// Mean error over the views that other passes or successive scans check.
   double mean_error_m() const {
     std::vector<std::optional<double>> errors = errors_;
     for (const PassCheck& check : checks_)
       if (check.same_pass)
-        errors[check.view] = std::max(errors[check.view].value_or(0),
-                                      check.error_m >= options_.misfit_m ? check.error_m : 0.0);
+        errors[check.view] = std::max(errors[check.view].value_or(0), is_misfit(check) ? check.error_m : 0.0);
     double sum_m = 0;
     std::size_t checked = 0;
     for (const std::optional<double>& error_m : errors) {
@@ -274,35 +344,23 @@ class Judge {
   double unconfirmed_error_m(const std::vector<HotSpot>& spots) const {
     double worst_m = 0;
     for (const HotSpot& spot : spots) {
-      const bool is_lost =
-          spot.kind == HotSpot::Kind::kUnplacedRun ||
+      const bool is_misplaced =
+          spot.kind == HotSpot::Kind::kGapDisagrees ||
           (spot.kind == HotSpot::Kind::kRunsDisagree && spot.suspect.kind == Suspect::Kind::kLost);
-      if (is_lost)
+      if (spot.kind == HotSpot::Kind::kUnplacedRun)
         worst_m = std::max(worst_m, error_of_parts_m(spot.suspect.first_frame, options_.passes.unknown_m));
-      if (spot.kind == HotSpot::Kind::kUnmatched)
+      if (is_misplaced || spot.kind == HotSpot::Kind::kUnmatched)
         worst_m = std::max(worst_m, error_of_parts_m(spot.suspect.first_frame, *spot.error_m));
     }
     return worst_m;
   }
 
-  bool is_unplaced(const MapView& view, const std::vector<FrameSpan>& runs) const {
-    return std::any_of(path_suspects_.begin(), path_suspects_.end(), [&](const PathSuspect& suspect) {
-      return suspect.kind == PathSuspect::Kind::kUnplaced && suspect.first_frame == runs[view.run].begin;
-    });
-  }
-
   double mean_prediction_m() const {
-    if (views_.empty()) return 0;
-    const std::vector<FrameSpan> runs = runs_of(result_);
-    PathCovarianceSearch search;
-    search.run(result_.graph, result_.graph.root());
     double sum_m = 0;
     std::size_t count = 0;
-    for (const MapView& view : views_) {
-      const RelativeUncertainty uncertainty = search.of(view.node);
-      if (!uncertainty.reached || is_unplaced(view, runs)) continue;
-      sum_m += uncertainty.position_sigma_m();
-      ++count;
+    for (const std::optional<double>& sigma_m : sigmas_m_) {
+      sum_m += sigma_m.value_or(0);
+      count += sigma_m ? 1 : 0;
     }
     return count == 0 ? 0 : sum_m / static_cast<double>(count);
   }
@@ -327,9 +385,12 @@ class Judge {
   std::vector<std::optional<double>> errors_;  // of each view
   std::vector<LoopResidual> residuals_;
   std::vector<PathSuspect> path_suspects_;
-  bool searched_loops_ = false;                   // by any scan
-  std::vector<const PathSuspect*> contradicted_;  // interruptions after which the robot was misplaced
-  std::vector<double> blame_;                     // of the step after each view
+  bool searched_loops_ = false;                  // by any scan
+  std::vector<std::optional<double>> sigmas_m_;  // predicted for each view
+  std::vector<InterruptionCheck> contradicted_;  // interruptions after which the robot was misplaced
+  std::vector<double> blame_;                    // of the step after each view
+  // First frames of the checks that fit, ascending, with the largest last frame of all checks up to here.
+  std::vector<std::pair<std::size_t, std::size_t>> fitting_reach_;
 };
 
 }  // namespace

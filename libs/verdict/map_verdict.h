@@ -9,7 +9,6 @@
 
 #include <mrpt/math/TPoint2D.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -28,6 +27,8 @@ struct Suspect {
     kUnmatched,  ///< scans that matched no local map
     kLost,       ///< the place of the robot was lost, and found again
     kUnplaced,   ///< the place of the robot was lost, and never found
+    kGap,        ///< a gap of the log, before the first frame
+    kDrift,      ///< a stretch in which the map may have drifted
   };
   Kind kind = Kind::kStretch;
   std::size_t loop = 0;         ///< of a loop: index in MappingResult::loops
@@ -49,6 +50,8 @@ struct HotSpot {
     kLoopConflict,     ///< the map contradicts an accepted loop
     kUnmatched,        ///< no match and no other pass confirms the motion
     kUnplacedRun,      ///< the place of a run in the map was never found
+    kGapDisagrees,     ///< scans before and after a gap of the log saw different walls
+    kUncertain,        ///< the pose graph predicts a large error
   };
   Kind kind = Kind::kDoubledWall;
   mrpt::math::TPoint2D at;  ///< place in the map, metres
@@ -75,17 +78,16 @@ struct MapVerdict {
   /// Estimated mean error in metres, from what the scans show: the mean displacement between passes and
   /// between successive scans, and the doubt about stretches and runs that no pass confirms.
   double error_m = 0;
-  /// Mean standard deviation of the positions that the graph predicts, metres, without unplaced runs. It
-  /// grows where no loop holds the path, whether or not the scans show an error.
+  /// Mean standard deviation of the positions that the graph predicts, metres, without unplaced runs; see
+  /// aligned_sigmas_m(). It grows where no loop holds the path, whether or not the scans show an error.
   double predicted_m = 0;
   double wall_thickness_m = 0;     ///< 90th percentile of the distances between the walls of two passes
   double checked_share = 0;        ///< share of the path that another pass confirms or contradicts, in [0, 1]
   std::vector<HotSpot> hot_spots;  ///< the worst first, at most VerdictOptions::most_hot_spots
   std::size_t more_hot_spots = 0;  ///< hot spots beyond those, which are left out of the list
 
-  /// Figure by which maps can be ranked: error_m, and predicted_m beyond that of a map with many loops.
-  double doubt_m() const { return error_m + std::max(0.0, predicted_m - kUsualPrediction_m); }
-  static constexpr double kUsualPrediction_m = 0.1;
+  /// Figure by which maps can be ranked, metres.
+  double doubt_m() const { return error_m + predicted_m; }
 };
 
 struct VerdictOptions {
@@ -94,12 +96,16 @@ struct VerdictOptions {
   double spot_error_m = 0.2;     ///< a displacement between passes from here on is a hot spot
   double least_length_m = 1.0;   ///< shortest path along which displaced walls are a hot spot
   std::size_t least_checks = 4;  ///< least number of displaced comparisons of such a hot spot
-  /// Share of the walls seen through, over all scans after an interruption, from which the place where the
-  /// robot was found again is doubtful.
+  /// Share of the walls seen through from which the place of the robot after an interruption or gap is
+  /// doubtful, see InterruptionCheck::contradicted. From sure_contradiction on, the place is wrong; moved
+  /// furniture reaches less.
   double contradiction = 0.05;
-  double misfit_m = 0.35;   ///< a displacement between successive scans from here on is a hot spot
-  double conflict_chi = 6;  ///< a loop residual from here on is a conflict, standard deviations
-  double conflict_m = 0.3;  ///< a loop residual from here on is a conflict, metres
+  double sure_contradiction = 0.1;
+  /// A measured displacement between successive scans from here on is a hot spot.
+  double misfit_m = 0.35;
+  double uncertain_m = 0.25;  ///< a predicted standard deviation from here on is a hot spot
+  double conflict_chi = 6;    ///< a loop residual from here on is a conflict, standard deviations
+  double conflict_m = 0.3;    ///< a loop residual from here on is a conflict, metres
   /// Unmatched motion from here on is a hot spot unless a pass confirms it.
   double unconfirmed_m = 1.0;
   double unmatched_error = 0.1;  ///< expected error of unmatched motion, as a share of the motion

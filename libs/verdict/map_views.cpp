@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "frames/discarded_ranges.h"
 #include "local_maps/scan_filter.h"
@@ -37,10 +38,25 @@ SurfacePoints evenly_chosen(const SurfacePoints& all, std::size_t most) {
 
 }  // namespace
 
-std::vector<MapView> map_views(const MappingResult& result, const MapViewOptions& options) {
-  const std::vector<FrameSpan> runs = runs_of(result);
+std::optional<MapView> view_of_frame(const MappingResult& result, std::size_t frame,
+                                     const MapViewOptions& options) {
+  const Frame& scanned = result.log[frame];
+  if (!has_ranges(scanned) || !scanned.scan.bearings_rad || scanned.scan.ranges_m.size() < 2 ||
+      !are_monotone(*scanned.scan.bearings_rad))
+    return std::nullopt;
   ScanFilterOptions filter;
   filter.spacing_m = kSpacing_m;
+  MapView view;
+  view.node = result.frames[frame].node.value_or(0);
+  view.frame = frame;
+  view.map_T_robot = result.frames[frame].map_T_robot;
+  view.scan = &scanned.scan;
+  view.surfaces = evenly_chosen(surface_points(matching_points(scanned.scan, filter)), options.max_points);
+  return view;
+}
+
+std::vector<MapView> map_views(const MappingResult& result, const MapViewOptions& options) {
+  const std::vector<FrameSpan> runs = runs_of(result);
   std::vector<MapView> views;
   std::size_t run = 0;
   double travelled_m = 0;
@@ -59,13 +75,12 @@ std::vector<MapView> map_views(const MappingResult& result, const MapViewOptions
     if (last != nullptr && travelled_m - last->travelled_m < options.step_m &&
         std::abs(mrpt::math::wrapToPi(here.phi - last->map_T_robot.phi)) < options.turn_rad)
       continue;
-    const Frame& scanned = result.log[frame];
-    if (!has_ranges(scanned) || !scanned.scan.bearings_rad || scanned.scan.ranges_m.size() < 2 ||
-        !are_monotone(*scanned.scan.bearings_rad))
-      continue;
-    views.push_back(
-        {node, frame, run, travelled_m, here, &scanned.scan,
-         evenly_chosen(surface_points(matching_points(scanned.scan, filter)), options.max_points)});
+    std::optional<MapView> view = view_of_frame(result, frame, options);
+    if (!view) continue;
+    view->node = node;
+    view->run = run;
+    view->travelled_m = travelled_m;
+    views.push_back(*std::move(view));
   }
   return views;
 }

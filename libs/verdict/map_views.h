@@ -5,6 +5,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "matching/surface_alignment.h"
@@ -31,8 +32,13 @@ struct MapView {
   mrpt::math::TPose2D map_T_laser() const { return map_T_robot + scan->robot_T_laser; }
 };
 
-/// Returns the views of a map in the order of the log. Leaves out nodes without ranges, and scans whose
-/// bearings neither increase nor decrease throughout.
+/// Returns the view of one frame of a map, with run and travelled_m 0. Empty for a frame without ranges, and
+/// for a scan whose bearings neither increase nor decrease throughout.
+std::optional<MapView> view_of_frame(const MappingResult& result, std::size_t frame,
+                                     const MapViewOptions& options = {});
+
+/// Returns the views of a map in the order of the log. Leaves out nodes without a
+/// view_of_frame().
 std::vector<MapView> map_views(const MappingResult& result, const MapViewOptions& options = {});
 
 /// Returns whether two views belong to different passes: to different runs, or to parts of one run that are

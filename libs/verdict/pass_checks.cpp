@@ -4,7 +4,9 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "matching/point_index.h"
@@ -15,24 +17,49 @@ namespace {
 constexpr double kFits = 0.8;  // share of the same walls from which two scans fit
 // When the nearest views are chosen, a turn by this angle counts like a distance of one metre.
 constexpr double kRadiansPerMetre = 1.0;
+constexpr double kCell_m = 0.5;
+constexpr std::size_t kViewsOfPlace = 8;
 
 mrpt::math::TPoint2Df position(const MapView& view) {
   return {static_cast<float>(view.map_T_robot.x), static_cast<float>(view.map_T_robot.y)};
 }
 
+/// Whether enough points remain in view after the alignment to judge it.
+bool is_alignment_judged(const ScanComparison& scans, const PassCheckOptions& options) {
+  return scans.compared_if_moved >= options.min_points;
+}
+
 double estimated_error_m(const ScanComparison& scans, const PassCheckOptions& options) {
+  const bool judged = is_alignment_judged(scans, options);
+  const double same = judged ? scans.same_if_moved : 1 - scans.seen_through_share();
   const double moved_m = std::hypot(scans.displacement_m, options.lever_m * scans.turn_rad);
-  if (scans.same_if_moved >= kFits) return std::min(moved_m, options.unknown_m);
+  if (same >= kFits) return judged ? std::min(moved_m, options.unknown_m) : 0;
   // Doors and furniture that moved lower the shares of true pairs, so the error grows with the misfit.
-  return options.unknown_m * std::clamp((kFits - scans.same_if_moved) / (kFits - 0.5), 0.0, 1.0);
+  return options.unknown_m * std::clamp((kFits - same) / (kFits - 0.5), 0.0, 1.0);
+}
+
+/// Indices of the views that serve for comparison: the first kViewsOfPlace in each cell of kCell_m whose
+/// headings share an eighth of the circle.
+std::vector<std::size_t> views_to_compare(const std::vector<MapView>& views) {
+  std::map<std::array<long, 3>, std::size_t> counts;
+  std::vector<std::size_t> chosen;
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    const mrpt::math::TPose2D& pose = views[view].map_T_robot;
+    const std::array<long, 3> place{std::lround(pose.x / kCell_m), std::lround(pose.y / kCell_m),
+                                    std::lround(mrpt::math::wrapTo2Pi(pose.phi) * 4 / M_PI)};
+    if (counts[place]++ < kViewsOfPlace) chosen.push_back(view);
+  }
+  return chosen;
 }
 
 /// Indices of the best views of other passes near a view: at most one view of each pass.
 std::vector<std::size_t> views_of_other_passes(std::size_t view, const std::vector<MapView>& views,
+                                               const std::vector<std::size_t>& candidates,
                                                const PointIndex& positions, const PassCheckOptions& options) {
   const MapView& here = views[view];
   std::vector<std::pair<double, std::size_t>> near;
-  for (const std::size_t other : positions.within(position(here), static_cast<float>(options.reach_m))) {
+  for (const std::size_t near_one : positions.within(position(here), static_cast<float>(options.reach_m))) {
+    const std::size_t other = candidates[near_one];
     const MapView& there = views[other];
     if (!are_different_passes(here, there, options.pass_apart_m)) continue;
     const double turn_rad = std::abs(mrpt::math::wrapToPi(there.map_T_robot.phi - here.map_T_robot.phi));
@@ -56,18 +83,21 @@ std::vector<std::size_t> views_of_other_passes(std::size_t view, const std::vect
 }  // namespace
 
 std::vector<PassCheck> check_passes(const std::vector<MapView>& views, const PassCheckOptions& options) {
+  const std::vector<std::size_t> candidates = views_to_compare(views);
   std::vector<mrpt::math::TPoint2Df> at;
-  for (const MapView& view : views) at.push_back(position(view));
+  for (const std::size_t view : candidates) at.push_back(position(views[view]));
   const PointIndex positions(std::move(at));
   std::vector<PassCheck> checks;
   const auto compare = [&](std::size_t view, std::size_t other, bool same_pass) {
-    PassCheck check{view, other, same_pass, compare_scans(views[view], views[other], options.scans), 0};
+    PassCheck check{view, other, same_pass, compare_scans(views[view], views[other], options.scans),
+                    0,    false};
     if (check.scans.same + check.scans.seen_through < options.min_points) return;
     check.error_m = estimated_error_m(check.scans, options);
+    check.fits_if_moved = is_alignment_judged(check.scans, options) && check.scans.same_if_moved >= kFits;
     checks.push_back(check);
   };
   for (std::size_t view = 0; view < views.size(); ++view) {
-    for (const std::size_t other : views_of_other_passes(view, views, positions, options))
+    for (const std::size_t other : views_of_other_passes(view, views, candidates, positions, options))
       compare(view, other, false);
     if (view >= options.views_back && views[view - options.views_back].run == views[view].run)
       compare(view, view - options.views_back, true);

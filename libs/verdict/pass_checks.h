@@ -30,9 +30,13 @@ struct PassCheck {
   bool same_pass = false;  ///< whether both views belong to one pass
   ScanComparison scans;
   double error_m = 0;  ///< estimated displacement between both views, at most unknown_m
+  /// Whether the scans fit after the alignment, so that the displacement was measured. False if the views see
+  /// different scenes: the displacement is too large, or the scene changed.
+  bool fits_if_moved = false;
 };
 
-/// Compares the views. The checks are ordered by PassCheck::view.
+/// Compares the views. At one place, views of the first eight passes serve for comparison with all views, so
+/// that the work grows linearly with the path. The checks are ordered by PassCheck::view.
 std::vector<PassCheck> check_passes(const std::vector<MapView>& views, const PassCheckOptions& options = {});
 
 /// Returns for each view the largest error of its checks with other passes; empty for a view that no other

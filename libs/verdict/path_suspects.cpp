@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace psi_slam {
 namespace {
@@ -15,12 +16,34 @@ double motion_m(const FrameRecord& from, const FrameRecord& to) {
   return std::hypot(step.x, step.y) + std::abs(mrpt::math::wrapToPi(step.phi));
 }
 
+constexpr double kLeastGap_s = 2;
+constexpr double kGapSteps = 10;  // shortest gap, as a multiple of the median time between scans
+
+double seconds_between(const FrameRecord& from, const FrameRecord& to) {
+  return 1e-6 * static_cast<double>(to.time_us - from.time_us);
+}
+
+/// Shortest time between two scans that is a gap, seconds; infinite without two scans.
+double least_gap_s(const std::vector<FrameRecord>& frames) {
+  std::vector<double> steps_s;
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    steps_s.push_back(seconds_between(frames[i - 1], frames[i]));
+  if (steps_s.empty()) return std::numeric_limits<double>::infinity();
+  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+  std::nth_element(steps_s.begin(), middle, steps_s.end());
+  return std::max(kLeastGap_s, kGapSteps * *middle);
+}
+
 }  // namespace
 
 std::vector<PathSuspect> path_suspects(const MappingResult& result, double min_doubt_m) {
   const std::vector<FrameRecord>& frames = result.frames;
   std::vector<PathSuspect> suspects;
+  const double gap_s = least_gap_s(frames);
   for (const FrameSpan& run : runs_of(result)) {
+    for (std::size_t i = run.begin + 1; i < run.end; ++i)
+      if (seconds_between(frames[i - 1], frames[i]) >= gap_s)
+        suspects.push_back({PathSuspect::Kind::kGap, i, i, 0});
     for (std::size_t i = run.begin + 1; i < run.end; ++i) {
       if (frames[i].match != ScanMatch::kUnmatched) continue;
       PathSuspect suspect{PathSuspect::Kind::kUnmatched, i, i, 0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stretches of the path whose relative pose is doubtful: scans that matched no local map, and places where
-// the robot was lost.
+// Stretches of the path whose relative pose is doubtful: scans that matched no local map, places where the
+// robot was lost, and gaps of the log.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,7 @@ struct PathSuspect {
     kUnmatched,  ///< odometry or the constant-velocity model placed the scans
     kLost,       ///< an interruption at which the place of the robot was lost, and found again
     kUnplaced,   ///< an interruption after which the place of the robot was never found
+    kGap,        ///< a gap of the log after which the robot seemed to be where it was expected
   };
   Kind kind = Kind::kUnmatched;
   std::size_t first_frame = 0;
@@ -23,8 +24,9 @@ struct PathSuspect {
   double doubt_m = 0;  ///< motion of the robot that no match confirms; turns count with a lever of 1 m
 };
 
-/// Returns the suspects in the order of the log. Leaves out stretches in which the robot moved by less than
-/// `min_doubt_m`.
+/// Returns the suspects in the order of the log. A gap lasts at least 2 s and ten times the median time
+/// between scans; it is between the frame before first_frame and first_frame. Leaves out stretches in which
+/// the robot moved by less than `min_doubt_m`.
 std::vector<PathSuspect> path_suspects(const MappingResult& result, double min_doubt_m = 0.3);
 
 }  // namespace psi_slam

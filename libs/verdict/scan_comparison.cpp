@@ -190,6 +190,7 @@ ScanComparison compare_scans(const MapView& view, const MapView& other,
     same += comparison.is_same(one) ? 1 : 0;
     through += !comparison.is_same(one) && comparison.is_seen_through(one) ? 1 : 0;
   }
+  result.compared_if_moved = same + through;
   result.same_if_moved =
       same + through == 0 ? 0 : static_cast<double>(same) / static_cast<double>(same + through);
   return result;

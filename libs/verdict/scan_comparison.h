@@ -31,9 +31,10 @@ struct ScanComparison {
   /// Displacement of the scan relative to the other scan, by the alignment; along a corridor it is unknown
   /// and counts as zero.
   double displacement_m = 0;
-  double turn_rad = 0;       ///< rotation of the alignment
-  double same_if_moved = 0;  ///< share of same / (same + seen_through) after the alignment
-  mrpt::math::TPoint2D at;   ///< a point on a wall that is seen through or doubled, in the map
+  double turn_rad = 0;                ///< rotation of the alignment
+  std::size_t compared_if_moved = 0;  ///< same + seen_through after the alignment
+  double same_if_moved = 0;           ///< share of same / (same + seen_through) after the alignment
+  mrpt::math::TPoint2D at;            ///< a point on a wall that is seen through or doubled, in the map
 
   /// Share of the compared points that the other scan saw through, in [0, 1].
   double seen_through_share() const {

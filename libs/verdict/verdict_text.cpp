@@ -22,9 +22,9 @@ std::string scans_text(const Suspect& suspect) {
 }  // namespace
 
 std::string text_of(HotSpot::Kind kind) {
-  constexpr std::array<const char*, 7> kTexts{"doubled wall",     "wall seen through", "runs disagree",
+  constexpr std::array<const char*, 9> kTexts{"doubled wall",     "wall seen through", "runs disagree",
                                               "scans do not fit", "loop in conflict",  "unmatched scans",
-                                              "unplaced run"};
+                                              "unplaced run",     "gap in the log",    "uncertain place"};
   return kTexts[static_cast<std::size_t>(kind)];
 }
 
@@ -44,6 +44,10 @@ std::string text_of(const Suspect& suspect) {
       return scans_text(suspect) + ", where the place of the robot was lost";
     case Suspect::Kind::kUnplaced:
       return scans_text(suspect) + ", where the place of the robot was lost and was never found again";
+    case Suspect::Kind::kGap:
+      return scans_text(suspect) + ", before which the log has a gap";
+    case Suspect::Kind::kDrift:
+      return scans_text(suspect) + ", where loops hold the map too weakly";
     case Suspect::Kind::kStretch:
       break;
   }
@@ -92,8 +96,10 @@ std::string advice_text(const HotSpot& spot) {
              std::to_string(suspect.first_frame) + " by hand";
     case Suspect::Kind::kLost:
     case Suspect::Kind::kUnplaced:
+    case Suspect::Kind::kGap:
       return "match a scan after scan " + std::to_string(suspect.last_frame) +
              " with a local map of the rest of the map by hand";
+    case Suspect::Kind::kDrift:
     case Suspect::Kind::kStretch:
       break;
   }

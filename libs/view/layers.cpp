@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -157,6 +158,10 @@ constexpr std::size_t kMostLoopsOfFinalSearch = 3000;
 
 constexpr double kBetweenEllipses_m = 1;
 constexpr int kEllipseSides = 24;
+constexpr double kRing_m = 0.75;  // radius of the ring around a hot spot
+constexpr int kRingSides = 32;
+constexpr float kRingWidth = 2;
+constexpr float kWorstRingWidth = 4;
 constexpr double kChiSquare95 = 5.991;  // 95 % point of the chi-square distribution, two degrees of freedom
 
 // Size of the arrow that shows the robot. It points along the robot's x axis.
@@ -295,6 +300,47 @@ void draw_uncertainty(SceneLayer& layer, const ReplaySnapshot& snapshot) {
     for (int i = 0; i < kEllipseSides; ++i) join(*lines, corner(i), corner(i + 1), height_m::kUncertainty);
   }
   layer.insert(lines);
+}
+
+void draw_hot_spots(SceneLayer& layer, const ReplaySnapshot& snapshot) {
+  if (!snapshot.verdict) return;
+  float width = kWorstRingWidth;
+  std::vector<TPoint3D> suspects;
+  auto to_suspects = lines_of(palette::kHotSpot, 1.5F);
+  for (const HotSpot& spot : snapshot.verdict->hot_spots) {
+    auto ring = lines_of(palette::kHotSpot, width);
+    const auto corner = [&](int i) {
+      const double angle = 2 * M_PI * i / kRingSides;
+      return TPoint2D(spot.at.x + kRing_m * std::cos(angle), spot.at.y + kRing_m * std::sin(angle));
+    };
+    for (int i = 0; i < kRingSides; ++i) join(*ring, corner(i), corner(i + 1), height_m::kHotSpots);
+    layer.insert(ring);
+    join(*to_suspects, spot.at, spot.suspect.at, height_m::kHotSpots);
+    suspects.push_back(raised(spot.suspect.at, height_m::kHotSpots));
+    width = kRingWidth;
+  }
+  if (suspects.empty()) return;
+  layer.insert(to_suspects);
+  layer.insert(dots_of(suspects, palette::kHotSpot, 9));
+}
+
+const HotSpot* hot_spot_at(const ReplaySnapshot& snapshot, const TPoint2D& place) {
+  const HotSpot* nearest = nullptr;
+  if (!snapshot.verdict) return nearest;
+  double nearest_m = kRing_m;
+  for (const HotSpot& spot : snapshot.verdict->hot_spots) {
+    const double away_m = (spot.at - place).norm();
+    if (away_m > nearest_m) continue;
+    nearest = &spot;
+    nearest_m = away_m;
+  }
+  return nearest;
+}
+
+std::string hot_spot_hint(const HotSpot& spot) {
+  std::string text = hot_spot_text(spot);
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text + ".\nTry: " + advice_text(spot) + '.';
 }
 
 void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style) {

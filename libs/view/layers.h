@@ -6,6 +6,7 @@
 #include <mrpt/opengl/CSetOfObjects.h>
 
 #include <cstddef>
+#include <string>
 
 #include "replay/map_painter.h"
 #include "replay/replay_snapshot.h"
@@ -29,6 +30,7 @@ inline constexpr double kUnmatched = 0.0275;
 inline constexpr double kNodes = 0.03;
 inline constexpr double kScan = 0.035;
 inline constexpr double kWindows = 0.04;
+inline constexpr double kHotSpots = 0.0425;
 inline constexpr double kRobot = 0.045;
 inline constexpr double kChosenLoop = 0.05;
 inline constexpr double kMeasure = 0.055;
@@ -57,6 +59,15 @@ void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot);
 /// Draws the ellipses that contain the true positions of nodes with a probability of 95 %, true to scale, at
 /// nodes at least 1 m apart. Draws nothing unless the run is finished.
 void draw_uncertainty(SceneLayer& layer, const ReplaySnapshot& snapshot);
+/// Draws the hot spots of the verdict: a ring around each doubtful place, and a line to a dot at its suspect.
+/// The worst hot spot has the thickest ring. Draws nothing unless the run is finished.
+void draw_hot_spots(SceneLayer& layer, const ReplaySnapshot& snapshot);
+/// Returns the hot spot whose ring contains a place of the map; the nearest of several. Null if there is
+/// none.
+const HotSpot* hot_spot_at(const ReplaySnapshot& snapshot, const mrpt::math::TPoint2D& place);
+/// Returns what the verdict says about a hot spot and what would help, as two sentences.
+std::string hot_spot_hint(const HotSpot& spot);
+
 void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style);
 /// Draws the selected loop and the window in which it was searched.
 void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop);

@@ -35,7 +35,8 @@ constexpr std::array<LayerFacts, kMapLayers> kLayers{{{"Grid map", kMaps, true},
                                                       {"Robot", kMarks, true},
                                                       {"Search windows", kMarks, true},
                                                       {"Uncertainty (95 %)", kLines, false},
-                                                      {"Zones", kAboveMaps, true}}};
+                                                      {"Zones", kAboveMaps, true},
+                                                      {"Hot spots", kMarks, true}}};
 
 bool active_maps_differ(const ReplaySnapshot& a, const ReplaySnapshot& b) {
   const auto& before = a.active_local_maps;
@@ -164,6 +165,8 @@ bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
   const bool covariances_changed =
       poses_changed || snapshot.node_covariances != shown_.snapshot->node_covariances;
   if (covariances_changed) redraw(MapLayer::kUncertainty, draw_uncertainty, snapshot);
+  const bool verdict_changed = poses_changed || snapshot.verdict != shown_.snapshot->verdict;
+  if (verdict_changed) redraw(MapLayer::kHotSpots, draw_hot_spots, snapshot);
   const bool loops_changed =
       poses_changed || snapshot.loops != shown_.snapshot->loops || !(loop_style_ == shown_.loop_style);
   if (loops_changed) redraw(MapLayer::kLoops, draw_loops, snapshot, loop_style_);
@@ -173,7 +176,7 @@ bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
       if (chosen_loop_ && *chosen_loop_ < snapshot.loops->size())
         draw_chosen_loop(layer, snapshot, *chosen_loop_);
     });
-  return maps_changed || covariances_changed || loops_changed || chosen_changed;
+  return maps_changed || covariances_changed || verdict_changed || loops_changed || chosen_changed;
 }
 
 void MapScene::show_robot(const ReplaySnapshot& snapshot, std::optional<std::size_t> frame) {

@@ -30,8 +30,9 @@ enum class MapLayer {
   kWindows,
   kUncertainty,
   kZones,
+  kHotSpots,
 };
-inline constexpr std::size_t kMapLayers = 12;
+inline constexpr std::size_t kMapLayers = 13;
 
 /// Name of a layer for menus, such as "Grid map".
 const char* name_of(MapLayer layer);

@@ -16,6 +16,7 @@ inline constexpr mrpt::img::TColor kUnmatched{214, 30, 40, 150};
 inline constexpr mrpt::img::TColor kOdometry{196, 132, 52, 170};
 inline constexpr mrpt::img::TColor kNode{31, 97, 171};
 inline constexpr mrpt::img::TColor kUncertainty{0, 130, 80};
+inline constexpr mrpt::img::TColor kHotSpot{200, 0, 140};
 inline constexpr mrpt::img::TColor kConstraint{120, 132, 150, 130};
 inline constexpr mrpt::img::TColor kScan{222, 45, 38};
 inline constexpr mrpt::img::TColor kRobot{20, 24, 32};

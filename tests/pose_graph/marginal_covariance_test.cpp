@@ -45,6 +45,23 @@ TEST(MarginalCovariance, is_a_block_of_the_dense_inverse) {
   }
 }
 
+TEST(MarginalCovariance, with_a_weighted_sum_follows_from_the_dense_inverse) {
+  const KnownGraph known = building(60, 2, 2);
+  const Eigen::MatrixXd inverse = held_at_root(dense_system(known.graph)).h.inverse();
+  MarginalCovariance covariance;
+  covariance.update(known.graph);
+  std::vector<Eigen::Vector3d> weights(60, Eigen::Vector3d::Zero());
+  weights[0] = {1, 1, 1};  // of the root, which is exact
+  weights[17] = {0.5, -1, 2};
+  weights[42] = {3, 0, -0.2};
+  const std::vector<Eigen::Vector3d> all = covariance.covariances_with_sum(weights);
+  EXPECT_EQ(all[0], Eigen::Vector3d::Zero());
+  for (std::size_t a = 1; a < 60; a += 5)
+    EXPECT_TRUE(near(all[a], dense_joint(inverse, a, 17).topRightCorner<3, 3>() * weights[17] +
+                                 dense_joint(inverse, a, 42).topRightCorner<3, 3>() * weights[42]))
+        << a;
+}
+
 TEST(MarginalCovariance, of_a_relative_pose_follows_from_the_joint_one) {
   const KnownGraph known = building(150, 2, 2);
   const Eigen::MatrixXd inverse = held_at_root(dense_system(known.graph)).h.inverse();

@@ -108,9 +108,14 @@ TEST(MapVerdict, finds_a_conflict_behind_a_loop_that_is_only_turned) {
   EXPECT_EQ(conflicts.front().suspect.loop, 1U);
 }
 
-TEST(MapVerdict, asks_to_check_a_single_pass_with_two_bad_scans) {
+/// Displaces a scan and all later ones in the map.
+void displace_from(std::size_t frame, MappingResult& result) {
+  for (std::size_t i = frame; i < result.frames.size(); ++i) result.frames[i].map_T_robot.x += 0.45;
+}
+
+TEST(MapVerdict, asks_to_check_a_single_pass_with_a_jump) {
   MappingResult result = two_passes();
-  for (const std::size_t frame : {30U, 31U}) shorten_ranges(result.log[frame]);
+  displace_from(30, result);
   const MapVerdict verdict = judge_map(result, options_of_single_pass());
   EXPECT_EQ(verdict.state, MapState::kCheck);
   EXPECT_GT(verdict.error_m, 0.01);
@@ -121,9 +126,9 @@ TEST(MapVerdict, asks_to_check_a_single_pass_with_two_bad_scans) {
   EXPECT_LT(misfits.front().length_m, 1);
 }
 
-TEST(MapVerdict, asks_for_no_check_of_single_bad_scans) {
+TEST(MapVerdict, asks_for_no_check_of_scans_that_no_motion_explains) {
   MappingResult result = two_passes();
-  for (const std::size_t frame : {20U, 31U}) shorten_ranges(result.log[frame]);
+  for (const std::size_t frame : {20U, 30U, 31U}) shorten_ranges(result.log[frame]);
   EXPECT_EQ(judge_map(result, options_of_single_pass()).state, MapState::kGood);
 }
 
@@ -139,7 +144,8 @@ TEST(MapVerdict, asks_to_check_a_short_stretch_without_a_match) {
 
 TEST(MapVerdict, measures_the_error_before_it_shortens_the_list) {
   MappingResult result = two_passes();
-  for (const std::size_t frame : {30U, 31U, 50U, 51U}) shorten_ranges(result.log[frame]);
+  displace_from(30, result);
+  displace_from(50, result);
   VerdictOptions options = options_of_single_pass();
   const MapVerdict whole = judge_map(result, options);
   options.most_hot_spots = 1;
@@ -181,21 +187,65 @@ TEST(MapVerdict, finds_a_map_broken_with_a_run_beside_it) {
   EXPECT_THAT(verdict_sentence(verdict), Not(HasSubstr("mean error")));
 }
 
-TEST(MapVerdict, predicts_no_error_for_a_run_beside_the_map) {
-  MappingResult result = two_passes({30, 0, 0});
-  const std::size_t nodes = result.node_frames.size();
-  for (std::size_t node = 1; node < nodes; ++node) {
+/// Adds constraints between successive nodes. The one to `weak` has a standard deviation of weak_sigma_m, or
+/// is a provisional start if it is so weak.
+void join_nodes(MappingResult& result, std::size_t weak, double weak_sigma_m) {
+  for (std::size_t node = 1; node < result.node_frames.size(); ++node) {
     Constraint step;
     step.from = node - 1;
     step.to = node;
     step.from_T_to = result.graph.pose(node) - result.graph.pose(node - 1);
-    step.information = Eigen::Matrix3d::Identity() * (node == kScansPerRound ? 1e-6 : 1e6);
+    step.information = Eigen::Matrix3d::Identity() * 1e6;
+    if (node == weak) {
+      step.kind = Constraint::Kind::kRunStart;
+      step.information = Eigen::Matrix3d::Identity() / (weak_sigma_m * weak_sigma_m);
+    }
     result.graph.add_constraint(step);
   }
+}
+
+TEST(MapVerdict, predicts_no_error_for_a_run_beside_the_map) {
+  MappingResult result = two_passes({30, 0, 0});
+  join_nodes(result, kScansPerRound, 900);
   EXPECT_GT(judge_map(result).predicted_m, 100);
-  result.later_run_frames = {kScansPerRound};
-  result.interruptions = {{kScansPerRound, std::nullopt}};
+  result = two_passes({30, 0, 0});
+  join_nodes(result, kScansPerRound, 1e3);
   EXPECT_LT(judge_map(result).predicted_m, 0.1);
+}
+
+TEST(MapVerdict, asks_to_check_a_map_whose_graph_predicts_a_large_error) {
+  MappingResult result = two_passes();
+  join_nodes(result, kScansPerRound, 1);
+  const MapVerdict verdict = judge_map(result);
+  EXPECT_EQ(verdict.state, MapState::kCheck);
+  const std::vector<HotSpot> spots = spots_of(verdict, HotSpot::Kind::kUncertain);
+  ASSERT_FALSE(spots.empty());
+  EXPECT_EQ(spots.front().suspect.kind, Suspect::Kind::kDrift);
+  EXPECT_THAT(hot_spot_text(spots.front()), HasSubstr("uncertain place at ("));
+  EXPECT_THAT(advice_text(spots.front()), HasSubstr("loop_closure"));
+  EXPECT_LT(verdict.error_m, 0.02) << "the scans show no error";
+}
+
+TEST(MapVerdict, names_the_gap_after_which_the_robot_was_elsewhere) {
+  MappingResult result = two_passes({0.6, 0.4, 0});
+  for (std::size_t i = kScansPerRound; i < result.frames.size(); ++i) result.frames[i].time_us += 60'000'000;
+  const MapVerdict verdict = judge_map(result);
+  EXPECT_EQ(verdict.state, MapState::kBroken);
+  ASSERT_EQ(spots_of(verdict, HotSpot::Kind::kGapDisagrees).size(), 1U);
+  for (const HotSpot& spot : verdict.hot_spots) {
+    EXPECT_EQ(spot.suspect.kind, Suspect::Kind::kGap) << hot_spot_text(spot);
+    EXPECT_EQ(spot.suspect.first_frame, static_cast<std::size_t>(kScansPerRound));
+  }
+}
+
+TEST(MapVerdict, suspects_an_interruption_where_the_passes_part) {
+  MappingResult result = two_passes({0.3, 0, 0});
+  result.interruptions = {{kScansPerRound, kScansPerRound + 2}};
+  VerdictOptions options;
+  options.contradiction = 1;  // leaves the suspect to the displaced walls
+  const MapVerdict verdict = judge_map(result, options);
+  ASSERT_FALSE(verdict.hot_spots.empty());
+  EXPECT_EQ(verdict.hot_spots.front().suspect.kind, Suspect::Kind::kLost);
 }
 
 TEST(MapVerdict, says_that_nothing_was_checked) {

@@ -36,5 +36,23 @@ TEST(PassChecks, know_nothing_about_views_that_only_one_pass_saw) {
     EXPECT_FALSE(error_m);
 }
 
+TEST(PassChecks, compare_with_the_first_passes_of_a_place) {
+  const MappingResult result = two_passes();
+  const std::vector<MapView> once = map_views(result);
+  std::vector<MapView> often;
+  for (std::size_t run = 0; run < 20; ++run)
+    for (MapView view : once) {
+      view.run = run;
+      often.push_back(view);
+    }
+  std::size_t compared = 0;
+  for (const PassCheck& check : check_passes(often)) {
+    if (check.same_pass) continue;
+    EXPECT_LT(often[check.other].run, 8U) << "the work must not grow with the square of the passes";
+    compared += often[check.view].run == 19 ? 1 : 0;
+  }
+  EXPECT_GT(compared, once.size()) << "the last pass is compared, too";
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -31,5 +31,16 @@ TEST(PathSuspects, are_interruptions) {
   EXPECT_EQ(suspects[1].kind, PathSuspect::Kind::kUnplaced);
 }
 
+TEST(PathSuspects, are_gaps_of_the_log) {
+  MappingResult result = two_passes();
+  for (std::size_t i = 45; i < result.frames.size(); ++i) result.frames[i].time_us += 3'000'000;
+  const std::vector<PathSuspect> suspects = path_suspects(result);
+  ASSERT_EQ(suspects.size(), 1U);
+  EXPECT_EQ(suspects[0].kind, PathSuspect::Kind::kGap);
+  EXPECT_EQ(suspects[0].first_frame, 45U);
+  result.later_run_frames = {45};
+  EXPECT_TRUE(path_suspects(result).empty()) << "a new run begins there";
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "replayed_room.h"
+#include "view/layers.h"
 #include "view/palette.h"
 
 namespace psi_slam {
@@ -103,6 +104,45 @@ TEST_F(MapSceneTest, draws_uncertainty_of_finished_runs_only) {
   scene_.show(finished_, map_);
   EXPECT_EQ(finished_->node_covariances->size(), finished_->map_T_node->size());
   EXPECT_GT(first<mrpt::opengl::CSetOfLines>(MapLayer::kUncertainty)->size(), 48U);
+}
+
+TEST_F(MapSceneTest, draws_a_ring_and_the_suspect_of_each_hot_spot) {
+  scene_.show(finished_, map_);
+  ASSERT_TRUE(finished_->verdict);
+  EXPECT_EQ(finished_->verdict->state, MapState::kGood);
+  EXPECT_EQ(objects(MapLayer::kHotSpots), 0U);
+
+  auto snapshot = std::make_shared<ReplaySnapshot>(*finished_);
+  HotSpot spot;
+  spot.at = {3, 1};
+  spot.error_m = 0.4;
+  spot.suspect.at = {5, 2};
+  MapVerdict verdict;
+  verdict.hot_spots = {spot, spot};
+  verdict.hot_spots[1].at = {8, 1};
+  snapshot->verdict = std::make_shared<MapVerdict>(verdict);
+  MapScene scene;
+  scene.show(snapshot, map_);
+  const auto& layer = scene.layer(MapLayer::kHotSpots);
+  const auto ring = std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(*layer.begin());
+  ASSERT_TRUE(ring);
+  double x_max_m = 0;
+  for (std::size_t i = 0; i < ring->size(); ++i) {
+    double x0 = 0, y0 = 0, z0 = 0, x1 = 0, y1 = 0, z1 = 0;
+    ring->getLineByIndex(i, x0, y0, z0, x1, y1, z1);
+    x_max_m = std::max(x_max_m, x0);
+  }
+  EXPECT_NEAR(x_max_m, 3.75, 0.01);
+  const auto dots = std::dynamic_pointer_cast<mrpt::opengl::CPointCloud>(*std::next(layer.begin(), 3));
+  ASSERT_TRUE(dots);
+  EXPECT_EQ(dots->size(), 2U);
+
+  EXPECT_EQ(hot_spot_at(*snapshot, {7.5, 1}), &snapshot->verdict->hot_spots[1]);
+  EXPECT_EQ(hot_spot_at(*snapshot, {5, 2}), nullptr) << "the suspect is no hot spot";
+  EXPECT_EQ(hot_spot_at(*paused_, {3, 1}), nullptr);
+  const std::string hint = hot_spot_hint(spot);
+  EXPECT_EQ(hint.substr(0, 35), "Doubled wall at (3.0, 1.0) m, error");
+  EXPECT_NE(hint.find(".\nTry: "), std::string::npos);
 }
 
 TEST_F(MapSceneTest, shows_zones_and_drafts) {

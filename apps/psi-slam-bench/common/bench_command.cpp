@@ -99,10 +99,11 @@ void write_report(const BenchReport& report, const BenchArguments& arguments, co
   if (!streams.out) throw SystemFailure("cannot write to standard output");
 }
 
-void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& purpose) {
+void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& purpose,
+                      const std::string& name) {
   command
       .add_option_function<std::string>(
-          "--seeds", [&seeds](const std::string& text) { seeds = parse_seeds(text); },
+          name, [&seeds](const std::string& text) { seeds = parse_seeds(text); },
           purpose + ": N for the seeds 1 to N, or FIRST-LAST")
       ->default_str(std::to_string(seeds.last))
       ->type_name("SEEDS");

@@ -44,8 +44,9 @@ void add_logs_option(CLI::App& command, BenchArguments& arguments);
 /// Adds --json, --csv and -o. `content` names the files for the folder -o: "match.md and the plots".
 void add_output_options(CLI::App& command, BenchArguments& arguments, const std::string& content);
 
-/// Adds --seeds; `purpose` says what the seeds are for.
-void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& purpose);
+/// Adds an option for a range of seeds; `purpose` says what the seeds are for.
+void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& purpose,
+                      const std::string& name = "--seeds");
 
 /// Folder of the settings of the logs: --ini, or the folder that comes with psi-slam. Throws UserError if
 /// --ini is not given and no such folder is found.

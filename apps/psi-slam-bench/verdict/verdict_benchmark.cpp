@@ -12,31 +12,38 @@ VerdictRow judged(const FaultyMap& map) {
   const MapVerdict verdict = judge_map(map.result);
   VerdictRow row;
   row.judge_ms = 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  row.log = map.log;
   row.fault = map.fault;
   row.seed = map.seed;
   row.error_m = map.error_m;
+  row.map_distance_m = map.distance_m;
   row.state = verdict.state;
   row.doubt_m = verdict.doubt_m();
   row.hot_spots = verdict.hot_spots.size();
   if (verdict.hot_spots.empty()) return row;
-  const mrpt::math::TPoint2D& suspect = verdict.hot_spots.front().suspect.at;
+  const Suspect& suspect = verdict.hot_spots.front().suspect;
+  if (is_false_loop(map.fault) && suspect.kind != Suspect::Kind::kLoop) return row;
   for (const mrpt::math::TPoint2D& place : map.places) {
-    const double away_m = std::hypot(place.x - suspect.x, place.y - suspect.y);
+    const double away_m = std::hypot(place.x - suspect.at.x, place.y - suspect.at.y);
     row.distance_m = std::min(row.distance_m.value_or(away_m), away_m);
   }
   return row;
 }
 
-std::vector<VerdictRow> run_verdict_benchmark(const VerdictBenchmarkOptions& options,
+std::vector<VerdictRow> run_verdict_benchmark(const std::vector<BenchmarkLog>& logs,
+                                              const VerdictBenchmarkOptions& options,
                                               const ProgressObserver& observer) {
-  const auto all = static_cast<double>(options.seeds.count() * kMapFaults.size());
+  const std::size_t maps_of_log = 1 + options.log_seeds.count() * (kMapFaults.size() - 1);
+  const auto all = static_cast<double>(options.seeds.count() * kMapFaults.size() + logs.size() * maps_of_log);
   std::vector<VerdictRow> rows;
-  for (const std::uint64_t seed : options.seeds.all())
-    make_faulty_maps(seed, options.path_m, [&](const FaultyMap& map) {
-      rows.push_back(judged(map));
-      observer("building " + std::to_string(seed) + ", " + name_of(map.fault),
-               static_cast<double>(rows.size()), all);
-    });
+  const auto judge = [&](const FaultyMap& map) {
+    rows.push_back(judged(map));
+    observer(
+        (map.log.empty() ? "building" : map.log) + ' ' + std::to_string(map.seed) + ", " + name_of(map.fault),
+        static_cast<double>(rows.size()), all);
+  };
+  for (const std::uint64_t seed : options.seeds.all()) make_simulated_maps(seed, options.path_m, judge);
+  for (const BenchmarkLog& log : logs) make_maps_of_log(log, options.log_seeds, judge);
   return rows;
 }
 

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "verdict/known_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "exports/mapped_trajectory.h"
+#include "psi_slam/mapper.h"
+#include "psi_slam/open_log.h"
+#include "simulation/simulated_log.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+
+constexpr double kScanRate_hz = 5;
+
+void make_blind(LaserScan& scan) {
+  for (float& range_m : scan.ranges_m) range_m = std::numeric_limits<float>::infinity();
+}
+
+void cut_ranges(double max_range_m, LaserScan& scan) {
+  for (float& range_m : scan.ranges_m)
+    if (range_m > static_cast<float>(max_range_m)) range_m = std::numeric_limits<float>::infinity();
+}
+
+/// Path of a map with the scans that were thinned out, at the times of the log.
+Trajectory with_all_scans(const MappingResult& map, const KnownRun& run) {
+  const Trajectory& whole = run.truth->map;
+  Trajectory path;
+  for (std::size_t i = 0; i < run.scans.size(); ++i) {
+    const std::size_t scan = run.scans[i];
+    const std::size_t next = i + 1 < run.scans.size() ? run.scans[i + 1] : scan + 1;
+    const std::size_t end = next - scan <= run.kept_every_nth ? next : scan + 1;
+    for (std::size_t j = scan; j < end; ++j)
+      path.push_back({whole[j].time_us, map.frames[i].map_T_robot + (whole[j].pose - whole[scan].pose)});
+  }
+  return path;
+}
+
+}  // namespace
+
+KnownRun simulated_run(std::uint64_t seed, double path_m, RandomDraws& draws) {
+  SimulatedLogOptions options = simulated_log_options(path_m, seed);
+  options.path.scan_rate_hz = kScanRate_hz;
+  options.people = draws.index(4);
+  options.scan.noise_m = 0.005 + 0.015 * draws.share();
+  SimulatedLog log(options);
+  KnownRun run;
+  run.mapper = mapper_options(Settings{});
+  while (std::optional<Frame> frame = log.next()) {
+    run.scans.push_back(run.frames.size());
+    run.frames.push_back(*std::move(frame));
+    run.world_T_robot.push_back(log.world_T_robot());
+  }
+  return run;
+}
+
+std::pair<KnownRun, MappingResult> run_of_log(const BenchmarkLog& log) {
+  const Settings settings = benchmark_settings(log.ini);
+  KnownRun run;
+  run.log = log.name;
+  run.mapper = mapper_options(settings);
+  const auto source = open_log(log.log, log_options(settings));
+  while (std::optional<Frame> frame = source->next()) {
+    run.scans.push_back(run.frames.size());
+    run.frames.push_back(*std::move(frame));
+  }
+  MappingResult map = map_of(run);
+  run.world_T_robot = mapped_poses(map);
+  run.truth =
+      std::make_shared<LogTruth>(LogTruth{trajectory_of(map.frames), read_relations(log.relations.value())});
+  return {std::move(run), std::move(map)};
+}
+
+MappingResult map_of(const KnownRun& run, bool close_loops) {
+  MapperOptions options = run.mapper;
+  options.close_loops = close_loops;
+  Mapper mapper(options);
+  for (const Frame& frame : run.frames) mapper.add(frame);
+  return mapper.finish();
+}
+
+double mean_error_m(const MappingResult& map, const KnownRun& run) {
+  if (!run.truth) return aligned_error_m(mapped_poses(map), run.world_T_robot);
+  return evaluate_relations(with_all_scans(map, run), run.truth->relations).translation_abs_m.mean;
+}
+
+double aligned_error_m(const std::vector<TPose2D>& path, const std::vector<TPose2D>& truth) {
+  const auto count = static_cast<double>(path.size());
+  TPoint2D path_mean(0, 0);
+  TPoint2D true_mean(0, 0);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    path_mean += TPoint2D(path[i].x, path[i].y) * (1 / count);
+    true_mean += TPoint2D(truth[i].x, truth[i].y) * (1 / count);
+  }
+  double dot = 0;
+  double cross = 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double px = path[i].x - path_mean.x;
+    const double py = path[i].y - path_mean.y;
+    const double tx = truth[i].x - true_mean.x;
+    const double ty = truth[i].y - true_mean.y;
+    dot += px * tx + py * ty;
+    cross += px * ty - py * tx;
+  }
+  const TPose2D turn(0, 0, std::atan2(cross, dot));
+  double sum_m = 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const TPose2D turned = turn + TPose2D(path[i].x - path_mean.x, path[i].y - path_mean.y, 0);
+    sum_m += std::hypot(turned.x - (truth[i].x - true_mean.x), turned.y - (truth[i].y - true_mean.y));
+  }
+  return sum_m / count;
+}
+
+KnownRun degraded(const KnownRun& run, std::size_t keep_every_nth, double max_range_m, double noise,
+                  RandomDraws& draws) {
+  KnownRun kept;
+  kept.log = run.log;
+  kept.mapper = run.mapper;
+  kept.kept_every_nth = keep_every_nth;
+  kept.truth = run.truth;
+  std::optional<TPose2D> last;
+  TPose2D odom_T_robot(0, 0, 0);
+  for (std::size_t i = 0; i < run.frames.size(); i += keep_every_nth) {
+    Frame frame = run.frames[i];
+    const TPose2D step = last ? frame.odom_T_robot - *last : TPose2D(0, 0, 0);
+    last = frame.odom_T_robot;
+    const double root_m = std::sqrt(std::hypot(step.x, step.y));
+    const double turn_rad = noise * 0.02 * root_m * draws.normal();
+    const double along_m = noise * 0.03 * root_m * draws.normal();
+    odom_T_robot = odom_T_robot + TPose2D(step.x + along_m, step.y, step.phi + turn_rad);
+    frame.odom_T_robot = odom_T_robot;
+    frame.index = kept.frames.size();
+    cut_ranges(max_range_m, frame.scan);
+    for (CompanionScan& companion : frame.companions) cut_ranges(max_range_m, companion.scan);
+    kept.frames.push_back(std::move(frame));
+    kept.world_T_robot.push_back(run.world_T_robot[i]);
+    kept.scans.push_back(run.scans[i]);
+  }
+  return kept;
+}
+
+void slip(KnownRun& run, std::size_t from, std::size_t to, const TPose2D& slipped) {
+  for (std::size_t i = from; i < to; ++i) {
+    make_blind(run.frames[i].scan);
+    for (CompanionScan& companion : run.frames[i].companions) make_blind(companion.scan);
+  }
+  const std::size_t middle = (from + to) / 2;
+  const TPose2D before = run.frames[middle - 1].odom_T_robot;
+  const TPose2D first = run.frames[middle].odom_T_robot;
+  const TPose2D jumped = before + (first - before) + slipped;
+  for (std::size_t i = middle; i < run.frames.size(); ++i)
+    run.frames[i].odom_T_robot = jumped + (run.frames[i].odom_T_robot - first);
+}
+
+void carry(KnownRun& run, std::size_t off, std::size_t on) {
+  const TPose2D odom_T_off = run.frames[off - 1].odom_T_robot;
+  const TPose2D odom_T_on = run.frames[on].odom_T_robot;
+  for (std::size_t i = on; i < run.frames.size(); ++i)
+    run.frames[i].odom_T_robot = odom_T_off + (run.frames[i].odom_T_robot - odom_T_on);
+  const auto erase = [&](auto& all) {
+    all.erase(all.begin() + static_cast<std::ptrdiff_t>(off), all.begin() + static_cast<std::ptrdiff_t>(on));
+  };
+  erase(run.frames);
+  erase(run.world_T_robot);
+  erase(run.scans);
+  for (std::size_t i = 0; i < run.frames.size(); ++i) run.frames[i].index = i;
+}
+
+void pause(KnownRun& run, std::size_t at, double pause_s) {
+  const TPose2D odom_T_restart = run.frames[at].odom_T_robot;
+  for (std::size_t i = at; i < run.frames.size(); ++i) {
+    run.frames[i].time_us += static_cast<TimeUs>(1e6 * pause_s);
+    run.frames[i].odom_T_robot = run.frames[i].odom_T_robot - odom_T_restart;
+  }
+}
+
+std::size_t frame_after(const KnownRun& run, std::size_t from, double path_m) {
+  double travelled_m = 0;
+  std::size_t i = from;
+  for (; i + 1 < run.frames.size() && travelled_m < path_m; ++i) {
+    const TPose2D& a = run.world_T_robot[i];
+    const TPose2D& b = run.world_T_robot[i + 1];
+    travelled_m += std::hypot(b.x - a.x, b.y - a.y);
+  }
+  return i;
+}
+
+}  // namespace psi_slam

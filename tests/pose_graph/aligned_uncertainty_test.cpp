@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/aligned_uncertainty.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "pose_graph/information_matrix.h"
+#include "pose_graph/placed_covariances.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr std::size_t kNodes = 60;
+constexpr std::size_t kNodesOfMap = 12;
+
+std::size_t link(std::size_t from, std::size_t to, Constraint::Kind kind, double sigma, PoseGraph& graph) {
+  Constraint constraint;
+  constraint.from = from;
+  constraint.to = to;
+  constraint.from_T_to = graph.pose(to) - graph.pose(from);
+  constraint.information = noisy_information(Eigen::Matrix3d::Zero(), sigma, sigma);
+  constraint.kind = kind;
+  return graph.add_constraint(constraint);
+}
+
+/// A straight path of 30 m in overlapping local maps.
+PoseGraph straight_path() {
+  PoseGraph graph;
+  for (std::size_t i = 0; i < kNodes; ++i) graph.add_node({0.5 * static_cast<double>(i), 0, 0});
+  for (std::size_t anchor = 0; anchor + 1 < kNodes; anchor += kNodesOfMap / 2)
+    for (std::size_t i = anchor + 1; i < std::min(kNodes, anchor + kNodesOfMap); ++i)
+      link(anchor, i, Constraint::Kind::kLocalMap, 0.02, graph);
+  return graph;
+}
+
+std::vector<std::size_t> all_nodes() {
+  std::vector<std::size_t> nodes(kNodes);
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return nodes;
+}
+
+TEST(AlignedUncertainty, does_not_depend_on_the_root) {
+  PoseGraph graph = straight_path();
+  const auto from_first = aligned_sigmas_m(graph, all_nodes());
+  graph.set_root(40);
+  const auto from_middle = aligned_sigmas_m(graph, all_nodes());
+  for (const std::size_t node : {0, 20, 40, 59}) {
+    ASSERT_TRUE(from_first[node] && from_middle[node]);
+    EXPECT_NEAR(*from_first[node], *from_middle[node], 1e-3 * *from_first[node]) << node;
+  }
+}
+
+TEST(AlignedUncertainty, leaves_out_the_growth_with_the_distance_from_the_root) {
+  const PoseGraph graph = straight_path();
+  const auto sigmas_m = aligned_sigmas_m(graph, all_nodes());
+  const auto covariances = placed_covariances(graph);
+  EXPECT_LT(*sigmas_m.back(), 0.5 * std::sqrt(covariances.back()->topLeftCorner<2, 2>().trace()));
+  EXPECT_GT(*sigmas_m.back(), *sigmas_m[30]) << "the ends of a path are the least certain";
+}
+
+TEST(AlignedUncertainty, shrinks_with_loops) {
+  PoseGraph graph = straight_path();
+  const auto before = aligned_sigmas_m(graph, all_nodes());
+  link(0, 59, Constraint::Kind::kLoop, 0.01, graph);
+  const auto after = aligned_sigmas_m(graph, all_nodes());
+  EXPECT_LT(*after.back(), 0.9 * *before.back());
+}
+
+TEST(AlignedUncertainty, is_empty_where_the_place_is_unknown) {
+  PoseGraph graph = straight_path();
+  graph.add_node({100, 0, 0});
+  const auto sigmas_m = aligned_sigmas_m(graph, {10, kNodes, 20});
+  EXPECT_TRUE(sigmas_m[0]);
+  EXPECT_FALSE(sigmas_m[1]);
+  EXPECT_TRUE(sigmas_m[2]);
+  EXPECT_TRUE(aligned_sigmas_m(PoseGraph(), {}).empty());
+}
+
+}  // namespace
+}  // namespace psi_slam

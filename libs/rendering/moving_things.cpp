@@ -34,7 +34,7 @@ constexpr double kLeastOfPatch = 0.4;     // mean refutation around a cell that 
 constexpr double kStraightReach_m = 0.3;  // reach of the cells whose line gives the normal
 constexpr double kStraightRatio = 0.1;    // of the variances across and along a straight obstacle
 constexpr double kSurfaceGap_m = 0.25;    // largest distance between the ends of neighbouring beams
-constexpr double kLargeSurface_m = 2;
+constexpr double kLargeSurface_m = 1.5;
 constexpr double kLink_m = 0.3;  // gap within one thing
 constexpr std::uint16_t kMostCount = 60'000;
 
@@ -317,7 +317,7 @@ bool MovingThings::is_moving(const Sightings& cell) const {
 }
 
 /// Finds the connected parts of the cells that count as moving. Resets those parts that are longer than a
-/// person, a cart or a door and that beams mostly hit as a large surface.
+/// person, a cart or a door and that beams hit as a large surface in a third of the intervals.
 void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
   const std::int64_t link = cells_in(kLink_m, layout_.resolution_m);
   std::vector<bool> is_found(cells_.size());
@@ -345,7 +345,7 @@ void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
       });
     }
     const double length_m = std::hypot(high.x - low.x + 1, high.y - low.y + 1) * layout_.resolution_m;
-    if (length_m <= kLargeSurface_m || 2 * surface <= hits) continue;
+    if (length_m <= kLargeSurface_m || 3 * surface <= hits) continue;
     for (const std::size_t cell : part) is_moving[cell] = false;
   }
 }

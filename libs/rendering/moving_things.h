@@ -4,8 +4,8 @@
 // The scans are divided into intervals: the robot moves 0.08 m, or a second passes. In each interval, an
 // occupied cell of the map is seen occupied if any beam ended within 0.12 m or 1.5 cells of it. Otherwise it
 // is seen free if beams crossed it and ended beyond. The tolerances absorb errors of poses and ranges. Three
-// beams within 5 m weigh 1, fewer beams or beams from farther away weigh less. A visit of the robot to the
-// cell weighs at most 12, because the poses of one visit share their errors.
+// beams within 5 m weigh 1 in a cell of 0.05 m; fewer beams or beams from farther away weigh less. A visit of
+// the robot to the cell weighs at most 12, because the poses of one visit share their errors.
 //
 // A cell is refuted if the free weight is at least 2, plus 1.5 for each further visit that saw the cell
 // occupied, plus 2 for each time that it was seen occupied again after it was seen free. Less than 0.9
@@ -13,7 +13,7 @@
 // does not matter, while a table leg that many beams miss stays. The cells within 0.25 m that were seen
 // occupied throughout the same time are judged together.
 //
-// Obstacles longer than two metres stay if the beams hit them as one surface: a wall in two places after an
+// Obstacles longer than 1.5 m stay if the beams hit them as one surface: a wall in two places after an
 // error of the poses, or a barrier that beams hit only from some directions.
 #pragma once
 

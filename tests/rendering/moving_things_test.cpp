@@ -284,9 +284,9 @@ TEST_P(MovingThingsInABuilding, vanish_and_walls_stay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, MovingThingsInABuilding,
-                         testing::Values(Building{{1, 120, 0.01}, 0.05, 0.5},
-                                         Building{{2, 120, 0.03}, 0.1, 0.5},
-                                         Building{{3, 120, 0.05}, 0.05, 0.5}));
+                         testing::Values(Building{{1, 120, 0.01}, 0.05, 0.75},
+                                         Building{{2, 120, 0.03}, 0.1, 0.7},
+                                         Building{{3, 120, 0.05}, 0.05, 0.82}));
 
 TEST(MovingThings, figures_of_the_page) {
   if (std::getenv("PSI_SLAM_LONG_TESTS") == nullptr) GTEST_SKIP() << "takes minutes: set PSI_SLAM_LONG_TESTS";

@@ -13,21 +13,30 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 constexpr double kInterval_s = 1;
-constexpr double kNear_m = 0.15;
-constexpr double kBeyond_m = 0.3;
-constexpr double kMostRange_m = 10;  // farther away, errors of the heading move beams by more than kNear_m
-constexpr double kLeastSine = 0.5;   // of the angle at which a beam crosses a straight obstacle
-constexpr int kMostOfVisit = 5;
-constexpr std::uint32_t kGapOfVisits = 10;  // intervals that do not see the cell
-constexpr std::int64_t kPatch = 2;          // reach of the cells that are judged together, in cells
-constexpr int kLeastFree = 2;               // intervals per cell
-constexpr double kLeastFreeShare = 0.25;
-constexpr double kLeastFreeShareBeside = 0.15;  // of cells beside moving ones
-constexpr std::int64_t kStraightReach = 6;      // reach of the cells whose line gives the normal
-constexpr double kStraightRatio = 0.1;          // of the variances across and along a straight obstacle
-constexpr double kSurfaceGap_m = 0.5;           // largest distance between the ends of neighbouring beams
-constexpr double kLargeSurface_m = 2;
-constexpr std::int64_t kLink = 6;  // gap within one thing, in cells
+constexpr double kInterval_m = 0.08;
+constexpr std::uint32_t kGapOfVisits = 20;  // intervals that do not see the cell
+constexpr double kNear_m = 0.12;
+constexpr double kNearCells = 1.5;  // coarse cells: at least the eight cells around
+constexpr double kBeyond_m = 0.2;
+constexpr double kAside_m = 0.15;      // distance from a straight obstacle at which a beam starts and ends
+constexpr double kMostRange_m = 12;    // farther away, errors of the heading move beams by more than kNear_m
+constexpr double kFullRange_m = 5;     // beams weigh less beyond
+constexpr double kWidestGap_m = 0.3;   // between the points where neighbouring beams meet an obstacle
+constexpr double kBeamsPerMetre = 60;  // of cell, for one free interval
+constexpr float kMostOfVisit = 12;     // weight of free intervals
+constexpr float kReturn = 0.9F;        // free weight after which a hit counts as a return; less is forgotten
+constexpr double kLeastFree = 2;       // weight that refutes a cell of a single visit
+constexpr double kFreePerVisit = 1.5;  // and for each further visit
+constexpr double kFreePerReturn = 2;
+constexpr double kPatch_m = 0.25;         // reach of the cells that are judged together
+constexpr double kMostRefuted = 1.5;      // by which one cell counts in its patch
+constexpr double kLeastOfPatch = 0.4;     // mean refutation around a cell that is refuted itself
+constexpr double kStraightReach_m = 0.3;  // reach of the cells whose line gives the normal
+constexpr double kStraightRatio = 0.1;    // of the variances across and along a straight obstacle
+constexpr double kSurfaceGap_m = 0.25;    // largest distance between the ends of neighbouring beams
+constexpr double kLargeSurface_m = 1.5;
+constexpr double kLink_m = 0.3;  // gap within one thing
+constexpr std::uint16_t kMostCount = 60'000;
 
 std::int64_t cells_in(double length_m, double resolution_m) {
   return static_cast<std::int64_t>(std::ceil(length_m / resolution_m - 1e-9));
@@ -57,7 +66,14 @@ void measure_distances(std::vector<std::int32_t>& cells, std::int64_t width, std
 }
 
 double distance_m(const TPoint2D& a, const TPoint2D& b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
+  return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
+}
+
+/// Returns the mean angle between neighbouring beams, or 0 for a single beam.
+double beam_gap_rad(const Fan& fan) {
+  if (!fan.bearings || fan.bearings->size() < 2) return 0;
+  return std::abs(static_cast<double>(fan.bearings->back() - fan.bearings->front())) /
+         static_cast<double>(fan.bearings->size() - 1);
 }
 
 }  // namespace
@@ -66,7 +82,8 @@ MovingThings::MovingThings(const COccupancyGridMap2D& grid, const GridLayout& la
                            const GridMapOptions& options)
     : layout_(layout),
       maker_(options),
-      near_(cells_in(kNear_m, layout.resolution_m)),
+      near_(static_cast<std::int64_t>(std::max(kNear_m / layout.resolution_m, kNearCells))),
+      beams_(static_cast<float>(std::max(1.0, kBeamsPerMetre * layout.resolution_m))),
       find_(static_cast<std::size_t>(layout.width * layout.height), -1) {
   constexpr std::int32_t kFar = 10'000;
   find_obstacles(grid);
@@ -84,6 +101,17 @@ void MovingThings::for_each_around(std::int64_t x, std::int64_t y, std::int64_t 
       const std::int32_t found = find_[static_cast<std::size_t>(at_y * layout_.width + at_x)];
       if (found >= 0) visit(found);
     }
+}
+
+template <class Visit>
+void MovingThings::for_each_near(std::int64_t x, std::int64_t y, const Visit& visit) const {
+  const double most = std::max(kNear_m / layout_.resolution_m, kNearCells);
+  for_each_around(x, y, near_, [&](std::int32_t found) {
+    const Sightings& cell = cells_[static_cast<std::size_t>(found)];
+    const auto dx = static_cast<double>(cell.x - x);
+    const auto dy = static_cast<double>(cell.y - y);
+    if (dx * dx + dy * dy <= most * most) visit(found);
+  });
 }
 
 void MovingThings::find_obstacles(const COccupancyGridMap2D& grid) {
@@ -108,7 +136,7 @@ void MovingThings::find_normal(Sightings& cell) const {
   double xx = 0;
   double xy = 0;
   double yy = 0;
-  for_each_around(cell.x, cell.y, kStraightReach, [&](std::int32_t found) {
+  for_each_around(cell.x, cell.y, cells_in(kStraightReach_m, layout_.resolution_m), [&](std::int32_t found) {
     const Sightings& other = cells_[static_cast<std::size_t>(found)];
     const double dx = other.x - cell.x;
     const double dy = other.y - cell.y;
@@ -132,9 +160,12 @@ void MovingThings::find_normal(Sightings& cell) const {
 
 void MovingThings::add(const Frame& frame, const TPose2D& map_T_robot) {
   const double since_s = seconds(frame.time_us - interval_start_us_);
-  if (interval_ == 0 || since_s < 0 || since_s >= kInterval_s) {
+  const TPoint2D robot(map_T_robot.x, map_T_robot.y);
+  if (interval_ == 0 || since_s < 0 || since_s >= kInterval_s ||
+      distance_m(robot, interval_start_) >= kInterval_m) {
     end_interval();
     interval_start_us_ = frame.time_us;
+    interval_start_ = robot;
   }
   const CellBox map{layout_.resolution_m, layout_.x_min, layout_.y_min, layout_.width, layout_.height};
   for (const Fan* fan : maker_.fans(frame, map_T_robot)) {
@@ -158,42 +189,58 @@ void MovingThings::mark_hits(const Fan& fan, const CellBox& map) {
   }
 }
 
-/// Marks the obstacles around the end of a beam, in cells, as hit.
+/// Marks the obstacle at the end of a beam, in cells, as hit, or the obstacles around it if there is none.
 void MovingThings::mark_hit(const TPoint2D& end, bool of_surface) {
   const auto x = static_cast<std::int64_t>(end.x);
   const auto y = static_cast<std::int64_t>(end.y);
-  if (-find_[static_cast<std::size_t>(y * layout_.width + x)] > near_) return;
-  for_each_around(x, y, near_, [&](std::int32_t found) {
+  const auto mark = [&](std::int32_t found) {
     mark_seen(found);
     Sightings& cell = cells_[static_cast<std::size_t>(found)];
     cell.hit_in = interval_;
-    if (std::abs(cell.x - x) <= 1 && std::abs(cell.y - y) <= 1) cell.touched_in = interval_;
     if (of_surface) cell.surface_in = interval_;
-  });
+  };
+  const std::int32_t at_end = find_[static_cast<std::size_t>(y * layout_.width + x)];
+  if (at_end >= 0)
+    mark(at_end);
+  else if (-at_end <= near_)
+    for_each_near(x, y, mark);
 }
 
 /// Marks the obstacles that the beams of a scan crossed. Leaps over space without obstacles.
 void MovingThings::mark_passes(const Fan& fan, const CellBox& map) {
   const TPoint2D start = map.in_cells(fan.start);
+  const double gap_rad = beam_gap_rad(fan);
   for (const Ray& ray : fan.rays) {
     const double length_m = distance_m(fan.start, ray.end);
     const double free_m = std::min(length_m - kBeyond_m, kMostRange_m);
     if (!ray.returned || free_m <= 0) continue;
-    const auto along_x = static_cast<float>((ray.end.x - fan.start.x) / length_m);
-    const auto along_y = static_cast<float>((ray.end.y - fan.start.y) / length_m);
-    const TPoint2D end = map.in_cells(fan.start + (ray.end - fan.start) * (free_m / length_m));
+    const TPoint2D along = (ray.end - fan.start) * (1 / length_m);
+    const TPoint2D end = map.in_cells(fan.start + along * free_m);
     leap_line(start, end, layout_.width, [&](std::int64_t index) {
       const std::int32_t found = find_[static_cast<std::size_t>(index)];
       if (found < 0) return std::int64_t{-found};
-      Sightings& cell = cells_[static_cast<std::size_t>(found)];
-      const float sine = cell.normal_x * along_x + cell.normal_y * along_y;
-      const bool is_straight = cell.normal_x != 0 || cell.normal_y != 0;
-      if (is_straight && static_cast<double>(std::abs(sine)) < kLeastSine) return std::int64_t{1};
-      mark_seen(found);
-      cell.passed_in = interval_;
+      const Sightings& cell = cells_[static_cast<std::size_t>(found)];
+      const double range_m =
+          ((cell.x + 0.5 - start.x) * along.x + (cell.y + 0.5 - start.y) * along.y) * layout_.resolution_m;
+      double sine = 1;  // of the angle at which the beam crosses the obstacle
+      if (cell.normal_x != 0 || cell.normal_y != 0) {
+        sine = std::abs(static_cast<double>(cell.normal_x) * along.x +
+                        static_cast<double>(cell.normal_y) * along.y);
+        if (std::min(range_m, length_m - range_m) * sine < kAside_m) return std::int64_t{1};
+      }
+      if (range_m * gap_rad > kWidestGap_m * sine) return std::int64_t{1};
+      mark_pass(found, static_cast<float>(range_m > kFullRange_m ? kFullRange_m / range_m : 1));
       return std::int64_t{1};
     });
   }
+}
+
+void MovingThings::mark_pass(std::int32_t found, float weight) {
+  mark_seen(found);
+  Sightings& cell = cells_[static_cast<std::size_t>(found)];
+  if (cell.passed_in != interval_) cell.beams = 0;
+  cell.passed_in = interval_;
+  cell.beams += weight;
 }
 
 /// Notes that this interval saw a cell. Call before the mark of the first sighting.
@@ -204,67 +251,75 @@ void MovingThings::mark_seen(std::int32_t found) {
 }
 
 void MovingThings::end_interval() {
-  for (const std::uint32_t index : seen_) see(cells_[index]);
+  for (const std::uint32_t index : seen_) {
+    Sightings& cell = cells_[index];
+    const bool is_new_visit = cell.seen_in == 0 || interval_ - cell.seen_in > kGapOfVisits;
+    cell.seen_in = interval_;
+    if (is_new_visit) cell.free_of_visit = 0;
+    if (is_hit_near(cell))
+      see_occupied(cell, is_new_visit);
+    else
+      see_free(cell);
+  }
   seen_.clear();
   ++interval_;
 }
 
-/// Counts this interval for a cell that it saw.
-void MovingThings::see(Sightings& cell) {
-  constexpr std::uint16_t kMost = 60'000;
-  const bool is_new_visit = interval_ - cell.seen_in > kGapOfVisits;
-  cell.seen_in = interval_;
-  const bool is_hit = cell.hit_in == interval_;
-  cell.near.count(!is_hit, is_new_visit);
-  if (is_hit && cell.hits < kMost) {
-    ++cell.hits;
-    if (cell.surface_in == interval_) ++cell.surface;
-  }
-  const bool is_touched = cell.touched_in == interval_;
-  if (is_touched || cell.passed_in == interval_) cell.close.count(!is_touched, is_new_visit);
-}
-
-void MovingThings::Tally::count(bool is_free, bool is_new_visit) {
-  constexpr std::uint16_t kMost = 60'000;
-  if (is_new_visit || (run < 0) != is_free) run = 0;
-  if (std::abs(run) == kMostOfVisit || free + occupied == kMost) return;
-  run = static_cast<std::int16_t>(run + (is_free ? -1 : 1));
-  ++(is_free ? free : occupied);
-}
-
-/// Judges a cell together with the obstacles around it.
-bool MovingThings::is_moving(const Sightings& cell) const {
-  int cells = 0;
-  int free = 0;
-  int occupied = 0;
-  for_each_around(cell.x, cell.y, kPatch, [&](std::int32_t found) {
-    ++cells;
-    free += cells_[static_cast<std::size_t>(found)].near.free;
-    occupied += cells_[static_cast<std::size_t>(found)].near.occupied;
+/// Returns whether a beam of this interval ended in a cell or near it.
+bool MovingThings::is_hit_near(const Sightings& cell) const {
+  if (cell.hit_in == interval_) return true;
+  bool is_near = false;
+  for_each_near(cell.x, cell.y, [&](std::int32_t found) {
+    is_near = is_near || cells_[static_cast<std::size_t>(found)].hit_in == interval_;
   });
-  return free >= kLeastFree * cells && free >= kLeastFreeShare * (free + occupied);
+  return is_near;
 }
 
-/// Spreads the cells that count as moving to cells within near_ cells of them, for example of a door beside
-/// its frame. They must have been seen free by the narrower measure.
-void MovingThings::spread(std::vector<bool>& is_moving) const {
-  const std::vector<bool> core = is_moving;
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const Tally& close = cells_[i].close;
-    if (core[i] || close.free < kLeastFree ||
-        close.free < kLeastFreeShareBeside * (close.free + close.occupied))
-      continue;
-    bool is_beside = false;
-    for_each_around(cells_[i].x, cells_[i].y, near_ + 1, [&](std::int32_t found) {
-      is_beside = is_beside || core[static_cast<std::size_t>(found)];
-    });
-    is_moving[i] = is_beside;
-  }
+void MovingThings::see_occupied(Sightings& cell, bool is_new_visit) {
+  if (cell.hits == kMostCount) return;
+  if (cell.hits == 0) cell.first_hit = interval_;
+  if (is_new_visit || cell.hits == 0 || interval_ - cell.last_hit > kGapOfVisits) ++cell.visits;
+  if (cell.hits > 0 && cell.free_since_hit >= kReturn)
+    ++cell.returns;
+  else if (cell.hits > 0)
+    cell.free -= cell.free_since_hit;
+  cell.last_hit = interval_;
+  cell.free_of_visit = 0;
+  cell.free_since_hit = 0;
+  ++cell.hits;
+  if (cell.surface_in == interval_) ++cell.surface;
+}
+
+void MovingThings::see_free(Sightings& cell) {
+  const float weight = std::min(std::min(1.0F, cell.beams / beams_), kMostOfVisit - cell.free_of_visit);
+  cell.free += weight;
+  cell.free_of_visit += weight;
+  cell.free_since_hit += weight;
+}
+
+/// Judges a cell together with the obstacles around it that were seen occupied from before its first hit
+/// until after its last.
+bool MovingThings::is_moving(const Sightings& cell) const {
+  const auto refuted = [](const Sightings& of) {
+    const double needed = kLeastFree + kFreePerVisit * (of.visits - 1) + kFreePerReturn * of.returns;
+    return std::min(kMostRefuted, static_cast<double>(of.free) / needed);
+  };
+  if (cell.hits == 0) return false;
+  double sum = 0;
+  int count = 0;
+  for_each_around(cell.x, cell.y, cells_in(kPatch_m, layout_.resolution_m), [&](std::int32_t found) {
+    const Sightings& other = cells_[static_cast<std::size_t>(found)];
+    if (other.hits == 0 || other.first_hit > cell.first_hit || other.last_hit < cell.last_hit) return;
+    sum += refuted(other);
+    ++count;
+  });
+  return sum >= count || (refuted(cell) >= 1 && sum >= kLeastOfPatch * count);
 }
 
 /// Finds the connected parts of the cells that count as moving. Resets those parts that are longer than a
-/// person, a cart or a door and that beams mostly hit as a large surface.
+/// person, a cart or a door and that beams hit as a large surface in a third of the intervals.
 void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
+  const std::int64_t link = cells_in(kLink_m, layout_.resolution_m);
   std::vector<bool> is_found(cells_.size());
   for (std::size_t first = 0; first < cells_.size(); ++first) {
     if (!is_moving[first] || is_found[first]) continue;
@@ -282,7 +337,7 @@ void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
       low.y = std::min(low.y, cell.y);
       high.x = std::max(high.x, cell.x);
       high.y = std::max(high.y, cell.y);
-      for_each_around(cell.x, cell.y, kLink, [&](std::int32_t found) {
+      for_each_around(cell.x, cell.y, link, [&](std::int32_t found) {
         const auto next = static_cast<std::size_t>(found);
         if (!is_moving[next] || is_found[next]) return;
         is_found[next] = true;
@@ -290,7 +345,7 @@ void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
       });
     }
     const double length_m = std::hypot(high.x - low.x + 1, high.y - low.y + 1) * layout_.resolution_m;
-    if (length_m <= kLargeSurface_m || 2 * surface <= hits) continue;
+    if (length_m <= kLargeSurface_m || 3 * surface <= hits) continue;
     for (const std::size_t cell : part) is_moving[cell] = false;
   }
 }
@@ -299,7 +354,6 @@ void MovingThings::remove_from(COccupancyGridMap2D& grid) {
   end_interval();
   std::vector<bool> is_moving(cells_.size());
   for (std::size_t i = 0; i < cells_.size(); ++i) is_moving[i] = this->is_moving(cells_[i]);
-  spread(is_moving);
   keep_large_surfaces(is_moving);
   for (std::size_t i = 0; i < cells_.size(); ++i)
     if (is_moving[i]) grid.getRow(cells_[i].y)[cells_[i].x] = cell_value(kPassEvidence);

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the obstacles of a map that were not there at other times: people, carts and doors that moved.
 //
-// The scans are divided into intervals of a second. In each interval, an occupied cell of the map is seen
-// occupied if any beam ended within 0.15 m of it. Otherwise it is seen free if a beam crossed it and ended at
-// least 0.3 m beyond. The tolerances absorb errors of poses and ranges. Where the obstacle is straight, only
-// beams that cross it at 30 degrees or more count, because the others may graze a wall. Each visit counts for
-// at most five intervals of either kind, so a person who stands for ten minutes weighs no more than one who
-// stands for five seconds. A moving thing was seen free in at least a quarter of the counted intervals.
+// The scans are divided into intervals: the robot moves 0.08 m, or a second passes. In each interval, an
+// occupied cell of the map is seen occupied if any beam ended within 0.12 m or 1.5 cells of it. Otherwise it
+// is seen free if beams crossed it and ended beyond. The tolerances absorb errors of poses and ranges. Three
+// beams within 5 m weigh 1 in a cell of 0.05 m; fewer beams or beams from farther away weigh less. A visit of
+// the robot to the cell weighs at most 12, because the poses of one visit share their errors.
 //
-// Obstacles longer than two metres stay if the beams hit them as one surface: a wall in two places after an
+// A cell is refuted if the free weight is at least 2, plus 1.5 for each further visit that saw the cell
+// occupied, plus 2 for each time that it was seen occupied again after it was seen free. Less than 0.9
+// between two sightings of the obstacle does not count: beams miss thin things. So how long a person stands
+// does not matter, while a table leg that many beams miss stays. The cells within 0.25 m that were seen
+// occupied throughout the same time are judged together.
+//
+// Obstacles longer than 1.5 m stay if the beams hit them as one surface: a wall in two places after an
 // error of the poses, or a barrier that beams hit only from some directions.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <cstdint>
@@ -39,31 +45,26 @@ class MovingThings {
   void remove_from(mrpt::maps::COccupancyGridMap2D& grid);
 
  private:
-  /// Number of intervals that saw a place occupied or free, with a limit for each visit.
-  struct Tally {
-    std::uint16_t occupied = 0;
-    std::uint16_t free = 0;
-    std::int16_t run = 0;  ///< counted intervals of this visit: positive if occupied, negative if free
-
-    /// Counts an interval. `is_new_visit` is false if the last interval that saw the place was close in time.
-    void count(bool is_free, bool is_new_visit);
-  };
-
   /// What the intervals say about an occupied cell of the map.
   struct Sightings {
     std::int32_t x = 0;  ///< column and row of the cell in the map
     std::int32_t y = 0;
     float normal_x = 0;  ///< unit vector across a straight obstacle; 0 if the obstacle is not straight
     float normal_y = 0;
-    std::uint32_t hit_in = 0;      ///< last interval with a beam that ended within near_ cells
-    std::uint32_t touched_in = 0;  ///< last interval with a beam that ended in the cell or beside it
+    std::uint32_t hit_in = 0;      ///< last interval with a beam that ended in the cell
     std::uint32_t surface_in = 0;  ///< last interval in which that beam was one of a large surface
     std::uint32_t passed_in = 0;   ///< last interval with a beam that crossed the cell
+    float beams = 0;               ///< weight of the beams that crossed the cell in that interval
     std::uint32_t seen_in = 0;     ///< last interval that saw the cell
-    std::uint16_t hits = 0;        ///< number of intervals with a beam that ended within near_ cells
+    std::uint32_t first_hit = 0;   ///< first interval that saw the cell occupied; 0 if none did
+    std::uint32_t last_hit = 0;    ///< last interval that saw the cell occupied
+    std::uint16_t hits = 0;        ///< number of intervals that saw the cell occupied
     std::uint16_t surface = 0;     ///< number of these in which a large surface was hit
-    Tally near;                    ///< occupied if a beam ended within near_ cells
-    Tally close;                   ///< occupied if a beam ended in the cell or beside it
+    std::uint16_t visits = 0;      ///< number of visits that saw the cell occupied
+    std::uint16_t returns = 0;     ///< number of times that it was seen occupied again after free
+    float free = 0;                ///< weight of the intervals that saw the cell free, without short gaps
+    float free_of_visit = 0;       ///< part of it since the start of the visit or the last hit
+    float free_since_hit = 0;      ///< part of it since the last hit
   };
 
   void find_obstacles(const mrpt::maps::COccupancyGridMap2D& grid);
@@ -71,25 +72,34 @@ class MovingThings {
   void mark_hits(const Fan& fan, const CellBox& map);
   void mark_hit(const mrpt::math::TPoint2D& end, bool of_surface);
   void mark_passes(const Fan& fan, const CellBox& map);
+  void mark_pass(std::int32_t found, float weight);
   void mark_seen(std::int32_t found);
   void end_interval();
-  void see(Sightings& cell);
+  bool is_hit_near(const Sightings& cell) const;
+  void see_occupied(Sightings& cell, bool is_new_visit);
+  void see_free(Sightings& cell);
   bool is_moving(const Sightings& cell) const;
-  void spread(std::vector<bool>& is_moving) const;
   void keep_large_surfaces(std::vector<bool>& is_moving) const;
 
   /// Calls `visit` with the index in cells_ of each obstacle at most `reach` columns and rows from (x, y).
   template <class Visit>
   void for_each_around(std::int64_t x, std::int64_t y, std::int64_t reach, const Visit& visit) const;
 
+  /// Calls `visit` with the index in cells_ of each obstacle within the tolerance of a hit in the cell (x,
+  /// y).
+  template <class Visit>
+  void for_each_near(std::int64_t x, std::int64_t y, const Visit& visit) const;
+
   GridLayout layout_;
   RayMaker maker_;
   std::int64_t near_ = 0;            ///< reach of a hit, in cells
+  float beams_ = 0;                  ///< weight of the beams that count as one free interval
   std::vector<Sightings> cells_;     ///< of the occupied cells of the map
   std::vector<std::int32_t> find_;   ///< index in cells_, or minus the distance to an occupied cell, in cells
   std::vector<std::uint32_t> seen_;  ///< indices of the cells that this interval saw
   std::uint32_t interval_ = 0;       ///< number of this interval; 0 before the first frame
   TimeUs interval_start_us_ = 0;
+  mrpt::math::TPoint2D interval_start_;  ///< position of the robot at the start of the interval
 };
 
 }  // namespace psi_slam

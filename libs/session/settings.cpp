@@ -114,7 +114,7 @@ void describe_map(OptionTable& table, GridMapOptions& map) {
       .flag(
           "keep_moving", map.keep_moving,
           "Draws people, carts and doors that moved. false: obstacles that scans at other times saw through "
-          "are free space in the finished map; pieces of walls may vanish, too.")
+          "are free space in the finished map; some table legs may vanish, too.")
       .integer(
           "min_beams", map.min_beams, between(1, 3), "beams",
           "Least number of beams that must see an obstacle or free space. A beam counts as two if a "

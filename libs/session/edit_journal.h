@@ -23,8 +23,13 @@
 // search window. `match` also works without these five. attempt=final_search forces a match that only the
 // final loop search finds. Older files call it attempt=last_pass.
 //
-// The edits from `erase` on change the drawn map, see MapEdit. They are made in the order of their lines,
-// after the last scan. Their points are metres in the frame of the exported map.
+//     pose time_s=1700000000.5 x_m=1 y_m=2 yaw_deg=90 sigma_m=0.02 sigma_deg=1
+//     tag name=A x_m=4 y_m=5 sigma_m=0.02
+//     seen name=A time_s=1700000012 ahead_m=1.5 left_m=-0.2 sigma_m=0.03
+//
+// The edits from `erase` to `slow` change the drawn map, see MapEdit. They are made in the order of their
+// lines, after the last scan. Their points are metres in the frame of the exported map. The lines from `pose`
+// on state what is known from outside, see FixedKnowledge.
 #pragma once
 
 #include <cstddef>
@@ -34,6 +39,7 @@
 #include <tuple>
 #include <vector>
 
+#include "psi_slam/fixed_knowledge.h"
 #include "psi_slam/loop_record.h"
 #include "rendering/map_edits.h"
 
@@ -65,11 +71,14 @@ class EditJournal {
   const std::vector<TimedEdit>& edits() const { return edits_; }
   /// Edits of the drawn map, in their order.
   const std::vector<MapEdit>& map_edits() const { return map_edits_; }
-  bool empty() const { return edits_.empty() && map_edits_.empty(); }
+  /// What is known from outside, in the order of the lines.
+  const FixedKnowledge& knowledge() const { return knowledge_; }
+  bool empty() const { return edits_.empty() && map_edits_.empty() && knowledge_.empty(); }
 
   /// Inserts an edit by its time, after the edits of the same time.
   void add(const TimedEdit& edit);
   void add(const MapEdit& edit) { map_edits_.push_back(edit); }
+  void add(const FixedKnowledge& knowledge);
   /// Adds all edits of another journal.
   void add(const EditJournal& others);
 
@@ -92,13 +101,13 @@ class EditJournal {
   /// Returns these edits of one run, renumbered for a map of several runs. The run has `scans` scans,
   /// numbered from `first_scan`, and local maps numbered from `first_local_map`. Edits at the end of the run
   /// are made after its last scan. Edits of the drawn map are kept only for the first run, whose frame the
-  /// map has.
+  /// map has. Knowledge is kept for all runs, because it states its own frame.
   EditJournal of_run(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
 
   /// Returns the edits as the text of a file.
   std::string text() const;
   /// Reads a file. Throws UserError, with file and line, for a line that is not an edit, and with the file
-  /// as check_zones() does.
+  /// as check_zones() and check_tags() do.
   static EditJournal read(const std::filesystem::path& file);
   /// Parses the text of a file; `file` is only for error messages. Throws as read() does.
   static EditJournal parse(const std::string& text, const std::filesystem::path& file);
@@ -108,6 +117,7 @@ class EditJournal {
  private:
   std::vector<TimedEdit> edits_;
   std::vector<MapEdit> map_edits_;
+  FixedKnowledge knowledge_;
   std::size_t taken_ = 0;  ///< number of edits that take_due() has returned or enter() has entered
 };
 

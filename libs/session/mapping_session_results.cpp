@@ -46,6 +46,7 @@ void keep_first(std::size_t scans, SessionFacts& facts) {
   for (const TimedEdit& edit : edits.edits())
     if (edit.edit.frame < lost->scan) facts.edits.add(edit);
   for (const MapEdit& edit : edits.map_edits()) facts.edits.add(edit);
+  facts.edits.add(edits.knowledge());
   facts.runs.erase(lost, facts.runs.end());
 }
 
@@ -59,8 +60,9 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   StageClock drawing_clock("draw map");
   StageClock judging_clock("judge map");
   StageClock writing_clock("write results");
-  const mrpt::math::TPose2D map_T_start = export_T_map(m.result, m.settings.map_frame);
+  mrpt::math::TPose2D map_T_start = export_T_map(m.result, m.settings.map_frame);
   const ExportedPoses exported(m.result, map_T_start);
+  if (m.result.graph.root() != 0) map_T_start = m.result.graph.pose(0);  // the edits state the frame
   const std::vector<MapEdit>& map_edits = m.edits.map_edits();
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
   drawing_clock.time([&] {

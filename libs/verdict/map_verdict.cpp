@@ -295,7 +295,7 @@ class Judge {
     if (views_.empty()) return 0;
     const std::vector<FrameSpan> runs = runs_of(result_);
     PathCovarianceSearch search;
-    search.run(result_.graph, result_.graph.root());
+    search.run(result_.graph, 0);
     double sum_m = 0;
     std::size_t count = 0;
     for (const MapView& view : views_) {

@@ -206,6 +206,21 @@ std::vector<bool> consistent(std::size_t count, const std::vector<Disagreement>&
   }
 }
 
+// Returns the disagreements between the marks that are kept. The order of pairs is that of consistent().
+std::vector<Disagreement> between(const std::vector<bool>& kept,
+                                  const std::vector<Disagreement>& disagreements) {
+  std::vector<Disagreement> result;
+  auto pair = disagreements.begin();
+  for (std::size_t a = 0; a < kept.size(); ++a)
+    for (std::size_t b = a + 1; b < kept.size() && pair != disagreements.end(); ++b, ++pair)
+      if (kept[a] && kept[b]) result.push_back(*pair);
+  return result;
+}
+
+void enable(const std::vector<std::size_t>& constraints, const std::vector<bool>& enabled, PoseGraph& graph) {
+  for (std::size_t i = 0; i < constraints.size(); ++i) graph.set_enabled(constraints[i], enabled[i]);
+}
+
 MeasuredPose relative_to(const TPose2D& site_T_root, MeasuredPose site_T_mark) {
   site_T_mark.pose = site_T_mark.pose - site_T_root;
   return site_T_mark;
@@ -347,17 +362,22 @@ void KnownLandmarks::select(PoseGraph& graph, double max_chi) {
   for (const std::vector<Disagreement>& one : of_sightings) all.insert(all.end(), one.begin(), one.end());
   const double drift = drift_factor(all);
 
-  add_constraints(kOverconfidence * drift, graph);
-  bool all_kept = true;
+  std::vector<std::vector<bool>> kept_sightings;
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-    const std::size_t count = landmarks_[i].sightings.size();
-    const std::vector<bool> kept = consistent(count, of_sightings[i], drift, max_chi);
-    for (std::size_t k = 0; k < count; ++k) graph.set_enabled(numbers_[i].sightings[k], kept[k]);
-    all_kept = all_kept && std::find(kept.begin(), kept.end(), false) == kept.end();
+    kept_sightings.push_back(consistent(landmarks_[i].sightings.size(), of_sightings[i], drift, max_chi));
+    enable(numbers_[i].sightings, kept_sightings.back(), graph);
   }
-  if (!all_kept) of_places = consistency.of(placed_marks(graph, placed), false);
-  const std::vector<bool> kept = consistent(placed.size(), of_places, drift, max_chi);
-  for (std::size_t k = 0; k < placed.size(); ++k) graph.set_enabled(*numbers_[placed[k]].place, kept[k]);
+  of_places = consistency.of(placed_marks(graph, placed), false);
+  const std::vector<bool> kept_places = consistent(placed.size(), of_places, drift, max_chi);
+
+  // The weight follows from the drift without the contradictions.
+  all = between(kept_places, of_places);
+  for (std::size_t i = 0; i < landmarks_.size(); ++i)
+    for (Disagreement& one : between(kept_sightings[i], of_sightings[i])) all.push_back(std::move(one));
+  add_constraints(kOverconfidence * drift_factor(all), graph);
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) enable(numbers_[i].sightings, kept_sightings[i], graph);
+  for (std::size_t k = 0; k < placed.size(); ++k)
+    graph.set_enabled(*numbers_[placed[k]].place, kept_places[k]);
   place_nodes(graph);
 }
 

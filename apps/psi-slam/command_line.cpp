@@ -290,7 +290,8 @@ CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& 
             "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag", "");
   add_value(app, "-o,--output", line.output, kFolderHelp, "DIR");
   add_run_options(app, line);
-  add_value(app, "--edits", line.edits, "File with edits of loops and of the drawn map", "FILE");
+  add_value(app, "--edits", line.edits, "File with edits of loops and of the drawn map, and with known poses",
+            "FILE");
   add_value(app, "--save-session", line.save_session,
             "Save the run to this file, even if it is interrupted, for --resume", "FILE");
   add_value(app, "--journal", line.journal,

@@ -161,6 +161,7 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   for (const std::string& assumption : session.assumptions()) warn(assumption);
   for (const std::string& fault : session.faults_of_log()) warn(fault);
   for (const std::string& unmet : session.unmet_edits()) warn("an edit was not made: " + unmet);
+  for (const std::string& sentence : session.result().contradictions) warn(sentence);
   if (const auto coarser = coarser_cells_text(summary.map)) warn(*coarser);
   if (const auto unmatched = unmatched_scans_text(session.result())) warn(*unmatched);
   for (const std::string& interruption : interruption_texts(session.result())) warn(interruption);

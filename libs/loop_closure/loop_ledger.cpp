@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "loop_closure/outlier_loops.h"
 #include "pose_graph/information_matrix.h"
 
 namespace psi_slam {
@@ -66,7 +65,8 @@ std::optional<double> LoopLedger::accept(std::size_t index, PoseGraph& graph) {
   return std::max(std::hypot(off.x, off.y) / noise_.sigma_m, std::abs(off.phi) / noise_.sigma_rad);
 }
 
-void LoopLedger::settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi) {
+void LoopLedger::settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi,
+                        double doubtful_share) {
   std::vector<std::size_t> constraints;
   std::vector<std::size_t> loops;
   for (const auto& [constraint, loop] : constraints_) {
@@ -75,7 +75,8 @@ void LoopLedger::settle(PoseGraph& graph, SparsePoseAdjustment& solver, double m
     constraints.push_back(constraint);
     loops.push_back(loop);
   }
-  const std::vector<double> chi = switch_off_outlier_loops(graph, solver, constraints, max_chi);
+  const std::vector<double> chi =
+      switch_off_outlier_loops(graph, solver, constraints, max_chi, doubtful_share);
   for (std::size_t i = 0; i < chi.size(); ++i) {
     LoopRecord& loop = loops_[loops[i]];
     const bool fits = graph.enabled(constraints[i]);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "loop_closure/outlier_loops.h"
 #include "pose_graph/sparse_pose_adjustment.h"
 #include "psi_slam/loop_record.h"
 #include "psi_slam/pose_graph.h"
@@ -43,8 +44,9 @@ class LoopLedger {
   std::optional<double> accept(std::size_t loop, PoseGraph& graph);
 
   /// Optimises the graph and switches off loops with residuals above `max_chi` standard deviations. Never
-  /// switches off forced loops.
-  void settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi);
+  /// switches off forced loops. `doubtful_share` is as in switch_off_outlier_loops().
+  void settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi,
+              double doubtful_share = kDoubtfulShare);
 
   void refuse_pending();
 

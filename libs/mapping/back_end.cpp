@@ -74,23 +74,31 @@ double BackEnd::optimize(PoseGraph& graph, SparsePoseAdjustment& solver) {
   });
 }
 
+void BackEnd::settle(PoseGraph& graph, SparsePoseAdjustment& solver, KnownLandmarks* known) {
+  graph_clock_.time([&] {
+    if (known != nullptr) known->switch_off(graph);
+    ledger_.settle(graph, solver, options_.max_loop_chi);
+    if (known == nullptr) return;
+    known->select(graph, options_.max_loop_chi);
+    // The loops were selected without the landmarks, and no selection from scratch is needed.
+    ledger_.settle(graph, solver, options_.max_loop_chi, 1);
+  });
+}
+
 std::pair<MatcherKind, LoopEffort> BackEnd::finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
                                                          SparsePoseAdjustment& solver,
-                                                         FinalProgress& progress) {
+                                                         FinalProgress& progress, KnownLandmarks* known) {
   const NodeMatchers matchers = policy_.matchers(std::numeric_limits<double>::infinity());
   LoopEffort effort;
-  const auto settle = [&] {
-    graph_clock_.time([&] { ledger_.settle(graph, solver, options_.max_loop_chi); });
-  };
   ledger_.refuse_pending();
-  settle();
+  settle(graph, solver, known);
   for (int pass = 0; pass < progress.passes() && !progress.cut_short(); ++pass) {
     final_search_clock_.time([&] {
       effort += run_final_search(keyframes, graph, matchers, [&](double share) {
         return final_search_clock_.leave_out([&] { return progress.at(pass + share); });
       });
     });
-    settle();
+    settle(graph, solver, known);
   }
   ledger_.refuse_pending();
   return {matchers.by_psi.kind, effort};
@@ -118,8 +126,10 @@ void BackEnd::refine(RefinedScans& scans, PoseGraph& graph, FinalProgress& progr
     refine_jointly(scans, options_.joint_refinement, pool_, [&](double share) {
       return refinement_clock_.leave_out([&] { return progress.at(progress.passes() + share); });
     });
-    const mrpt::math::TPose2D first = scans.map_T_frame[scans.node_frames.front()];
-    for (mrpt::math::TPose2D& pose : scans.map_T_frame) pose = graph.pose(0) + (pose - first);
+    if (graph.root() == 0) {
+      const mrpt::math::TPose2D first = scans.map_T_frame[scans.node_frames.front()];
+      for (mrpt::math::TPose2D& pose : scans.map_T_frame) pose = graph.pose(0) + (pose - first);
+    }
     for (std::size_t node = 0; node < scans.node_frames.size(); ++node)
       graph.set_pose(node, scans.map_T_frame[scans.node_frames[node]]);
   });

@@ -24,6 +24,7 @@
 #include "mapping/optimization_schedule.h"
 #include "mapping/stage_clock.h"
 #include "pose_graph/incremental_pose_adjustment.h"
+#include "pose_graph/known_landmarks.h"
 #include "pose_graph/sparse_pose_adjustment.h"
 
 namespace psi_slam {
@@ -104,12 +105,17 @@ class BackEnd {
 
   /// Runs the final loop search after the last scan. Before the first pass and after each pass, optimises the
   /// graph and switches off outlier loops. Refuses all pending loops. Returns the matcher of the largest
-  /// Psi, which searched all windows, and its effort.
+  /// Psi, which searched all windows, and its effort. `known` are the landmarks of the graph; null: none.
   std::pair<MatcherKind, LoopEffort> finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
-                                                  SparsePoseAdjustment& solver, FinalProgress& progress);
+                                                  SparsePoseAdjustment& solver, FinalProgress& progress,
+                                                  KnownLandmarks* known = nullptr);
+
+  /// Optimises the graph and switches off outlier loops, and landmarks that the scans or each other
+  /// contradict. `known` may be null.
+  void settle(PoseGraph& graph, SparsePoseAdjustment& solver, KnownLandmarks* known);
 
   /// Refines the poses of all scans jointly, and sets the graph's nodes to the refined poses. The first node
-  /// keeps its pose. Does nothing if `progress` was cut short.
+  /// keeps its pose if it is the root. Does nothing if `progress` was cut short.
   void refine(RefinedScans& scans, PoseGraph& graph, FinalProgress& progress);
 
   /// Carries out an edit of kind LoopEdit::Kind::kMatch. Returns false if the scan has no returns to match.

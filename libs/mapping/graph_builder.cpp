@@ -21,9 +21,6 @@ using mrpt::math::TPose2D;
 constexpr double kStartSigma_m = 0.3;
 constexpr double kStartSigma_rad = radians_from_degrees(3.0L);
 
-// Standard deviation of the heading of a provisional start, see kProvisionalSigma_m.
-constexpr double kProvisionalSigma_rad = 30;
-
 // Distance added to the path between two runs. It exceeds every limit along the path, so no search along the
 // path crosses from one run to the other.
 double between_runs_m(const BackEndOptions& options) {
@@ -192,7 +189,16 @@ std::vector<UnplacedRun> GraphBuilder::lay_unjoined_aside(const std::vector<Unpl
   return aside;
 }
 
+void GraphBuilder::move_to_site() {
+  if (known_) known_->move_to_site(graph_);
+}
+
+void GraphBuilder::settle_landmarks() {
+  if (known_) back_end_.settle(graph_, solver_, &*known_);
+}
+
 void GraphBuilder::restore(Checkpoint&& before) {
+  known_.reset();
   graph_ = std::move(before.graph);
   back_end_.ledger() = std::move(before.ledger);
   solver_ = std::move(before.solver);

@@ -72,16 +72,25 @@ class GraphBuilder {
   /// Carries out an edit of a loop whose node and local map exist, and optimises the graph.
   Edited carry_out(const LoopEdit& edit, std::size_t node);
 
+  /// Adds landmarks to the graph. No frames may be added before restore().
+  void add_landmarks(const std::vector<Landmark>& landmarks) { known_.emplace(landmarks, graph_); }
+  /// The landmarks of the graph; empty without add_landmarks().
+  const std::optional<KnownLandmarks>& landmarks() const { return known_; }
+  /// Moves all nodes into the frame that the landmarks state, if there are any.
+  void move_to_site();
+
   /// Runs the final loop search, see BackEnd::finish_loops().
   std::pair<MatcherKind, LoopEffort> finish_loops(FinalProgress& progress) {
-    return back_end_.finish_loops(keyframes_, graph_, solver_, progress);
+    return back_end_.finish_loops(keyframes_, graph_, solver_, progress, known_ ? &*known_ : nullptr);
   }
+  /// Optimises the graph with the landmarks, without searching loops.
+  void settle_landmarks();
   void refine(RefinedScans& scans, FinalProgress& progress) { back_end_.refine(scans, graph_, progress); }
 
   /// Moves those of `runs` beside the map that no loop joins to it, and returns them.
   std::vector<UnplacedRun> lay_unjoined_aside(const std::vector<UnplacedRun>& runs);
 
-  /// State that the final steps change.
+  /// State that the final steps change. Landmarks are not part of it.
   struct Checkpoint {
     PoseGraph graph;
     LoopLedger ledger;
@@ -113,6 +122,7 @@ class GraphBuilder {
   KeyframeStore keyframes_;
   /// Whether the start of the next run is only provisional, see unplaced_runs.h.
   bool is_start_provisional_ = false;
+  std::optional<KnownLandmarks> known_;
   std::optional<RunStart> run_start_;  ///< start of a run that begins with the next node; otherwise empty
   mrpt::math::TPose2D map_T_local_;
   NewestCovariance newest_covariance_;

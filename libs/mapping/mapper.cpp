@@ -10,6 +10,7 @@
 #include "frames/pose_operations.h"
 #include "frames/sweep_motion.h"
 #include "mapping/carried_frames.h"
+#include "mapping/placed_knowledge.h"
 
 namespace psi_slam {
 namespace {
@@ -225,7 +226,7 @@ void Mapper::Implementation::lay_unjoined_runs_aside() {
     const std::size_t frame = result_.interruptions[i].frame;
     const auto& begins = result_.later_run_frames;
     const auto next = std::upper_bound(begins.begin(), begins.end(), frame);
-    runs.push_back({node_at(frame), next == begins.end() ? builder_.graph().num_nodes() : node_at(*next), i});
+    runs.push_back({node_at(frame), next == begins.end() ? result_.node_frames.size() : node_at(*next), i});
   }
   for (Interruption& interruption : result_.interruptions)
     interruption.found_frame = interruption.found_frame.value_or(interruption.frame);
@@ -296,14 +297,31 @@ void Mapper::Implementation::end_log() {
   serve_waiting_edits();
 }
 
+// Finds the last loops and optimises the graph, with what is known from outside.
+void Mapper::Implementation::finish_graph(bool closes_loops, FinalProgress& progress) {
+  result_.contradictions.clear();
+  std::optional<PlacedKnowledge> known;
+  if (!knowledge_.empty() && !keyframes().nodes.empty())
+    known.emplace(knowledge_, result_.frames, result_.node_frames, result_.later_run_frames);
+  if (known) builder_.add_landmarks(known->landmarks());
+  if (closes_loops)
+    finish_loops(progress);
+  else
+    builder_.settle_landmarks();
+  lay_unjoined_runs_aside();
+  if (!known) return;
+  result_.contradictions =
+      known->contradictions(*builder_.landmarks(), builder_.graph(), options_.back_end.max_loop_chi);
+  builder_.move_to_site();
+}
+
 MappingResult Mapper::Implementation::finish(const std::function<bool(double)>& progress, AfterFinish after) {
   end_log();
   if (after == AfterFinish::kReopen)
     before_finish_ = {builder_.checkpoint(), result_.loop_matchers, result_.interruptions};
   FinalProgress steps(options_.back_end, progress);
   const bool closes_loops = options_.close_loops && !keyframes().nodes.empty();
-  if (closes_loops) finish_loops(steps);
-  lay_unjoined_runs_aside();
+  finish_graph(closes_loops, steps);
   result_.unmet_edits = unmet_edits();
   count_accepted_loops();
   carry_frames_along(builder_.graph().poses(), result_.node_frames, result_.frames, result_.later_run_frames);
@@ -360,6 +378,9 @@ LoopEditOutcome Mapper::edit(const LoopEdit& edit) {
 LoopEditOutcome Mapper::judge(const LoopEdit& edit, const std::vector<FrameRecord>& frames) const {
   implementation_->wait();
   return implementation_->judge(edit, frames);
+}
+void Mapper::set_knowledge(FixedKnowledge knowledge) {
+  implementation_->set_knowledge(std::move(knowledge));
 }
 void Mapper::end_log() {
   implementation_->end_log();

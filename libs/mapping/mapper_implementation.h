@@ -24,6 +24,7 @@ class Mapper::Implementation {
   void begin_run(const RunStart& start);
   LoopEditOutcome edit(const LoopEdit& edit);
   LoopEditOutcome judge(const LoopEdit& edit, const std::vector<FrameRecord>& frames) const;
+  void set_knowledge(FixedKnowledge knowledge) { knowledge_ = std::move(knowledge); }
   void end_log();
   MappingResult finish(const std::function<bool(double)>& progress, AfterFinish after);
   void reopen(MappingResult&& result);
@@ -76,6 +77,7 @@ class Mapper::Implementation {
   void serve_waiting_edits();
   std::vector<std::string> unmet_edits() const;
   void finish_loops(FinalProgress& progress);
+  void finish_graph(bool closes_loops, FinalProgress& progress);
   void count_accepted_loops();
   void refine_poses(FinalProgress& progress);
 
@@ -88,6 +90,7 @@ class Mapper::Implementation {
   std::size_t missed_deadlines_ = 0;    ///< number of calls of add() that waited for the back end
   std::vector<LoopEdit> waiting_edits_;
   std::vector<std::string> impossible_edits_;  ///< one sentence for each waiting edit that became impossible
+  FixedKnowledge knowledge_;
   std::optional<Checkpoint> before_finish_;
   /// Odometry pose at which a later run begins, until its first node; otherwise empty.
   std::optional<mrpt::math::TPose2D> odom_T_start_;

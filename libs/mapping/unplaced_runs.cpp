@@ -87,10 +87,10 @@ void lay_aside(const std::vector<UnplacedRun>& runs, const KeyframeStore& keyfra
     return std::any_of(runs.begin(), runs.end(), [&](const UnplacedRun& run) { return run.contains(node); });
   };
   Extent map;
-  for (std::size_t node = 0; node < graph.num_nodes(); ++node)
+  for (std::size_t node = 0; node < keyframes.nodes.size(); ++node)
     if (!is_aside(node)) include(node, keyframes, graph, map);
   for (const UnplacedRun& run : runs) {
-    const std::size_t end = std::min(run.end, graph.num_nodes());
+    const std::size_t end = std::min(run.end, keyframes.nodes.size());
     Extent aside;
     for (std::size_t node = run.begin; node < end; ++node) include(node, keyframes, graph, aside);
     const TPose2D moved(map.x_max + kMargin_m - aside.x_min, map.y_min - aside.y_min, 0);

@@ -14,6 +14,8 @@ namespace psi_slam {
 /// Standard deviation of the position of a provisional start, metres. A constraint of the kind kRunStart with
 /// at least this deviation only keeps the graph connected: it does not place its run in the map.
 constexpr double kProvisionalSigma_m = 1e3;
+/// Standard deviation of the heading of a provisional start, radians.
+constexpr double kProvisionalSigma_rad = 30;
 
 /// The part of a graph whose place in the map is known.
 struct PlacedPart {

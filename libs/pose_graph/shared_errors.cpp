@@ -181,6 +181,7 @@ void SharedErrors::add_independent_constraints() {
         constraint.kind == Constraint::Kind::kLoop)
       continue;
     constraint.from_T_to = graph_.pose(constraint.to) - graph_.pose(constraint.from);
+    if (constraint.kind == Constraint::Kind::kKnown) constraint.information /= weight_of_known(constraint);
     model_.add_constraint(constraint);
   }
 }
@@ -254,6 +255,11 @@ void SharedErrors::add_loops() {
 }
 
 }  // namespace
+
+double weight_of_known(const Constraint& constraint) {
+  const double width = constraint.kernel ? constraint.kernel->width / kKnownKernelWidth : 1;
+  return width * width;
+}
 
 PoseGraph graph_with_shared_errors(const PoseGraph& graph, const SharedErrorOptions& options) {
   return SharedErrors(graph, options).model();

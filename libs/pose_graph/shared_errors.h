@@ -24,6 +24,17 @@
 
 namespace psi_slam {
 
+/// Factor by which the covariances of scans and loops are too small, because the solver takes their errors
+/// for independent, see share/doc/covariances.md. Constraints of the kind kKnown get this factor as weight.
+inline constexpr double kOverconfidence = 6;
+
+/// Width of the robust kernel of constraints of the kind kKnown, in stated standard deviations.
+inline constexpr double kKnownKernelWidth = 3;
+
+/// Returns the factor on the stated information of a constraint of the kind kKnown. It follows from the width
+/// of the kernel, which is a number of stated standard deviations.
+double weight_of_known(const Constraint& constraint);
+
 /// Sizes of the errors, relative to the stated covariances of the constraints. share/doc/covariances.md says
 /// where the defaults come from.
 struct SharedErrorOptions {
@@ -40,9 +51,10 @@ struct SharedErrorOptions {
 
 /// Returns the graph of the model at the poses of `graph`, for MarginalCovariance. The nodes of `graph` keep
 /// their numbers and the root; the stretches follow as further nodes. Constraints of the kinds kOdometry and
-/// kRunStart are independent measurements and stay as they are. The constraints agree exactly with the poses,
-/// so optimising the graph of the model moves nothing. Throws UserError if the information of a constraint of
-/// a local map, or of all loops between two stretches, is singular.
+/// kRunStart are independent measurements and stay as they are; those of the kind kKnown too, but without
+/// weight_of_known(). The constraints agree exactly with the poses, so optimising the graph of the model
+/// moves nothing. Throws UserError if the information of a constraint of a local map, or of all loops between
+/// two stretches, is singular.
 PoseGraph graph_with_shared_errors(const PoseGraph& graph, const SharedErrorOptions& options = {});
 
 /// Returns the covariance of (x, y, theta) of each node relative to the root, in the axes of the map: m^2,

@@ -34,6 +34,7 @@ const RobustKernel& kernel_of(const Constraint& constraint, const PoseAdjustment
     case Constraint::Kind::kLocalMap:
       return options.local_map_kernel;
     case Constraint::Kind::kLoop:
+    case Constraint::Kind::kKnown:
       break;
   }
   return options.loop_kernel;

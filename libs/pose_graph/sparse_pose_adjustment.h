@@ -26,8 +26,9 @@ struct PoseAdjustmentOptions {
   double initial_lambda = 0;         ///< damping of the first step; 0 is a Gauss-Newton step
   RobustKernel odometry_kernel;      ///< kernel for constraints of the kind kOdometry
   RobustKernel local_map_kernel;     ///< kernel for constraints of the kinds kLocalMap and kRunStart
-  /// Kernel for loops. Huber's kernel is convex, so that a true loop is closed after any drift. With a kernel
-  /// that bounds the cost, a true loop may stay open. If loops can be false, use optimize_graduated().
+  /// Kernel for loops, and for constraints of the kind kKnown. Huber's kernel is convex, so that a true loop
+  /// is closed after any drift. With a kernel that bounds the cost, a true loop may stay open. If loops can
+  /// be false, use optimize_graduated().
   RobustKernel loop_kernel{RobustKernel::Type::kHuber, 3};
 };
 

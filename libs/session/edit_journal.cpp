@@ -16,6 +16,7 @@
 #include "psi_slam/user_error.h"
 #include "rendering/placed_edits.h"
 #include "session/edit_values.h"
+#include "session/knowledge_line.h"
 #include "session/map_edit_line.h"
 
 namespace psi_slam {
@@ -36,6 +37,7 @@ Kind kind_of(const std::string& verb) {
     verbs.emplace_back(text);
   }
   for (const auto& [text, kind] : kMapEditVerbs) verbs.emplace_back(text);
+  verbs.insert(verbs.end(), kKnowledgeVerbs.begin(), kKnowledgeVerbs.end());
   throw UserError("unknown edit \"" + verb + "\": expected " + name_list(verbs) + did_you_mean(verb, verbs));
 }
 
@@ -128,7 +130,10 @@ void add_line(std::string_view line, const std::string& place, EditJournal& jour
   line = line.substr(0, line.find('#'));
   if (line.find_first_not_of(" \t") == std::string_view::npos) return;
   try {
-    if (const auto map_edit = parse_map_edit_line(line))
+    FixedKnowledge knowledge;
+    if (parse_knowledge_line(line, place, knowledge))
+      journal.add(knowledge);
+    else if (const auto map_edit = parse_map_edit_line(line))
       journal.add(*map_edit);
     else
       journal.add(parse_edit_line(line));
@@ -137,10 +142,11 @@ void add_line(std::string_view line, const std::string& place, EditJournal& jour
   }
 }
 
-/// Checks the zones of the edits in a file. Throws UserError with the file.
-void check_zones_of(const EditJournal& journal, const std::filesystem::path& file) {
+/// Checks the zones and tags of the edits in a file. Throws UserError with the file.
+void check_zones_and_tags(const EditJournal& journal, const std::filesystem::path& file) {
   try {
     check_zones(journal.map_edits());
+    check_tags(journal.knowledge());
   } catch (const UserError& error) {
     throw UserError(file.string() + ": " + error.what());
   }
@@ -155,6 +161,14 @@ void EditJournal::add(const TimedEdit& edit) {
 void EditJournal::add(const EditJournal& others) {
   for (const TimedEdit& edit : others.edits_) add(edit);
   for (const MapEdit& edit : others.map_edits_) add(edit);
+  add(others.knowledge_);
+}
+
+void EditJournal::add(const FixedKnowledge& knowledge) {
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(knowledge_.poses, knowledge.poses);
+  append(knowledge_.tags, knowledge.tags);
+  append(knowledge_.sightings, knowledge.sightings);
 }
 
 std::vector<LoopEdit> EditJournal::take_due(EditTime now) {
@@ -199,6 +213,9 @@ EditJournal EditJournal::of_run(std::size_t first_scan, std::size_t scans,
     edit.scan += first_scan;
     journal.add(edit);
   }
+  journal.knowledge_ = knowledge_;
+  for (KnownPose& pose : journal.knowledge_.poses) pose.from_scan += first_scan;
+  for (TagSighting& sighting : journal.knowledge_.sightings) sighting.from_scan += first_scan;
   for (TimedEdit edit : edits_) {
     edit.edit.frame += first_scan;
     edit.edit.local_map += first_local_map;
@@ -223,14 +240,14 @@ std::string EditJournal::text() const {
   std::string text = kHeading;
   for (const TimedEdit& edit : edits_) text += edit_line(edit) + '\n';
   for (const MapEdit& edit : map_edits_) text += map_edit_line(edit) + '\n';
-  return text;
+  return text + knowledge_lines(knowledge_);
 }
 
 EditJournal EditJournal::read(const std::filesystem::path& file) {
   EditJournal journal;
   LineReader lines(file);
   for (std::string_view line; lines.next(line);) add_line(line, lines.place(), journal);
-  check_zones_of(journal, file);
+  check_zones_and_tags(journal, file);
   return journal;
 }
 
@@ -240,7 +257,7 @@ EditJournal EditJournal::parse(const std::string& text, const std::filesystem::p
   std::size_t number = 0;
   for (std::string line; std::getline(lines, line);)
     add_line(line, file.string() + ':' + std::to_string(++number), journal);
-  check_zones_of(journal, file);
+  check_zones_and_tags(journal, file);
   return journal;
 }
 

@@ -25,9 +25,15 @@
 // search window. `match` also works without these five. attempt=final_search forces a match that only the
 // final loop search finds. Older files call it attempt=last_pass.
 //
-// The edits from `erase` on change the drawn map, see MapEdit. They are made in the order of their lines,
-// after the last scan. Their points are metres: in the frame of the exported map, or in a frame in which the
-// robot has the pose `frame` (x, y, yaw in degrees) at its first scan, or at the scan `scan`.
+//     pose time_s=1700000000.5 x_m=1 y_m=2 yaw_deg=90 sigma_m=0.02 sigma_deg=1
+//     tag name=A x_m=4 y_m=5 sigma_m=0.02
+//     seen name=A time_s=1700000012 ahead_m=1.5 left_m=-0.2 sigma_m=0.03
+//
+// The edits from `erase` to `slow` change the drawn map, see MapEdit. They are made in the order of their
+// lines, after the last scan. Their points are metres: in the frame of the exported map, or in a frame in
+// which the robot has the pose `frame` (x, y, yaw in degrees) at its first scan, or at the scan `scan`. If
+// lines `pose` or `tag` state the frame of the map, `frame` without `scan` is the pose of that frame.
+// The lines from `pose` on state what is known from outside, see FixedKnowledge.
 #pragma once
 
 #include <cstddef>
@@ -38,6 +44,7 @@
 #include <variant>
 #include <vector>
 
+#include "psi_slam/fixed_knowledge.h"
 #include "psi_slam/loop_record.h"
 #include "rendering/map_edits.h"
 
@@ -82,8 +89,11 @@ class EditJournal {
   const std::vector<TimedEdit>& edits() const { return edits_; }
   /// Edits of the drawn map, in their order.
   const std::vector<MapEdit>& map_edits() const { return map_edits_; }
+  /// What is known from outside, in the order of the lines.
+  const FixedKnowledge& knowledge() const { return knowledge_; }
+  /// Number of edits, without the lines of knowledge().
   std::size_t size() const { return edits_.size() + map_edits_.size(); }
-  bool empty() const { return size() == 0; }
+  bool empty() const { return size() == 0 && knowledge_.empty(); }
 
   /// Inserts an edit by its time, after the edits of the same time.
   void add(const TimedEdit& edit);
@@ -92,6 +102,7 @@ class EditJournal {
   void remove_last_map_edit() {
     if (!map_edits_.empty()) map_edits_.pop_back();
   }
+  void add(const FixedKnowledge& knowledge);
   /// Adds all edits of another journal.
   void add(const EditJournal& others);
 
@@ -114,7 +125,7 @@ class EditJournal {
   /// Returns these edits of one run, renumbered for a map of several runs. The run has `scans` scans,
   /// numbered from `first_scan`, and local maps numbered from `first_local_map`. Edits at the end of the run
   /// are made after its last scan. Of a run that is not the first one, keeps only the edits of the drawn map
-  /// for which follows_run() is true.
+  /// for which follows_run() is true. Knowledge is kept for all runs, because it states its own frame.
   EditJournal of_run(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
 
   /// Returns the edits with the frame of each edit of the drawn map, see with_frame().
@@ -123,7 +134,7 @@ class EditJournal {
   /// Returns the edits as the text of a file.
   std::string text() const;
   /// Reads a file. Throws UserError, with file and line, for a line that is not an edit, and with the file
-  /// as check_zones() does.
+  /// as check_zones() and check_tags() do.
   static EditJournal read(const std::filesystem::path& file);
   /// Parses the text of a file; `file` is only for error messages. Throws as read() does.
   static EditJournal parse(const std::string& text, const std::filesystem::path& file);
@@ -133,6 +144,7 @@ class EditJournal {
  private:
   std::vector<TimedEdit> edits_;
   std::vector<MapEdit> map_edits_;
+  FixedKnowledge knowledge_;
   std::size_t taken_ = 0;  ///< number of edits that take_due() has returned or enter() has entered
 };
 

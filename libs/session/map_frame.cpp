@@ -3,6 +3,7 @@
 
 #include "base/number_text.h"
 #include "exports/mapped_trajectory.h"
+#include "psi_slam/user_error.h"
 #include "rendering/wall_direction.h"
 
 namespace psi_slam {
@@ -26,6 +27,15 @@ mrpt::math::TPose2D exported_frame(double turn_rad, const MapFrameOptions& optio
 }
 
 }  // namespace
+
+void check_frame(const MapFrameOptions& options, const FixedKnowledge& knowledge) {
+  const bool is_moved =
+      options.align != MapFrameOptions::kNone || options.origin_x_m != 0 || options.origin_y_m != 0;
+  if (knowledge.states_frame() && is_moved)
+    throw UserError(
+        "the lines pose and tag of the edits state the frame of the map, but map.align, map.origin_x_m or "
+        "map.origin_y_m change it. Remove these settings, or the lines");
+}
 
 mrpt::math::TPose2D export_T_map(const std::vector<Frame>& log,
                                  const std::vector<mrpt::math::TPose2D>& map_T_robot,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The frame of the exported map. The mapper's frame is the robot's first pose. The exported map can be turned
-// square to its walls, and its origin can be moved: map.align, map.origin_x_m and map.origin_y_m.
+// The frame of the exported map. The mapper's frame is the robot's first pose, unless known poses state it.
+// The exported map can be turned square to its walls, and its origin can be moved: map.align, map.origin_x_m
+// and map.origin_y_m.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -9,10 +10,14 @@
 #include <vector>
 
 #include "psi_slam/frame.h"
+#include "psi_slam/fixed_knowledge.h"
 #include "psi_slam/mapping_result.h"
 #include "session/settings.h"
 
 namespace psi_slam {
+
+/// Throws UserError if both the options and the knowledge state the frame of the map.
+void check_frame(const MapFrameOptions& options, const FixedKnowledge& knowledge);
 
 /// Returns the pose of the mapper's frame in the exported map. `log` has the frames of `map_T_robot`.
 mrpt::math::TPose2D export_T_map(const std::vector<Frame>& log,

@@ -14,6 +14,8 @@
 #include "psi_slam/configuration.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/user_error.h"
+#include "session/knowledge_line.h"
+#include "session/map_frame.h"
 #include "session/mapping_session_members.h"
 #include "session/session_input.h"
 #include "session/settings.h"
@@ -69,6 +71,7 @@ MappingSession::MappingSession(const SessionInput& input, const Settings& settin
   m_->read_from(open_input(input, settings));
   m_->mapper = std::make_unique<Mapper>(options_for(input, settings));
   m_->edits = input.edits();
+  m_->check_knowledge({});
   m_->make_due_edits({});
   if (m_->recording) m_->later_runs = m_->recording->facts.runs;
 }
@@ -187,6 +190,7 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
     clock.resume();
     return goes_on;
   };
+  m.mapper->set_knowledge(m.edits.knowledge());
   m.result = m.mapper->finish(progress, m.after_finish);
   m.check_log();
   m.enter(Members::State::kFinished);
@@ -224,9 +228,18 @@ void MappingSession::add_edits(const EditJournal& edits) {
   EditJournal all = m_->edits;
   all.add(edits);
   check_zones(all.map_edits());
+  m_->check_knowledge(edits);
   m_->edits = std::move(all);
   m_->make_due_edits({});
   m_->update_journal();
+}
+
+/// Throws UserError if the knowledge of these and further edits contradicts itself or the settings.
+void MappingSession::Members::check_knowledge(const EditJournal& further) const {
+  EditJournal all = edits;
+  all.add(further);
+  check_tags(all.knowledge());
+  check_frame(settings.map_frame, all.knowledge());
 }
 
 void MappingSession::Members::make_due_edits(EditTime now) {
@@ -310,6 +323,7 @@ void MappingSession::Members::begin_recorded_run() {
 
 void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
   Members& m = *m_;
+  m.check_knowledge(run.edits());
   OpenedInput opened = open_input(run, m.settings);
   const std::vector<RecordedLog> logs_before = m.facts().logs;
   reopen();

@@ -38,6 +38,7 @@ struct MappingSession::Members {
   void keep_bent(const Frame& frame);
   const std::vector<Frame>& recorded_frames(std::vector<Frame>& room) const;
   void check_log();
+  void check_knowledge(const EditJournal& further) const;
   void make_due_edits(EditTime now);
   void begin_recorded_run();
   SessionFacts facts() const;

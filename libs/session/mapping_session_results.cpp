@@ -49,6 +49,7 @@ void keep_first(std::size_t scans, SessionFacts& facts) {
     if (edit.edit.frame < lost->scan) facts.edits.add(edit);
   for (const MapEdit& edit : edits.map_edits())
     if (edit.scan < lost->scan) facts.edits.add(edit);
+  facts.edits.add(edits.knowledge());
   facts.runs.erase(lost, facts.runs.end());
 }
 
@@ -93,10 +94,13 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   StageClock drawing_clock("draw map");
   StageClock judging_clock("judge map");
   StageClock writing_clock("write results");
-  const mrpt::math::TPose2D map_T_start = export_T_map(m.result, m.settings.map_frame);
-  const EditJournal edits = m.edits.with_frames(map_T_start);
-  const PlacedMapEdits placed = placed_edits(edits.map_edits(), map_T_start, mapped_poses(m.result));
-  const ExportedPoses exported(m.result, map_T_start);
+  const mrpt::math::TPose2D export_T_mapper = export_T_map(m.result, m.settings.map_frame);
+  const EditJournal edits = m.edits.with_frames(export_T_mapper);
+  const PlacedMapEdits placed = placed_edits(edits.map_edits(), export_T_mapper, mapped_poses(m.result));
+  const ExportedPoses exported(m.result, export_T_mapper);
+  // With a stated frame, the first scan is not the origin of the mapper's frame.
+  const mrpt::math::TPose2D map_T_start =
+      m.result.graph.root() == 0 ? export_T_mapper : m.result.graph.pose(0);
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
   drawing_clock.time([&] {
     grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map);

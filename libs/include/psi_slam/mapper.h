@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "psi_slam/fixed_knowledge.h"
 #include "psi_slam/frame.h"
 #include "psi_slam/loop_record.h"
 #include "psi_slam/mapping_result.h"
@@ -97,6 +98,10 @@ class Mapper {
   /// or, after finish(), the frames of the result.
   LoopEditOutcome judge(const LoopEdit& edit, const std::vector<FrameRecord>& frames) const;
 
+  /// Sets what is known from outside. It replaces what was set before, and finish() uses it. The poses while
+  /// mapping do not depend on it.
+  void set_knowledge(FixedKnowledge knowledge);
+
   /// Finishes the active local maps and makes the edits that wait for them. Call after the last scan, unless
   /// finish() follows at once.
   void end_log();
@@ -106,7 +111,8 @@ class Mapper {
     kNothing,  ///< only graph() may be called afterwards
     kReopen,   ///< reopen() may be called too; needs the memory of a second graph
   };
-  /// Finishes the map: final loop search, optimisation and joint refinement of all scans. `progress` gets the
+  /// Finishes the map: final loop search, optimisation and joint refinement of all scans. What is known from
+  /// outside enters the optimisation. If it states a frame, the map is moved there. `progress` gets the
   /// completed share of the work, in [0, 1]. If it returns false, the remaining steps are skipped, and
   /// MappingResult::final_search_cut_short is true.
   MappingResult finish(const std::function<bool(double)>& progress = {},

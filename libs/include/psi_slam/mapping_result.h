@@ -113,7 +113,8 @@ struct MappingResult {
   std::vector<Frame> log;  ///< all scans, in the order of `frames`; most lack their ranges at a standstill
   std::vector<FrameRecord> frames;  ///< one record for each scan, with its pose in the map
   /// Pose graph, optimised and then refined jointly with all scans. Optimising the graph again undoes the
-  /// refinement.
+  /// refinement. If poses or tags are known from outside, the nodes of the scans are followed by the frame of
+  /// the site, which is the root, and by a node for each known pose and tag, see FixedKnowledge.
   PoseGraph graph;
   std::vector<std::size_t> node_frames;       ///< frame number of each node
   std::vector<std::size_t> later_run_frames;  ///< number of the first frame of each run after the first
@@ -122,7 +123,10 @@ struct MappingResult {
   /// Attempts to close loops. Attempts of the final loop search are kept only if they found a match.
   std::vector<LoopRecord> loops;
   std::vector<std::string> unmet_edits;  ///< edits that could not be made, one sentence each
-  PsiThresholds psi;                     ///< thresholds by which Psi chose the matchers
+  /// What is known from outside but contradicts the scans or other knowledge, or could not be used; one
+  /// sentence each.
+  std::vector<std::string> contradictions;
+  PsiThresholds psi;                                       ///< thresholds by which Psi chose the matchers
   std::map<MatcherKind, LoopMatcherRecord> loop_matchers;  ///< loop searches of each matcher that was used
   std::vector<StageTiming> stages;                         ///< times of the stages of the work
   double wall_s = 0;                    ///< wall time of the work up to the last export; 0 before an export

@@ -105,7 +105,8 @@ class MappingSession {
   SkippedLines skipped_lines() const;
 
   /// Adds planned edits to the edits of the input. Each edit is made after the scan that it names. Call
-  /// before the first step(). Throws UserError, and adds nothing, if zones contradict each other.
+  /// before the first step(). Throws UserError, and adds nothing, if zones or known places contradict each
+  /// other or the settings.
   void add_edits(const EditJournal& edits);
   /// Changes a loop by hand now. An edit after finish() needs stay_open() and reopens the map: call finish()
   /// again.
@@ -134,7 +135,7 @@ class MappingSession {
 
   /// All warnings about this run, one sentence each: renamed settings, damaged logs, skipped messages,
   /// assumptions(), faults_of_log() and edits that could not be made. After finish(), also scans that matched
-  /// no local map.
+  /// no local map, and known poses that contradict the scans.
   std::vector<std::string> warnings() const;
 
   /// Number of runs through the building: this run and the runs merged before it.

@@ -47,7 +47,8 @@ struct Constraint {
     kOdometry,  ///< odometry between successive nodes
     kLocalMap,  ///< from the anchor of a local map to a node placed in that map
     kRunStart,  ///< from a node of an earlier run to the first node of a later run
-    kLoop,      ///< from a loop closure; only this kind can be entirely false
+    kLoop,      ///< from a loop closure; can be entirely false
+    kKnown,     ///< from what is known from outside, see FixedKnowledge; can be entirely false
   };
 
   std::size_t from = 0;           ///< node in whose frame `to` is measured

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "psi_slam/configuration.h"
+#include "psi_slam/fixed_knowledge.h"
 #include "psi_slam/frame.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/grid_map.h"

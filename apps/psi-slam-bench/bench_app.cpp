@@ -365,6 +365,12 @@ void add_live_command(CLI::App& app, const Streams& streams) {
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   command
+      .add_option("--timed-s", options.timed_s,
+                  "Pace and time only the last seconds of each log; what comes before is mapped as fast as "
+                  "possible; 0: all")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
       .add_option("--stretch-s", options.stretch_s,
                   "Replay only the first seconds of each log, without errors over relations; 0: all")
       ->check(CLI::NonNegativeNumber)

@@ -63,6 +63,24 @@ TEST(LiveBenchmark, a_replay_takes_the_time_of_the_log_divided_by_the_speed) {
   EXPECT_GE(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), log_s / kSpeed);
 }
 
+TEST(LiveBenchmark, only_the_last_seconds_are_timed) {
+  const std::vector<Frame> frames = drive();
+  const std::vector<double> due_s = due_times_s(frames);
+  constexpr double kTimed_s = 3;
+  const auto timed =
+      std::count_if(due_s.begin(), due_s.end(), [&](double due) { return due >= due_s.back() - kTimed_s; });
+  constexpr double kSpeed = 10;
+  const auto begin = std::chrono::steady_clock::now();
+  const Replayed replayed = replay(
+      frames, Settings(), kSpeed, [](double) {}, kTimed_s);
+  EXPECT_EQ(replayed.latency_ms.size(), static_cast<std::size_t>(timed));
+  EXPECT_LT(replayed.latency_ms.size(), frames.size());
+  EXPECT_EQ(replayed.live.size(), frames.size());
+  EXPECT_GE(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+            kTimed_s / kSpeed * 0.9);
+  for (const double latency_ms : replayed.latency_ms) EXPECT_GT(latency_ms, 0);
+}
+
 class LiveBenchCommand : public BenchCommand {
  protected:
   LiveBenchCommand() : BenchCommand("live") { write_room(); }

@@ -51,20 +51,25 @@ double ms_between(Clock::time_point begin, Clock::time_point end) {
 /// Frames in memory, each of which is returned when it is due.
 class PacedSource : public FrameSource {
  public:
-  /// The frames begin at `begin`; `after_begin` returns when after that a frame is due.
-  PacedSource(std::vector<Frame> frames, std::shared_future<Clock::time_point> begin,
+  /// Frames before `first_paced` are due at once. The others begin at `begin`; `after_begin` returns when
+  /// after that a frame is due.
+  PacedSource(std::vector<Frame> frames, std::size_t first_paced, std::shared_future<Clock::time_point> begin,
               std::function<Clock::duration(std::size_t)> after_begin)
-      : frames_(std::move(frames)), begin_(std::move(begin)), after_begin_(std::move(after_begin)) {}
+      : frames_(std::move(frames)),
+        first_paced_(first_paced),
+        begin_(std::move(begin)),
+        after_begin_(std::move(after_begin)) {}
 
   std::optional<Frame> next() override {
     if (next_ == frames_.size()) return std::nullopt;
-    std::this_thread::sleep_until(begin_.get() + after_begin_(next_));
+    if (next_ >= first_paced_) std::this_thread::sleep_until(begin_.get() + after_begin_(next_));
     return std::move(frames_[next_++]);
   }
   double progress() const override { return 0; }
 
  private:
   std::vector<Frame> frames_;
+  std::size_t first_paced_;
   std::shared_future<Clock::time_point> begin_;
   std::function<Clock::duration(std::size_t)> after_begin_;
   std::size_t next_ = 0;
@@ -119,21 +124,24 @@ Task simulated_task(double path_m, const LiveBenchmarkOptions& options) {
   return task;
 }
 
-LiveRow row_of(const Task& task, double speed, int processors, const std::function<void(double)>& progress) {
+LiveRow row_of(const Task& task, double speed, int processors, double timed_s,
+               const std::function<void(double)>& progress) {
   use_processors(processors);
-  Replayed replayed = replay(task.read(), task.settings, speed, progress);
+  Replayed replayed = timed_s > 0 ? replay(task.read(), task.settings, speed, progress, timed_s)
+                                  : replay(task.read(), task.settings, speed, progress);
   LiveRow row;
   row.log = task.name;
   row.speed = speed;
   row.processors = processors;
   row.scans = replayed.result.frames.size();
+  row.timed_scans = replayed.latency_ms.size();
   row.nodes = replayed.result.node_frames.size();
   row.mean_ms = summary_of_times(replayed.latency_ms).mean;
   row.p50_ms = quantile(replayed.latency_ms, 0.5);
   row.p99_ms = quantile(replayed.latency_ms, 0.99);
   row.max_ms = quantile(std::move(replayed.latency_ms), 1);
   row.missed_deadlines = replayed.missed_deadlines;
-  row.cpu_ms = 1e3 * replayed.cpu_s / static_cast<double>(std::max<std::size_t>(1, row.scans));
+  row.cpu_ms = 1e3 * replayed.cpu_s / static_cast<double>(std::max<std::size_t>(1, row.timed_scans));
   if (task.relations.empty()) return row;
   row.live_m = error_of(replayed.live, task.relations).translation_abs_m.mean;
   row.mapped_m = error_of(replayed.mapped, task.relations).translation_abs_m.mean;
@@ -141,14 +149,18 @@ LiveRow row_of(const Task& task, double speed, int processors, const std::functi
   return row;
 }
 
+/// Index of the first frame in the last `seconds` of the frames.
+std::size_t first_of_last_seconds(const std::vector<double>& due_s, double seconds) {
+  if (due_s.empty()) return 0;
+  const auto first = std::lower_bound(due_s.begin(), due_s.end(), due_s.back() - seconds);
+  return static_cast<std::size_t>(first - due_s.begin());
+}
+
 std::string text_of(const LiveRow& row) {
-  nlohmann::json json{{"mean", row.mean_ms},
-                      {"p50", row.p50_ms},
-                      {"p99", row.p99_ms},
-                      {"max", row.max_ms},
-                      {"scans", row.scans},
-                      {"nodes", row.nodes},
-                      {"missed", row.missed_deadlines},
+  nlohmann::json json{{"mean", row.mean_ms}, {"p50", row.p50_ms},
+                      {"p99", row.p99_ms},   {"max", row.max_ms},
+                      {"scans", row.scans},  {"timed", row.timed_scans},
+                      {"nodes", row.nodes},  {"missed", row.missed_deadlines},
                       {"cpu", row.cpu_ms}};
   if (row.live_m) json["live"] = *row.live_m;
   if (row.mapped_m) json["mapped"] = *row.mapped_m;
@@ -158,9 +170,9 @@ std::string text_of(const LiveRow& row) {
 
 LiveRow row_of_text(const std::string& text, const Task& task, double speed, int processors) {
   const nlohmann::json json = nlohmann::json::parse(text);
-  LiveRow row{task.name,       speed,          processors,     json.at("scans"), json.at("nodes"),
-              json.at("mean"), json.at("p50"), json.at("p99"), json.at("max"),   json.at("missed"),
-              json.at("cpu"),  std::nullopt,   std::nullopt,   std::nullopt};
+  LiveRow row{task.name,         speed,           processors,     json.at("scans"), json.at("timed"),
+              json.at("nodes"),  json.at("mean"), json.at("p50"), json.at("p99"),   json.at("max"),
+              json.at("missed"), json.at("cpu"),  std::nullopt,   std::nullopt,     std::nullopt};
   if (json.contains("live")) row.live_m = json["live"].get<double>();
   if (json.contains("mapped")) row.mapped_m = json["mapped"].get<double>();
   if (json.contains("final")) row.final_m = json["final"].get<double>();
@@ -179,41 +191,51 @@ std::vector<double> due_times_s(const std::vector<Frame>& frames, double longest
 }
 
 Replayed replay(std::vector<Frame> frames, const Settings& settings, double speed,
-                const std::function<void(double)>& progress) {
+                const std::function<void(double)>& progress, double timed_s) {
   const TemporaryFolder folder;
   const std::vector<double> due_s = due_times_s(frames);
+  const std::size_t first_timed = first_of_last_seconds(due_s, timed_s);
   const auto after_begin = [&](std::size_t scan) {
-    const double time_s = speed > 0 ? due_s[scan] / speed : 0;
+    const double time_s = speed > 0 ? (due_s[scan] - due_s[first_timed]) / speed : 0;
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_s));
   };
   std::promise<Clock::time_point> promise;
   MappingSession session(SessionInput("replay",
                                       [&, begin = promise.get_future().share()](const LogOptions&) {
-                                        return std::make_unique<PacedSource>(std::move(frames), begin,
-                                                                             after_begin);
+                                        return std::make_unique<PacedSource>(std::move(frames), first_timed,
+                                                                             begin, after_begin);
                                       }),
                          settings);
   std::promise<Clock::time_point> begins = std::move(promise);  // an exception lets the source end first
   LiveMapping mapping(session, folder.path(), settings,
                       [](const std::string& sentence) { throw SystemFailure(sentence); });
   Replayed replayed;
-  const std::clock_t cpu_before = std::clock();
+  std::clock_t cpu_before = 0;
+  std::size_t missed_before = 0;
   const Mapper& mapper = session.mapper();
-  const Clock::time_point first = Clock::now();
-  Clock::time_point step_begin = first;
+  Clock::time_point first;
+  Clock::time_point step_begin;
   session.set_pose_observer([&](const FrameRecord& record) {
-    const Clock::time_point due = first + after_begin(mapper.frames().size() - 1);
-    replayed.latency_ms.push_back(ms_between(speed > 0 ? due : step_begin, Clock::now()));
     replayed.live.push_back(record);
+    const std::size_t scan = mapper.frames().size() - 1;
+    if (scan < first_timed) return;
+    replayed.latency_ms.push_back(
+        ms_between(speed > 0 ? first + after_begin(scan) : step_begin, Clock::now()));
   });
-  begins.set_value(first);
-  while (mapping.step()) {
+  do {
+    if (mapper.frames().size() == first_timed) {
+      mapper.wait();
+      cpu_before = std::clock();
+      missed_before = mapper.missed_deadlines();
+      first = Clock::now();
+      begins.set_value(first);
+    }
     progress(static_cast<double>(mapper.frames().size()) / static_cast<double>(due_s.size()));
     step_begin = Clock::now();
-  }
+  } while (mapping.step());
   mapper.wait();
   replayed.cpu_s = static_cast<double>(std::clock() - cpu_before) / CLOCKS_PER_SEC;
-  replayed.missed_deadlines = mapper.missed_deadlines();
+  replayed.missed_deadlines = mapper.missed_deadlines() - missed_before;
   replayed.mapped = mapper.frames();
   std::vector<std::size_t> node_frames;
   for (const NodeScan& node : mapper.keyframes().nodes) node_frames.push_back(node.frame);
@@ -243,7 +265,7 @@ LiveBenchmark run_live_benchmark(const SparseLogs& logs, const LiveBenchmarkOpti
         const std::string row = run_forked(
             [&](const TextObserver& report) {
               int reported = -1;
-              return text_of(row_of(task, speed, processors, [&](double share) {
+              return text_of(row_of(task, speed, processors, options.timed_s, [&](double share) {
                 const int percent = static_cast<int>(99 * share);
                 if (percent != std::exchange(reported, percent)) report(std::to_string(percent));
               }));

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct LiveBenchmarkOptions {
   std::vector<int> processors = {1, 2};  ///< numbers of processors that a run may use
   std::vector<double> simulated_m;       ///< path lengths of simulated runs, in metres
   double stretch_s = 0;                  ///< only the first seconds of each log are replayed; 0: all
+  double timed_s = 0;                    ///< only the last seconds are paced and timed, see replay(); 0: all
   std::vector<std::string> assignments;  ///< "section.key=value": override the settings of every run
 };
 
@@ -33,6 +35,7 @@ struct LiveRow {
   double speed = 0;  ///< see LiveBenchmarkOptions::speeds
   int processors = 1;
   std::size_t scans = 0;
+  std::size_t timed_scans = 0;  ///< number of scans that the following times are of
   std::size_t nodes = 0;
   /// Time from a scan to its pose, in milliseconds: from the moment when the scan is due, or when the program
   /// begins with it if the speed is 0.
@@ -65,15 +68,18 @@ struct Replayed {
   MappingResult result;
   std::vector<FrameRecord> live;    ///< the records right after each scan
   std::vector<FrameRecord> mapped;  ///< the records before the final steps, with the loops found until then
-  std::vector<double> latency_ms;   ///< time from each scan to its pose
+  std::vector<double> latency_ms;   ///< time from each timed scan to its pose
   std::size_t missed_deadlines = 0;
-  double cpu_s = 0;  ///< processor time while scans were added
+  double cpu_s = 0;  ///< processor time while the timed scans were added
 };
 
 /// Maps the frames as they become due, as psi-slam live does: with the journal and the map that it writes,
-/// here to a temporary folder. Throws SystemFailure if they cannot be written.
+/// here to a temporary folder. Only the last `timed_s` seconds are timed; the scans before are mapped as fast
+/// as possible, and the timed scans begin when the back end has worked them off. Throws SystemFailure if the
+/// files cannot be written.
 Replayed replay(std::vector<Frame> frames, const Settings& settings, double speed,
-                const std::function<void(double)>& progress);
+                const std::function<void(double)>& progress,
+                double timed_s = std::numeric_limits<double>::infinity());
 
 /// Replays all logs and simulated runs, each in a process of its own that uses the first `processors`
 /// processors of the machine. Throws UserError as open_log() and read_relations().

@@ -67,9 +67,7 @@ std::optional<DrawnZones> draw_zones(MapEdit::Kind kind, const std::vector<MapEd
     if (edit.kind == kind)
       cells += for_each_cell_of(edit, zones, [&](int x, int y) { zones.setCell(x, y, 0); });
   if (cells == 0) return std::nullopt;
-  MapPictureOptions picture = texture_options();
-  picture.margin_m = 0;
-  return DrawnZones{kind, map_raster(zones, picture)};
+  return DrawnZones{kind, map_raster(zones, texture_options())};
 }
 
 /// Draws a grid map with edits.

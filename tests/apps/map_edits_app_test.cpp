@@ -12,6 +12,7 @@
 #include "temporary_folder.h"
 #include "test_files.h"
 #include "trajectory/trajectory_file.h"
+#include "zone_corners.h"
 
 namespace psi_slam {
 namespace {
@@ -66,13 +67,10 @@ TEST_F(MapEditsApp, edits_stay_on_their_walls_when_the_frame_turns) {
   EXPECT_THAT(read_file(saved), HasSubstr("keep_out polygon=-1,0;-0.5,0;-0.5,0.5 frame=0,0,0"));
   ASSERT_EQ(map("turned", {log, "--edits", saved, "--set", "map.align=90", "--set", "map.origin_x_m=2"}).code,
             0);
-  std::istringstream zones(read_file(path("turned") / "zones.txt"));
-  std::string heading;
-  std::getline(zones, heading);
-  double number = 0, kind = 0, limit = 0, x_m = 0, y_m = 0;
-  ASSERT_TRUE(zones >> number >> kind >> limit >> x_m >> y_m);
-  EXPECT_NEAR(x_m, -2, 1e-6);
-  EXPECT_NEAR(y_m, -1, 1e-6);
+  const auto corners = corners_of_zones(path("turned").string());
+  ASSERT_EQ(corners.size(), 3U);
+  EXPECT_NEAR(corners[0].x, -2, 1e-5);
+  EXPECT_NEAR(corners[0].y, -1, 1e-5);
   write_file(path("late.edits"), "keep_out polygon=-1,0;-0.5,0;-0.5,0.5 frame=0,0,0 scan=900\n");
   EXPECT_THAT(map("late", {log, "--edits", path("late.edits").string()}).err,
               HasSubstr("add keep-out zone: its scan 900 is not mapped, the last scan is 59"));

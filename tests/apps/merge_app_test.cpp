@@ -2,8 +2,6 @@
 // Tests whole runs of psi-slam merge.
 #include <gmock/gmock.h>
 
-#include <mrpt/math/CMatrixDynamic.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -18,6 +16,7 @@
 #include "temporary_folder.h"
 #include "test_files.h"
 #include "trajectory/trajectory_file.h"
+#include "zone_corners.h"
 
 namespace psi_slam {
 namespace {
@@ -104,15 +103,6 @@ TEST_F(MergeApp, takes_a_start) {
   EXPECT_EQ(wrong.code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("second.log does not begin near --start"));
   EXPECT_TRUE(std::filesystem::is_empty(file("wrong"))) << "no half map";
-}
-
-/// Returns the corners of the zones in the folder, in the order of the zones.
-std::vector<mrpt::math::TPoint2D> corners_of_zones(const std::string& folder) {
-  mrpt::math::CMatrixDouble table;
-  table.loadFromTextFile(folder + "/zones.txt");
-  std::vector<mrpt::math::TPoint2D> corners;
-  for (int row = 0; row < table.rows(); ++row) corners.emplace_back(table(row, 3), table(row, 4));
-  return corners;
 }
 
 TEST_F(MergeApp, edits_of_the_drawn_map_follow_their_runs) {

@@ -147,6 +147,8 @@ void add_robustness_command(CLI::App& app, const Streams& streams) {
 
 /// The logs of `verdict`; none without --data.
 std::vector<BenchmarkLog> verdict_logs(const BenchArguments& arguments) {
+  if (arguments.data.empty() && !arguments.names.empty())
+    throw UserError("--logs needs the folder of the logs: --data DIR");
   if (arguments.data.empty()) return {};
   SparseLogs found = find_sparse_logs(arguments.data, ini_folder_of(arguments), arguments.names);
   std::move(found.sparse.begin(), found.sparse.end(), std::back_inserter(found.dense));

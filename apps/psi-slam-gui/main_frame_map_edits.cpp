@@ -51,13 +51,13 @@ void MainFrame::show_map_menu() {
 }
 
 void MainFrame::choose_map_tool(MapEdit::Kind kind) {
-  if (!run_.snapshot) return;
+  if (!run_.snapshot || run_.snapshot->frames.size() == 0) return;
   const bool was_chosen = draft_ && draft_->kind == kind;
   stop_pointing();
   if (was_chosen) return;
   MapEdit draft;
   draft.kind = kind;
-  draft.frame_T_robot = mrpt::math::TPose2D(0, 0, 0);  // the window shows the frame of the mapper
+  draft.frame_T_robot = run_.snapshot->frames[0].map_T_robot;  // the window shows the frame of the mapper
   if (kind == MapEdit::Kind::kSlow) {
     const auto limit = ask_for_speed_(last_limit(run_.snapshot->edits->map_edits()));
     if (!limit) return;
@@ -87,6 +87,10 @@ void MainFrame::show_draft() {
 
 void MainFrame::close_draft() {
   if (!draft_ || !replay_) return;
+  if (run_.snapshot->phase == ReplayPhase::kFailed) {
+    stop_pointing();
+    return show_status("The run has failed, so the drawing was discarded");
+  }
   const std::size_t least = least_points(draft_->kind);
   if (draft_->points.size() < least)
     return show_status("Click at least " + std::to_string(least) +

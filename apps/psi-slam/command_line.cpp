@@ -3,6 +3,7 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include <algorithm>
 #include <array>
 #include <locale>
 #include <ostream>
@@ -141,20 +142,42 @@ CLI::App* add_options(CLI::App& app, CommandLine& line) {
   return options;
 }
 
-/// Adds the commands that only stand for other arguments, so that they are listed.
-void add_names(CLI::App& app) {
-  app.add_subcommand("help", "Explain a command: psi-slam help COMMAND");
-  for (const OtherProgram& other : other_programs()) app.add_subcommand(other.command, other.description);
+/// The commands that only stand for other arguments. They are listed, but must be the first word.
+std::vector<CLI::App*> add_first_words(CLI::App& app) {
+  std::vector<CLI::App*> words{app.add_subcommand("help", "Explain a command: psi-slam help COMMAND")};
+  for (const OtherProgram& other : other_programs())
+    words.push_back(app.add_subcommand(other.command, other.description));
+  return words;
 }
 
-/// Replaces "map" by nothing, and "help COMMAND" by "COMMAND --help".
-std::vector<std::string> in_long_form(std::vector<std::string> arguments) {
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::string unknown_command_text(const std::string& word, const std::vector<std::string>& names) {
+  const auto near = nearest_name(word, names);
+  return "there is no command \"" + word + '"' +
+         (near ? "; did you mean \"" + *near + "\"?" : std::string(kSeeHelp));
+}
+
+/// Replaces "map" by nothing, and "help COMMAND" by "COMMAND --help". Throws UserError if "help" is not
+/// followed by one of the commands, or if "map" is.
+std::vector<std::string> in_long_form(std::vector<std::string> arguments,
+                                      const std::vector<std::string>& commands) {
   if (arguments.empty() || (arguments[0] != "map" && arguments[0] != "help")) return arguments;
   const bool asks = arguments[0] == "help";
   arguments.erase(arguments.begin());
+  const bool names_command =
+      !arguments.empty() && std::find(commands.begin(), commands.end(), arguments[0]) != commands.end();
+  if (!asks && names_command)
+    throw UserError("expected a log after map, not the command \"" + arguments[0] + "\". Write psi-slam " +
+                    arguments[0] + ", or ./" + arguments[0] + " for a log of this name");
   if (!asks) return arguments;
+  if (!arguments.empty() && !names_command) throw UserError(unknown_command_text(arguments[0], commands));
   if (arguments.size() > 1) throw UserError(unexpected_argument_text(arguments[1], "psi-slam"));
-  if (!arguments.empty() && (arguments[0] == "map" || arguments[0] == "help")) arguments.clear();
+  if (names_command && (arguments[0] == "map" || arguments[0] == "help")) arguments.clear();
   arguments.emplace_back("--help");
   return arguments;
 }
@@ -171,11 +194,9 @@ CLI::App* add_sweep(CLI::App& app, CommandLine& line) {
 [[noreturn]] void fail_unknown(const std::string& argument, const CommandLine& line, const CLI::App& app) {
   const CLI::App* whole = &app;
   while (whole->get_parent() != nullptr) whole = whole->get_parent();
-  std::vector<std::string> names;
-  for (const CLI::App* command : whole->get_subcommands({})) names.push_back(command->get_name());
-  const auto command = nearest_name(line.log, names);
-  if (command && !is_option(argument))
-    throw UserError("there is no command \"" + line.log + "\"; did you mean \"" + *command + "\"?");
+  const std::vector<std::string> names = command_names(*whole);
+  if (nearest_name(line.log, names) && !is_option(argument))
+    throw UserError(unknown_command_text(line.log, names));
   throw UserError(unknown_argument_text(argument, app, "psi-slam"));
 }
 
@@ -277,13 +298,6 @@ std::string unknown_argument_text(const std::string& argument, const CLI::App& a
 CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& app) {
   using Command = CommandLine::Command;
   CommandLine line;
-  const std::vector<std::string> arguments = in_long_form(given);
-  line.other_program = arguments.empty() ? nullptr : other_program(arguments.front());
-  if (line.other_program != nullptr) {
-    line.command = Command::kOtherProgram;
-    line.other_arguments.assign(arguments.begin() + 1, arguments.end());
-    return line;
-  }
   std::string log_to_map;
   bool dump_config = false;
   add_value(app, "LOG", log_to_map,
@@ -307,21 +321,32 @@ CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& 
   app.add_flag("-v,--verbose", line.verbose, "Also print the changed settings and the times of all stages");
   app.add_flag("--dump-config", dump_config, "Print a settings file with all options and exit");
   app.set_version_flag("--version", "psi-slam " PSI_SLAM_VERSION, "Print the version and exit");
-  app.add_subcommand("map", "Map a log. The word map may be left out");
+  std::vector<CLI::App*> first_words{app.add_subcommand("map", "Map a log. The word map may be left out")};
   const std::vector<std::pair<CLI::App*, Command>> commands{
       {add_check(app, line), Command::kCheck}, {add_diff(app, line), Command::kDiff},
       {add_live(app, line), Command::kLive},   {add_localize(app, line), Command::kLocalize},
       {add_merge(app, line), Command::kMerge}, {add_options(app, line), Command::kOptions},
       {add_sweep(app, line), Command::kSweep}};
-  add_names(app);
+  for (CLI::App* word : add_first_words(app)) first_words.push_back(word);
   app.require_subcommand(0, 1);
   app.allow_extras();
   for (const auto& [command, kind] : commands) command->allow_extras();
+  for (CLI::App* word : first_words) word->allow_extras();
   app.footer(kExamples);
   add_document_options(app, default_settings());
+  const std::vector<std::string> arguments = in_long_form(given, command_names(app));
+  line.other_program = arguments.empty() ? nullptr : other_program(arguments.front());
+  if (line.other_program != nullptr) {
+    line.command = Command::kOtherProgram;
+    line.other_arguments.assign(arguments.begin() + 1, arguments.end());
+    return line;
+  }
   // CLI11 expects the last argument first.
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
 
+  for (const CLI::App* word : first_words)
+    if (word->parsed())
+      throw UserError("write the command before its options: psi-slam " + word->get_name() + " ...");
   const CLI::App* parsed = &app;
   if (dump_config) line.command = Command::kDumpConfig;
   for (const auto& [command, kind] : commands)

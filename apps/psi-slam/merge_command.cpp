@@ -20,7 +20,7 @@ EditJournal edits_of_later_run(const SessionInput& input, const std::string& nam
   load_recorded(recorded, input.recording()->facts, name);
   EditJournal edits = input.edits();
   const auto frame = fixed_export_T_map(recorded.settings.map_frame);
-  if (frame) edits = edits.with_frames(*frame);
+  if (frame && !edits.knowledge().states_frame()) edits = edits.with_frames(*frame);
   const auto count = [&](const auto& condition) {
     return static_cast<std::size_t>(
         std::count_if(edits.map_edits().begin(), edits.map_edits().end(), condition));
@@ -35,8 +35,8 @@ EditJournal edits_of_later_run(const SessionInput& input, const std::string& nam
   if (without_place > 0)
     streams.err << "psi-slam: " << name << ": " << without_place
                 << (without_place == 1 ? " edit of the drawn map is" : " edits of the drawn map are")
-                << " left out, because map.align = walls turned the map by an angle that is not recorded. "
-                << "Save the session again with psi-slam --resume " << name
+                << " left out, because the frame of the map, which the walls or known poses decide, is not "
+                << "recorded. Save the session again with psi-slam --resume " << name
                 << " -o DIR --save-session FILE, and merge FILE\n";
   return edits;
 }
@@ -44,7 +44,8 @@ EditJournal edits_of_later_run(const SessionInput& input, const std::string& nam
 /// Throws UserError if zones of different inputs contradict each other.
 void check_zones_of(const std::vector<SessionInput>& inputs) {
   EditJournal all;
-  for (const SessionInput& input : inputs) all.add(input.edits());
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    all.add(i == 0 ? inputs[i].edits() : inputs[i].edits().of_run(i, 0, 0));  // without those left out
   try {
     check_zones(all.map_edits());
   } catch (const UserError& error) {
@@ -65,8 +66,14 @@ std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bo
     recorded = recorded || recording;
   }
   // Edits at the end of the first run take effect before the next run begins.
-  if (const auto& recording = inputs.front().recording())
-    inputs.front() = inputs.front().with_edits(inputs.front().edits().of_run(0, recording->frames.size(), 0));
+  if (const auto& recording = inputs.front().recording()) {
+    const EditJournal& edits = inputs.front().edits();
+    if (std::any_of(edits.map_edits().begin(), edits.map_edits().end(),
+                    [](const MapEdit& edit) { return edit.kind == MapEdit::Kind::kCrop; }))
+      streams.err << "psi-slam: " << line.inputs.front()
+                  << ": its crop of the drawn map also cuts off the other runs\n";
+    inputs.front() = inputs.front().with_edits(edits.of_run(0, recording->frames.size(), 0));
+  }
   for (std::size_t i = 1; i < inputs.size(); ++i)
     if (inputs[i].recording())
       inputs[i] = inputs[i].with_edits(edits_of_later_run(inputs[i], line.inputs[i], streams));

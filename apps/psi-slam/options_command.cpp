@@ -69,6 +69,9 @@ int explain_options(const CommandLine& line, const Streams& streams) {
   for (const OptionSection& section : table->sections())
     for (const Option& option : section.options)
       if (selects(option)) all.push_back(json_of(option));
+  if (all.empty() && line.options.common)
+    throw UserError("none of the ten common options has \"" + line.options.word +
+                    "\" in its name or description. Leave --common out");
   if (all.empty())
     throw UserError("no option has \"" + line.options.word +
                     "\" in its name or description. psi-slam options lists all");

@@ -52,7 +52,10 @@ void become(const OtherProgram& other, const std::vector<std::string>& arguments
   const std::string program = other.program;
   // Installed programs share a folder; in the build tree, each has its own.
   for (const fs::path& file : {folder / program, folder.parent_path() / program / program})
-    if (fs::is_regular_file(file, ignored)) execute(file.string(), program, arguments);
+    if (fs::is_regular_file(file, ignored)) {
+      execute(file.string(), program, arguments);
+      throw SystemFailure("cannot start " + file.string() + ": " + std::strerror(errno));
+    }
   execute(program, program, arguments);
   if (errno == ENOENT)
     throw UserError(std::string("psi-slam ") + other.command + " runs " + program +

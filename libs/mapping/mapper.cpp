@@ -165,8 +165,8 @@ void Mapper::Implementation::wait() {
 // Waits for the back end and applies all its results, for a change by hand or a new run.
 void Mapper::Implementation::catch_up() {
   wait();
-  if (!corrections_.empty()) note_covariance(corrections_.back());
   corrections_.clear();
+  covariance_.reset();  // that of the next node has the change
   map_T_local_ = builder_.map_T_local();
   map_T_node_ = builder_.graph().poses();
 }

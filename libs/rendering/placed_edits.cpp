@@ -7,20 +7,22 @@ namespace psi_slam {
 
 using mrpt::math::TPose2D;
 
-MapEdit with_frame(MapEdit edit, const TPose2D& export_T_map) {
+TPose2D robot_in_target(const TPose2D& target_T_mapper, const TPose2D& mapper_T_robot) {
+  return mapper_T_robot == TPose2D(0, 0, 0) ? target_T_mapper : target_T_mapper + mapper_T_robot;
+}
+
+MapEdit with_frame(MapEdit edit, const TPose2D& export_T_start) {
   if (edit.frame_T_robot) return edit;
-  edit.frame_T_robot = export_T_map;
+  edit.frame_T_robot = export_T_start;
   edit.scan = 0;
   return edit;
 }
 
-std::optional<MapEdit> placed_edit(MapEdit edit, const TPose2D& target_T_map, const PoseAtScan& map_T_robot) {
-  TPose2D target_T_robot = target_T_map;
-  if (edit.scan > 0) {
-    const std::optional<TPose2D> at_scan = map_T_robot(edit.scan);
-    if (!at_scan) return std::nullopt;
-    target_T_robot = target_T_map + *at_scan;
-  }
+std::optional<MapEdit> placed_edit(MapEdit edit, const TPose2D& target_T_mapper,
+                                   const PoseAtScan& mapper_T_robot) {
+  const std::optional<TPose2D> at_scan = mapper_T_robot(edit.scan);
+  if (!at_scan) return std::nullopt;
+  const TPose2D target_T_robot = robot_in_target(target_T_mapper, *at_scan);
   if (edit.frame_T_robot == target_T_robot) return edit;
   const TPose2D target_T_frame = target_T_robot + inverse(edit.frame_T_robot.value());
   for (mrpt::math::TPoint2D& point : edit.points) point = target_T_frame.composePoint(point);

@@ -45,11 +45,15 @@ std::vector<MapEdit> placed_edits(const std::vector<MapEdit>& edits, const MapSk
                                   const MapFrameOptions& frame) {
   const bool all_state_frames =
       std::all_of(edits.begin(), edits.end(), [](const MapEdit& edit) { return edit.frame_T_robot; });
-  mrpt::math::TPose2D edits_T_map;
-  if (!all_state_frames) edits_T_map = export_T_map(log_of(sketch), sketch.map_T_robot, frame);
+  mrpt::math::TPose2D edits_T_start;
+  if (!all_state_frames) {
+    const auto fixed = fixed_export_T_map(frame);
+    edits_T_start = robot_in_target(fixed ? *fixed : export_T_map(log_of(sketch), sketch.map_T_robot, frame),
+                                    pose_at(sketch, 0).value_or(mrpt::math::TPose2D(0, 0, 0)));
+  }
   std::vector<MapEdit> placed;
   for (const MapEdit& edit : edits)
-    if (auto at_place = placed_edit(with_frame(edit, edits_T_map), {},
+    if (auto at_place = placed_edit(with_frame(edit, edits_T_start), {},
                                     [&](std::size_t scan) { return pose_at(sketch, scan); }))
       placed.push_back(*std::move(at_place));
   return placed;

@@ -230,9 +230,9 @@ EditJournal EditJournal::of_run(std::size_t first_scan, std::size_t scans,
   return journal;
 }
 
-EditJournal EditJournal::with_frames(const mrpt::math::TPose2D& export_T_map) const {
+EditJournal EditJournal::with_frames(const mrpt::math::TPose2D& export_T_start) const {
   EditJournal journal = *this;
-  for (MapEdit& edit : journal.map_edits_) edit = with_frame(std::move(edit), export_T_map);
+  for (MapEdit& edit : journal.map_edits_) edit = with_frame(std::move(edit), export_T_start);
   return journal;
 }
 

@@ -31,8 +31,7 @@
 //
 // The edits from `erase` to `slow` change the drawn map, see MapEdit. They are made in the order of their
 // lines, after the last scan. Their points are metres: in the frame of the exported map, or in a frame in
-// which the robot has the pose `frame` (x, y, yaw in degrees) at its first scan, or at the scan `scan`. If
-// lines `pose` or `tag` state the frame of the map, `frame` without `scan` is the pose of that frame.
+// which the robot has the pose `frame` (x, y, yaw in degrees) at its first scan, or at the scan `scan`.
 // The lines from `pose` on state what is known from outside, see FixedKnowledge.
 #pragma once
 
@@ -129,7 +128,7 @@ class EditJournal {
   EditJournal of_run(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
 
   /// Returns the edits with the frame of each edit of the drawn map, see with_frame().
-  EditJournal with_frames(const mrpt::math::TPose2D& export_T_map) const;
+  EditJournal with_frames(const mrpt::math::TPose2D& export_T_start) const;
 
   /// Returns the edits as the text of a file.
   std::string text() const;

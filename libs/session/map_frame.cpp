@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "exports/mapped_trajectory.h"
 #include "psi_slam/user_error.h"
+#include "rendering/placed_edits.h"
 #include "rendering/wall_direction.h"
 
 namespace psi_slam {
@@ -46,6 +47,12 @@ mrpt::math::TPose2D export_T_map(const std::vector<Frame>& log,
 
 mrpt::math::TPose2D export_T_map(const MappingResult& result, const MapFrameOptions& options) {
   return export_T_map(result.log, mapped_poses(result), options);
+}
+
+mrpt::math::TPose2D export_T_start(const MappingResult& result, const MapFrameOptions& options) {
+  const mrpt::math::TPose2D export_T_mapper = export_T_map(result, options);
+  return result.frames.empty() ? export_T_mapper
+                               : robot_in_target(export_T_mapper, result.frames.front().map_T_robot);
 }
 
 std::optional<mrpt::math::TPose2D> fixed_export_T_map(const MapFrameOptions& options) {

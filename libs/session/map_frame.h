@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "psi_slam/frame.h"
 #include "psi_slam/fixed_knowledge.h"
+#include "psi_slam/frame.h"
 #include "psi_slam/mapping_result.h"
 #include "session/settings.h"
 
@@ -24,7 +24,9 @@ mrpt::math::TPose2D export_T_map(const std::vector<Frame>& log,
                                  const std::vector<mrpt::math::TPose2D>& map_T_robot,
                                  const MapFrameOptions& options);
 mrpt::math::TPose2D export_T_map(const MappingResult& result, const MapFrameOptions& options);
-/// Returns the same pose without a map; empty if it depends on the walls of the map.
+/// Returns the pose of the robot at the first scan in the exported map.
+mrpt::math::TPose2D export_T_start(const MappingResult& result, const MapFrameOptions& options);
+/// Returns the pose of the mapper's frame without a map; empty if it depends on the walls of the map.
 std::optional<mrpt::math::TPose2D> fixed_export_T_map(const MapFrameOptions& options);
 
 /// Moves all poses in the map of a finished result to the exported frame: those of the scans and those of the

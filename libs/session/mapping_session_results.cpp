@@ -60,11 +60,11 @@ struct PlacedMapEdits {
 };
 
 /// Places the edits, which must state their frames, in the exported map.
-PlacedMapEdits placed_edits(const std::vector<MapEdit>& edits, const mrpt::math::TPose2D& export_T_map,
+PlacedMapEdits placed_edits(const std::vector<MapEdit>& edits, const mrpt::math::TPose2D& export_T_mapper,
                             const std::vector<mrpt::math::TPose2D>& map_T_robot) {
   PlacedMapEdits placed;
   for (const MapEdit& edit : edits) {
-    auto at_place = placed_edit(edit, export_T_map, [&](std::size_t scan) {
+    auto at_place = placed_edit(edit, export_T_mapper, [&](std::size_t scan) {
       return scan < map_T_robot.size() ? std::optional(map_T_robot[scan]) : std::nullopt;
     });
     if (at_place)
@@ -95,12 +95,10 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   StageClock judging_clock("judge map");
   StageClock writing_clock("write results");
   const mrpt::math::TPose2D export_T_mapper = export_T_map(m.result, m.settings.map_frame);
-  const EditJournal edits = m.edits.with_frames(export_T_mapper);
+  const mrpt::math::TPose2D map_T_start = export_T_start(m.result, m.settings.map_frame);
+  const EditJournal edits = m.edits.with_frames(map_T_start);
   const PlacedMapEdits placed = placed_edits(edits.map_edits(), export_T_mapper, mapped_poses(m.result));
   const ExportedPoses exported(m.result, export_T_mapper);
-  // With a stated frame, the first scan is not the origin of the mapper's frame.
-  const mrpt::math::TPose2D map_T_start =
-      m.result.graph.root() == 0 ? export_T_mapper : m.result.graph.pose(0);
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
   drawing_clock.time([&] {
     grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map);
@@ -186,7 +184,7 @@ SessionFacts MappingSession::Members::facts() const {
   facts.settings = settings_text;
   // Without their frames, edits could lie beside their walls when the session is resumed.
   const bool states_frames = state == State::kFinished && !edits.map_edits().empty();
-  facts.edits = states_frames ? edits.with_frames(export_T_map(result, settings.map_frame)) : edits;
+  facts.edits = states_frames ? edits.with_frames(export_T_start(result, settings.map_frame)) : edits;
   if (is_replaying) return facts;
   keep_first(scans, facts);
   if (facts.logs.size() < logs.size()) return facts;

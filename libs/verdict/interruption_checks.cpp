@@ -88,7 +88,8 @@ class PassSums {
   std::vector<WallCount> across_;  // between the view before and this view
 };
 
-/// Share of the walls that the scans on both sides of a gap see differently.
+/// Share of the walls that the scans on both sides of a gap see differently, beyond what people and doors
+/// change.
 double contradicted_across_gap(const MappingResult& result, std::size_t frame,
                                const PassCheckOptions& options) {
   const std::optional<MapView> before = view_of_frame(result, frame - 1);
@@ -97,7 +98,8 @@ double contradicted_across_gap(const MappingResult& result, std::size_t frame,
   WallCount walls;
   walls.add(compare_scans(*before, *after, options.scans));
   walls.add(compare_scans(*after, *before, options.scans));
-  return walls.sure_share(options.min_points);
+  constexpr double kChangedScene = 0.1;
+  return std::max(0.0, walls.sure_share(options.min_points) - kChangedScene);
 }
 
 }  // namespace

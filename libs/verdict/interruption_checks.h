@@ -15,8 +15,8 @@ namespace psi_slam {
 
 struct InterruptionCheck {
   PathSuspect suspect;
-  /// Share of the walls that scans on one side of the interruption saw through, of those of the other side,
-  /// less its standard deviation; in [0, 1]. Zero if too few walls could be compared.
+  /// Share of the compared walls that scans on the other side of the interruption see through, minus its
+  /// standard deviation; in [0, 1]. Zero if too few walls could be compared.
   double contradicted = 0;
 };
 
@@ -25,7 +25,8 @@ struct InterruptionCheck {
 ///    similar corridor fits well at most of them. Comparisons across a stretch of `explained` are left out,
 ///    because that stretch explains a displacement. The passes must contradict each other at least twice as
 ///    often as other passes do, which drift displaces, too.
-///  - the last scan before a gap with the first scan after it: they saw the same walls if the robot stood.
+///  - the last scan before a gap with the first scan after it: they saw the same walls if the robot stood. A
+///    tenth of the walls may differ, because people and doors move.
 std::vector<InterruptionCheck> check_interruptions(const MappingResult& result,
                                                    const std::vector<MapView>& views,
                                                    const std::vector<PassCheck>& checks,

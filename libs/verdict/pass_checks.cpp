@@ -46,7 +46,7 @@ std::vector<std::size_t> views_to_compare(const std::vector<MapView>& views) {
   for (std::size_t view = 0; view < views.size(); ++view) {
     const mrpt::math::TPose2D& pose = views[view].map_T_robot;
     const std::array<long, 3> place{std::lround(pose.x / kCell_m), std::lround(pose.y / kCell_m),
-                                    std::lround(mrpt::math::wrapTo2Pi(pose.phi) * 4 / M_PI)};
+                                    std::lround(mrpt::math::wrapTo2Pi(pose.phi) * 4 / M_PI) % 8};
     if (counts[place]++ < kViewsOfPlace) chosen.push_back(view);
   }
   return chosen;

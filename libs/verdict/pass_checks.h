@@ -35,8 +35,8 @@ struct PassCheck {
   bool fits_if_moved = false;
 };
 
-/// Compares the views. At one place, views of the first eight passes serve for comparison with all views, so
-/// that the work grows linearly with the path. The checks are ordered by PassCheck::view.
+/// Compares the views. At one place, the first eight views with similar headings serve for comparison with
+/// all views, so that the work grows linearly with the path. The checks are ordered by PassCheck::view.
 std::vector<PassCheck> check_passes(const std::vector<MapView>& views, const PassCheckOptions& options = {});
 
 /// Returns for each view the largest error of its checks with other passes; empty for a view that no other

@@ -78,6 +78,10 @@ TEST(CommandLine, wrong_usage_gives_one_sentence) {
   EXPECT_THAT(complaint({"my.log", "-o", "out", "--forse"}), HasSubstr("did you mean \"--force\"?"));
   EXPECT_THAT(complaint({"a.log", "b.log", "-o", "out"}), HasSubstr("unexpected argument \"b.log\""));
   EXPECT_THAT(complaint({"chekc", "my.log"}), HasSubstr("no command \"chekc\"; did you mean \"check\"?"));
+  EXPECT_THAT(complaint({"help", "chekc"}), HasSubstr("no command \"chekc\"; did you mean \"check\"?"));
+  EXPECT_THAT(complaint({"map", "check", "my.log"}), HasSubstr("expected a log after map"));
+  EXPECT_THAT(complaint({"-q", "map", "my.log", "-o", "out"}), HasSubstr("psi-slam map ..."));
+  EXPECT_THAT(complaint({"-v", "eval", "a", "b"}), HasSubstr("before its options: psi-slam eval ..."));
   EXPECT_THAT(complaint({"check"}), HasSubstr("psi-slam check LOG"));
   EXPECT_THAT(complaint({"check", "a.log", "b.log"}), HasSubstr("unexpected argument \"b.log\""));
   EXPECT_THAT(complaint({"-o", "out", "check", "a.log"}), HasSubstr("nothing is written"));

@@ -140,7 +140,7 @@ TEST_F(MergeApp, says_which_edits_of_the_drawn_map_have_no_place) {
   const AppRun run = merge({"first.log", "second.session"}, "merged");
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.err,
-              HasSubstr("second.session: 1 edit of the drawn map is left out, because map.align = walls"));
+              HasSubstr("second.session: 1 edit of the drawn map is left out, because the frame of the map"));
   EXPECT_FALSE(std::filesystem::exists(file("merged") + "/loops.edits"));
 
   Settings slow;

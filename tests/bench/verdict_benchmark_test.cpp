@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "../verdict/two_passes.h"
 #include "simulate/simulated_log_file.h"
@@ -66,6 +67,7 @@ TEST(VerdictBenchmark, makes_each_kind_of_map_of_buildings_and_logs) {
   options.path_m = 20;
   const std::vector<VerdictRow> rows =
       run_verdict_benchmark({log}, options, [](const auto&, double, double) {});
+  EXPECT_EQ(std::set<MapFault>(kMapFaults.begin(), kMapFaults.end()).size(), 9U);
   EXPECT_EQ(rows.size(), 2 * kMapFaults.size());
   for (const MapFault fault : kMapFaults)
     for (const std::string& name : {std::string(), log.name})

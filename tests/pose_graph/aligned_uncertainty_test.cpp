@@ -13,7 +13,7 @@
 namespace psi_slam {
 namespace {
 
-constexpr std::size_t kNodes = 60;
+constexpr std::size_t kChainNodes = 60;
 constexpr std::size_t kNodesOfMap = 12;
 
 std::size_t link(std::size_t from, std::size_t to, Constraint::Kind kind, double sigma, PoseGraph& graph) {
@@ -29,15 +29,15 @@ std::size_t link(std::size_t from, std::size_t to, Constraint::Kind kind, double
 /// A straight path of 30 m in overlapping local maps.
 PoseGraph straight_path() {
   PoseGraph graph;
-  for (std::size_t i = 0; i < kNodes; ++i) graph.add_node({0.5 * static_cast<double>(i), 0, 0});
-  for (std::size_t anchor = 0; anchor + 1 < kNodes; anchor += kNodesOfMap / 2)
-    for (std::size_t i = anchor + 1; i < std::min(kNodes, anchor + kNodesOfMap); ++i)
+  for (std::size_t i = 0; i < kChainNodes; ++i) graph.add_node({0.5 * static_cast<double>(i), 0, 0});
+  for (std::size_t anchor = 0; anchor + 1 < kChainNodes; anchor += kNodesOfMap / 2)
+    for (std::size_t i = anchor + 1; i < std::min(kChainNodes, anchor + kNodesOfMap); ++i)
       link(anchor, i, Constraint::Kind::kLocalMap, 0.02, graph);
   return graph;
 }
 
 std::vector<std::size_t> all_nodes() {
-  std::vector<std::size_t> nodes(kNodes);
+  std::vector<std::size_t> nodes(kChainNodes);
   std::iota(nodes.begin(), nodes.end(), 0);
   return nodes;
 }
@@ -72,7 +72,7 @@ TEST(AlignedUncertainty, shrinks_with_loops) {
 TEST(AlignedUncertainty, is_empty_where_the_place_is_unknown) {
   PoseGraph graph = straight_path();
   graph.add_node({100, 0, 0});
-  const auto sigmas_m = aligned_sigmas_m(graph, {10, kNodes, 20});
+  const auto sigmas_m = aligned_sigmas_m(graph, {10, kChainNodes, 20});
   EXPECT_TRUE(sigmas_m[0]);
   EXPECT_FALSE(sigmas_m[1]);
   EXPECT_TRUE(sigmas_m[2]);

@@ -13,8 +13,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kStep_m = 0.5;
-constexpr std::size_t kNodes = 81;
+constexpr double kDriveStep_m = 0.5;
+constexpr std::size_t kDriveNodes = 81;
 constexpr double kDegree = M_PI / 180;
 constexpr double kMaxChi = 5;
 
@@ -22,8 +22,9 @@ constexpr double kMaxChi = 5;
 // deviation is 2 cm.
 PoseGraph short_drive() {
   PoseGraph graph;
-  for (std::size_t i = 0; i < kNodes; ++i) graph.add_node({0.98 * kStep_m * static_cast<double>(i), 0, 0});
-  for (std::size_t i = 1; i < kNodes; ++i) {
+  for (std::size_t i = 0; i < kDriveNodes; ++i)
+    graph.add_node({0.98 * kDriveStep_m * static_cast<double>(i), 0, 0});
+  for (std::size_t i = 1; i < kDriveNodes; ++i) {
     Constraint step;
     step.from = i - 1;
     step.to = i;
@@ -36,7 +37,7 @@ PoseGraph short_drive() {
 
 // True pose of a node. The site is turned by 90 degrees, and its coordinates are large.
 TPose2D site_T_node(std::size_t node) {
-  return {500'000, 4'000'000 + kStep_m * static_cast<double>(node), 90 * kDegree};
+  return {500'000, 4'000'000 + kDriveStep_m * static_cast<double>(node), 90 * kDegree};
 }
 
 Landmark known_pose(std::size_t node, const TPose2D& site_T_robot) {
@@ -51,7 +52,7 @@ Landmark known_position(std::size_t node) {
 
 double farthest_m(const PoseGraph& graph) {
   double farthest = 0;
-  for (std::size_t i = 0; i < kNodes; ++i)
+  for (std::size_t i = 0; i < kDriveNodes; ++i)
     farthest = std::max(farthest,
                         std::hypot(graph.pose(i).x - site_T_node(i).x, graph.pose(i).y - site_T_node(i).y));
   return farthest;
@@ -91,7 +92,7 @@ TEST(KnownLandmarks, a_wrong_pose_is_switched_off) {
   EXPECT_FALSE(known.uses_place(1, with));
   for (const std::size_t i : {0U, 2U, 3U}) EXPECT_TRUE(known.uses_place(i, with)) << i;
   EXPECT_NEAR(known.place_residual(1, with).distance_m, 5, 0.1);
-  for (std::size_t i = 0; i < kNodes; ++i) {
+  for (std::size_t i = 0; i < kDriveNodes; ++i) {
     EXPECT_NEAR(with.pose(i).x, without.pose(i).x, 1e-4);
     EXPECT_NEAR(with.pose(i).y, without.pose(i).y, 1e-4);
   }
@@ -137,7 +138,7 @@ TEST(KnownLandmarks, a_graph_without_knowledge_stays_connected_when_all_is_switc
   KnownLandmarks known({known_pose(0, site_T_node(0)), known_pose(80, site_T_node(0))}, graph);
   known.switch_off(graph);
   SparsePoseAdjustment().optimize(graph);
-  for (std::size_t i = 0; i < kNodes; ++i) EXPECT_NEAR(graph.pose(i).x, before[i].x, 1e-6);
+  for (std::size_t i = 0; i < kDriveNodes; ++i) EXPECT_NEAR(graph.pose(i).x, before[i].x, 1e-6);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ MapEdit erase(const TPoint2D& corner) {
 }
 
 std::optional<TPose2D> at_100(std::size_t scan) {
+  if (scan == 0) return TPose2D(0, 0, 0);
   return scan == 100 ? std::optional(TPose2D(5, 0, M_PI / 2)) : std::nullopt;
 }
 
@@ -36,6 +37,15 @@ TEST(PlacedEdits, an_edit_stays_on_its_wall_when_the_map_turns) {
   const auto back = placed_edit(*turned, TPose2D(0, 0, 0), at_100);
   EXPECT_NEAR(back->points[0].x, 3, 1e-12);
   EXPECT_NEAR(back->points[0].y, 0, 1e-12);
+}
+
+TEST(PlacedEdits, an_edit_follows_the_first_scan_to_a_stated_frame) {
+  const MapEdit edit = with_frame(erase({2, 0}), TPose2D(0, 0, 0));  // 2 m ahead of the first scan
+  const auto placed = placed_edit(edit, TPose2D(0, 0, 0),
+                                  [](std::size_t) { return std::optional(TPose2D(40, -7, M_PI / 2)); });
+  ASSERT_TRUE(placed);
+  EXPECT_NEAR(placed->points[0].x, 40, 1e-12);
+  EXPECT_NEAR(placed->points[0].y, -5, 1e-12);
 }
 
 TEST(PlacedEdits, an_edit_of_a_later_run_follows_the_pose_of_its_scan) {

@@ -192,6 +192,7 @@ std::vector<double> due_times_s(const std::vector<Frame>& frames, double longest
 
 Replayed replay(std::vector<Frame> frames, const Settings& settings, double speed,
                 const std::function<void(double)>& progress, double timed_s) {
+  if (frames.empty()) throw UserError("the log has no scan to replay");
   const TemporaryFolder folder;
   const std::vector<double> due_s = due_times_s(frames);
   const std::size_t first_timed = first_of_last_seconds(due_s, timed_s);

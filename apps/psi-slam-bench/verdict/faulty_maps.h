@@ -28,9 +28,9 @@ enum class MapFault {
   kThinned,     ///< few scans and noisy odometry
   kPaused,      ///< robot switched off and on where it stood; odometry begins again at zero
 };
-inline constexpr std::array<MapFault, 9> kMapFaults{
-    MapFault::kNone,    MapFault::kFalseLoop, MapFault::kNearbyLoop, MapFault::kLoopGroup,
-    MapFault::kNoLoops, MapFault::kSlip,      MapFault::kCarried,    MapFault::kThinned};
+inline constexpr std::array kMapFaults{MapFault::kNone,      MapFault::kFalseLoop, MapFault::kNearbyLoop,
+                                       MapFault::kLoopGroup, MapFault::kNoLoops,   MapFault::kSlip,
+                                       MapFault::kCarried,   MapFault::kThinned,   MapFault::kPaused};
 
 /// Name of a fault: "none", "false loop", ...
 std::string name_of(MapFault fault);

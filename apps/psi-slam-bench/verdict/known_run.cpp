@@ -10,6 +10,7 @@
 #include "exports/mapped_trajectory.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/open_log.h"
+#include "psi_slam/user_error.h"
 #include "simulation/simulated_log.h"
 
 namespace psi_slam {
@@ -71,6 +72,10 @@ std::pair<KnownRun, MappingResult> run_of_log(const BenchmarkLog& log) {
     run.scans.push_back(run.frames.size());
     run.frames.push_back(*std::move(frame));
   }
+  constexpr std::size_t kLeastScans = 100;
+  if (run.frames.size() < kLeastScans)
+    throw UserError(log.log.string() + " has " + std::to_string(run.frames.size()) +
+                    " scans; expected at least " + std::to_string(kLeastScans) + " to make faults");
   MappingResult map = map_of(run);
   run.world_T_robot = mapped_poses(map);
   run.truth =

@@ -33,9 +33,12 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using mrpt::math::TPose2D;
 
-// Largest factor on the covariance of drift, see drift_factor(). Single stretches are up to ten standard
-// deviations off, see share/doc/covariances.md.
-constexpr double kMostDrift = 100;
+// Largest factors on the covariance of drift, see drift_factor(). Single stretches are up to ten standard
+// deviations off (share/doc/covariances.md). Along a bare corridor with a wrong scale of odometry, all of
+// them are far more, which only several marks can tell from a mark at a wrong place.
+constexpr double kMostDriftOfFew = 100;
+constexpr double kMostDrift = 1e4;
+constexpr std::size_t kManyPairs = 6;  // of four marks
 
 Constraint known_constraint(std::size_t from, std::size_t to, const MeasuredPose& from_T_to, double weight) {
   Constraint constraint;
@@ -109,7 +112,8 @@ struct Disagreement {
   double chi2(double drift) const {
     return std::max(0.0, error.dot((drift * of_drift + of_statements).ldlt().solve(error)));
   }
-  bool tells_of_drift() const { return of_drift.trace() > of_statements.trace(); }
+  /// Whether drift that is `most` times as large would show.
+  bool tells_of_drift(double most) const { return most * of_drift.trace() > of_statements.trace(); }
 };
 
 // `a_T_b` is the pose of node b in node a.
@@ -146,12 +150,12 @@ Disagreement disagreement_of(const SeenMark& a, const SeenMark& b, const TPose2D
 }
 
 // Returns the factor on the covariance of drift with which a disagreement has the median of its
-// distribution, from 1 to kMostDrift.
-double explaining_drift(const Disagreement& disagreement) {
+// distribution, from 1 to `most`.
+double explaining_drift(const Disagreement& disagreement, double most) {
   const auto dimension = static_cast<double>(disagreement.error.size());
   const double median = dimension * std::pow(1 - 2 / (9 * dimension), 3);  // of chi-square
   double low = 1;
-  double high = kMostDrift;
+  double high = most;
   if (disagreement.chi2(low) <= median) return low;
   if (disagreement.chi2(high) >= median) return high;
   constexpr int kHalvings = 40;
@@ -163,12 +167,13 @@ double explaining_drift(const Disagreement& disagreement) {
 }
 
 // Returns the factor by which the covariances of drift are too small: the median over the disagreements that
-// depend on drift more than on the statements. Errors that repeat, such as a wrong scale of odometry along
+// drift could explain. Errors that repeat, such as a wrong scale of odometry along
 // bare corridors, make it large.
 double drift_factor(const std::vector<Disagreement>& disagreements) {
+  const double most = disagreements.size() < kManyPairs ? kMostDriftOfFew : kMostDrift;
   std::vector<double> factors;
   for (const Disagreement& one : disagreements)
-    if (one.tells_of_drift()) factors.push_back(explaining_drift(one));
+    if (one.tells_of_drift(most)) factors.push_back(explaining_drift(one, most));
   if (factors.empty()) return 1;
   const auto middle = factors.begin() + static_cast<std::ptrdiff_t>((factors.size() - 1) / 2);
   std::nth_element(factors.begin(), middle, factors.end());
@@ -306,13 +311,37 @@ KnownLandmarks::KnownLandmarks(std::vector<Landmark> landmarks, PoseGraph& graph
     site_T_root_ = {first_placed->site_T_mark->pose.x, first_placed->site_T_mark->pose.y, 0};
     site_ = add_node();
   }
-  for (std::size_t i = 0; i < landmarks_.size(); ++i) numbers_.push_back({add_node(), {}, {}});
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) numbers_.push_back({add_node(), {}, {}, {}});
 }
 
 void KnownLandmarks::switch_off(PoseGraph& graph) const {
   for (const Numbers& numbers : numbers_) {
     if (numbers.place) graph.set_enabled(*numbers.place, false);
     for (const std::size_t sighting : numbers.sightings) graph.set_enabled(sighting, false);
+    for (const auto& [sighting, tie] : numbers.ties) graph.set_enabled(tie, false);
+  }
+}
+
+void KnownLandmarks::enable_sightings(std::size_t landmark, const std::vector<bool>& enabled,
+                                      PoseGraph& graph) const {
+  enable(numbers_[landmark].sightings, enabled, graph);
+  for (const auto& [sighting, tie] : numbers_[landmark].ties) graph.set_enabled(tie, enabled[sighting]);
+}
+
+// Ties the node of a sighting to its local maps as firmly as the sighting holds it. The graph takes the
+// errors of all nodes of a local map for independent. Without the ties, a sighting would pull its node alone
+// off the nodes around it, although they share the error of their local map.
+void KnownLandmarks::add_ties(std::size_t landmark, std::size_t sighting, double weight, PoseGraph& graph) {
+  const std::size_t node = landmarks_[landmark].sightings[sighting].node;
+  const std::vector<std::uint32_t> constraints = graph.constraints_of(node);
+  for (const std::uint32_t index : constraints) {
+    Constraint tie = graph.constraint(index);
+    if (tie.kind != Constraint::Kind::kLocalMap || tie.to != node || !graph.enabled(index)) continue;
+    tie.from_T_to = graph.pose(node) - graph.pose(tie.from);
+    tie.information *= weight;
+    tie.kind = Constraint::Kind::kKnown;
+    tie.kernel = RobustKernel{RobustKernel::Type::kNone, kKnownKernelWidth * std::sqrt(weight)};
+    numbers_[landmark].ties.emplace_back(sighting, graph.add_constraint(tie));
   }
 }
 
@@ -322,9 +351,13 @@ void KnownLandmarks::add_constraints(double weight, PoseGraph& graph) {
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     Numbers& numbers = numbers_[i];
     numbers.sightings.clear();
-    for (const LandmarkSighting& sighting : landmarks_[i].sightings)
+    numbers.ties.clear();
+    for (std::size_t k = 0; k < landmarks_[i].sightings.size(); ++k) {
+      const LandmarkSighting& sighting = landmarks_[i].sightings[k];
       numbers.sightings.push_back(
           graph.add_constraint(known_constraint(sighting.node, numbers.node, sighting.node_T_mark, weight)));
+      add_ties(i, k, weight, graph);
+    }
     if (landmarks_[i].site_T_mark)
       numbers.place = graph.add_constraint(known_constraint(
           *site_, numbers.node, relative_to(site_T_root_, *landmarks_[i].site_T_mark), weight));
@@ -365,7 +398,7 @@ void KnownLandmarks::select(PoseGraph& graph, double max_chi) {
   std::vector<std::vector<bool>> kept_sightings;
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     kept_sightings.push_back(consistent(landmarks_[i].sightings.size(), of_sightings[i], drift, max_chi));
-    enable(numbers_[i].sightings, kept_sightings.back(), graph);
+    enable_sightings(i, kept_sightings.back(), graph);
   }
   of_places = consistency.of(placed_marks(graph, placed), false);
   const std::vector<bool> kept_places = consistent(placed.size(), of_places, drift, max_chi);
@@ -375,7 +408,7 @@ void KnownLandmarks::select(PoseGraph& graph, double max_chi) {
   for (std::size_t i = 0; i < landmarks_.size(); ++i)
     for (Disagreement& one : between(kept_sightings[i], of_sightings[i])) all.push_back(std::move(one));
   add_constraints(kOverconfidence * drift_factor(all), graph);
-  for (std::size_t i = 0; i < landmarks_.size(); ++i) enable(numbers_[i].sightings, kept_sightings[i], graph);
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) enable_sightings(i, kept_sightings[i], graph);
   for (std::size_t k = 0; k < placed.size(); ++k)
     graph.set_enabled(*numbers_[placed[k]].place, kept_places[k]);
   place_nodes(graph);

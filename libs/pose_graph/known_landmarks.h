@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "psi_slam/fixed_knowledge.h"
@@ -78,10 +79,13 @@ class KnownLandmarks {
     std::size_t node = 0;
     std::optional<std::size_t> place;
     std::vector<std::size_t> sightings;
+    std::vector<std::pair<std::size_t, std::size_t>> ties;  ///< index of the sighting, constraint
   };
   class Consistency;
 
   void add_constraints(double weight, PoseGraph& graph);
+  void add_ties(std::size_t landmark, std::size_t sighting, double weight, PoseGraph& graph);
+  void enable_sightings(std::size_t landmark, const std::vector<bool>& enabled, PoseGraph& graph) const;
   std::vector<SeenMark> placed_marks(const PoseGraph& graph, std::vector<std::size_t>& numbers) const;
   std::size_t best_sighting(std::size_t landmark, const PoseGraph& graph) const;
   void place_nodes(PoseGraph& graph) const;

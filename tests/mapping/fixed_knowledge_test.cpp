@@ -18,6 +18,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 using testing::AllOf;
+using testing::Contains;
+using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -81,9 +83,45 @@ MappingResult map_with(const FixedKnowledge& knowledge, const MapperOptions& opt
   return mapper.finish();
 }
 
+// Mean distance of the scans from their true places, if the true pose of the first scan is `map_T_start`.
+double mean_error_m(const MappingResult& result, const TPose2D& map_T_start) {
+  double sum = 0;
+  for (std::size_t i = 0; i < result.frames.size(); ++i) {
+    const TPose2D truth = map_T_start + corridor_drive().map_T_robot[i];
+    sum += std::hypot(result.frames[i].map_T_robot.x - truth.x, result.frames[i].map_T_robot.y - truth.y);
+  }
+  return sum / static_cast<double>(result.frames.size());
+}
+
 const MappingResult& map_with_poses() {
   static const MappingResult result = map_with(known_poses());
   return result;
+}
+
+TEST(FixedKnowledge, known_poses_correct_the_drift_and_state_the_frame) {
+  EXPECT_GT(mean_error_m(map_with({}), {0, 0, 0}), 0.5);
+  EXPECT_LT(mean_error_m(map_with_poses(), kSite_T_start), 0.2);
+  EXPECT_THAT(map_with_poses().contradictions, Each(HasSubstr("in the finished map"))) << "none is left out";
+}
+
+TEST(FixedKnowledge, positions_without_headings_do_too) {
+  FixedKnowledge knowledge = known_poses();
+  for (KnownPose& pose : knowledge.poses) pose.site_T_robot.sigma_rad.reset();
+  const MappingResult result = map_with(knowledge);
+  EXPECT_LT(mean_error_m(result, kSite_T_start), 0.2);
+  EXPECT_THAT(result.contradictions, Each(HasSubstr("in the finished map"))) << "none is left out";
+}
+
+TEST(FixedKnowledge, a_wrong_pose_is_named_and_left_out) {
+  FixedKnowledge knowledge = known_poses();
+  KnownPose wrong = known_pose(200);
+  wrong.site_T_robot.pose = wrong.site_T_robot.pose + TPose2D(5, 0, 0);
+  knowledge.poses.push_back(wrong);
+  const MappingResult result = map_with(knowledge);
+  EXPECT_THAT(result.contradictions,
+              Contains(AllOf(HasSubstr("my.edits:200: the pose at 1020.000000 s is left out"),
+                             HasSubstr("off by 5."))));
+  EXPECT_LT(mean_error_m(result, kSite_T_start), mean_error_m(map_with_poses(), kSite_T_start) + 0.02);
 }
 
 TEST(FixedKnowledge, the_order_and_the_threads_do_not_change_a_bit) {
@@ -92,6 +130,12 @@ TEST(FixedKnowledge, the_order_and_the_threads_do_not_change_a_bit) {
   MapperOptions two_threads = options();
   two_threads.back_end.threads = 2;
   expect_same_map(map_with(knowledge, two_threads), map_with_poses());
+}
+
+TEST(FixedKnowledge, needs_no_loop_closing) {
+  MapperOptions without_loops = options();
+  without_loops.close_loops = false;
+  EXPECT_LT(mean_error_m(map_with(known_poses(), without_loops), kSite_T_start), 0.2);
 }
 
 TEST(FixedKnowledge, what_cannot_be_used_gets_a_sentence) {

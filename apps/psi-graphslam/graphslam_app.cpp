@@ -154,9 +154,9 @@ Json summary_of(const GraphSlamRun& run, const GraphSlamSetup& setup) {
 }
 
 /// Maps the log to its end. After a signal, reads no more scans and finishes the map of the scans read so
-/// far.
+/// far, at least one.
 void make_map(GraphSlamRun& run, const std::atomic<bool>& stop, std::ostream& err) {
-  while (!stop && run.step()) {
+  while (run.step() && !stop) {
   }
   bool reported = false;
   const auto goes_on = [&] {

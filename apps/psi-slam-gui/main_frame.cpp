@@ -313,10 +313,10 @@ void MainFrame::go_to(std::size_t scan) {
     run_.frame = scan;
   else if (scan + 1 > mapped && mapping && !is_live())
     replay_->hurry_to(scan + 1);
-  else if (scan + 1 > mapped && !is_live())
+  refresh();  // may show the verdict in the status bar
+  if (scan + 1 > mapped && !mapping && !is_live())
     show_status("The run was finished after " + std::to_string(mapped) +
                 " scans. Press Restart to map later scans.");
-  refresh();
 }
 
 void MainFrame::choose_loop(std::optional<std::size_t> loop) {

@@ -60,9 +60,9 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
   const std::size_t choice = member_count<PsiOptions>() + member_count<GeneticOptions>() - 3 +
                              member_count<PaperGeneticOptions>() + member_count<MemeticGeneticOptions>() +
                              member_count<CoarseCellOptions>();
-  // MapperOptions has three structs as members and takes one flag of the back end from elsewhere.
+  // MapperOptions has three structs as members and takes two flags of the back end from elsewhere.
   // BackEndOptions has seven structs, and takes seed, threads and their priority from elsewhere.
-  const std::size_t mapper = member_count<MapperOptions>() - 4 + member_count<BackEndOptions>() - 10 +
+  const std::size_t mapper = member_count<MapperOptions>() - 5 + member_count<BackEndOptions>() - 10 +
                              choice + front_end + matcher + loops + solver;
   const std::size_t files =
       member_count<MapFileOptions>() - 2 + member_count<MapDrawingOptions>() + member_count<GeoReference>();

@@ -150,7 +150,8 @@ void Mapper::Implementation::apply_corrections(std::size_t end_node) {
   for (; !corrections_.empty() && corrections_.front().node < end_node; corrections_.pop_front()) {
     Correction& correction = corrections_.front();
     map_T_local_ = correction.map_T_local;
-    note_covariance(correction);
+    corrected_node_ = correction.node;
+    covariance_ = correction.covariance;
     if (correction.map_T_node.empty()) continue;
     std::swap(map_T_node_, correction.map_T_node);
     for (std::size_t node = map_T_node_.size(); node < result_.node_frames.size(); ++node)
@@ -332,11 +333,6 @@ MappingResult Mapper::Implementation::finish(const std::function<bool(double)>& 
   result_.stages = builder_.back_end().stages();
   result_.stages.insert(result_.stages.begin(), {tracking_clock_.timing(), drawing_clock_.timing()});
   return std::move(result_);
-}
-
-void Mapper::Implementation::note_covariance(const Correction& correction) {
-  corrected_node_ = correction.node;
-  covariance_ = correction.covariance;
 }
 
 // The covariance of the last node with a result of the back end is carried to the newest frame. Each node

@@ -68,7 +68,6 @@ class Mapper::Implementation {
   void take_results(std::size_t end);
   void complete_record(BackEndStep&& done);
   void apply_corrections(std::size_t end_node);
-  void note_covariance(const Correction& correction);
   void catch_up();
   void begin_run();
   void begin_unplaced_run();

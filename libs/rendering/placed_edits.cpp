@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rendering/placed_edits.h"
 
+#include <utility>
+
 #include "frames/pose_operations.h"
 
 namespace psi_slam {
@@ -28,6 +30,18 @@ std::optional<MapEdit> placed_edit(MapEdit edit, const TPose2D& target_T_mapper,
   for (mrpt::math::TPoint2D& point : edit.points) point = target_T_frame.composePoint(point);
   edit.frame_T_robot = target_T_robot;
   return edit;
+}
+
+PlacedMapEdits placed_edits(const std::vector<MapEdit>& edits, const TPose2D& target_T_mapper,
+                            const PoseAtScan& mapper_T_robot) {
+  PlacedMapEdits placed;
+  for (const MapEdit& edit : edits) {
+    if (auto at_place = placed_edit(edit, target_T_mapper, mapper_T_robot))
+      placed.edits.push_back(*std::move(at_place));
+    else
+      placed.without_place.push_back(edit);
+  }
+  return placed;
 }
 
 }  // namespace psi_slam

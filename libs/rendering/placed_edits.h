@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "rendering/map_edits.h"
 
@@ -30,5 +31,14 @@ MapEdit with_frame(MapEdit edit, const mrpt::math::TPose2D& export_T_start);
 /// scan is not mapped.
 std::optional<MapEdit> placed_edit(MapEdit edit, const mrpt::math::TPose2D& target_T_mapper,
                                    const PoseAtScan& mapper_T_robot);
+
+struct PlacedMapEdits {
+  std::vector<MapEdit> edits;          ///< with their points in the target frame
+  std::vector<MapEdit> without_place;  ///< edits whose scans are not mapped
+};
+
+/// Returns placed_edit() of each edit, in their order.
+PlacedMapEdits placed_edits(const std::vector<MapEdit>& edits, const mrpt::math::TPose2D& target_T_mapper,
+                            const PoseAtScan& mapper_T_robot);
 
 }  // namespace psi_slam

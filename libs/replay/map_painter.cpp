@@ -41,8 +41,8 @@ std::optional<mrpt::math::TPose2D> pose_at(const MapSketch& sketch, std::size_t 
 }
 
 /// Returns the edits that have a place, with their points in the frame of the sketch.
-std::vector<MapEdit> placed_edits(const std::vector<MapEdit>& edits, const MapSketch& sketch,
-                                  const MapFrameOptions& frame) {
+std::vector<MapEdit> placed_in(const MapSketch& sketch, std::vector<MapEdit> edits,
+                               const MapFrameOptions& frame) {
   const bool all_state_frames =
       std::all_of(edits.begin(), edits.end(), [](const MapEdit& edit) { return edit.frame_T_robot; });
   mrpt::math::TPose2D edits_T_start;
@@ -51,12 +51,8 @@ std::vector<MapEdit> placed_edits(const std::vector<MapEdit>& edits, const MapSk
     edits_T_start = robot_in_target(fixed ? *fixed : export_T_map(log_of(sketch), sketch.map_T_robot, frame),
                                     pose_at(sketch, 0).value_or(mrpt::math::TPose2D(0, 0, 0)));
   }
-  std::vector<MapEdit> placed;
-  for (const MapEdit& edit : edits)
-    if (auto at_place = placed_edit(with_frame(edit, edits_T_start), {},
-                                    [&](std::size_t scan) { return pose_at(sketch, scan); }))
-      placed.push_back(*std::move(at_place));
-  return placed;
+  for (MapEdit& edit : edits) edit = with_frame(std::move(edit), edits_T_start);
+  return placed_edits(edits, {}, [&](std::size_t scan) { return pose_at(sketch, scan); }).edits;
 }
 
 /// Returns the zones of a kind as they cover the cells of the grid; empty if they cover none.
@@ -144,7 +140,7 @@ void MapPainter::work() {
         grid = draw_grid_map(log_of(*to_draw), to_draw->map_T_robot, options_);
         sketch = *std::move(to_draw);
       }
-      if (grid) drawn = draw_edited(*grid, placed_edits(edits, sketch, frame_), sketch.frames.size());
+      if (grid) drawn = draw_edited(*grid, placed_in(sketch, edits, frame_), sketch.frames.size());
     } catch (const std::exception&) {  // out of memory: keep the previous drawing
     }
     const auto end = Clock::now();

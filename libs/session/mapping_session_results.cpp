@@ -53,30 +53,6 @@ void keep_first(std::size_t scans, SessionFacts& facts) {
   facts.runs.erase(lost, facts.runs.end());
 }
 
-/// Edits of the drawn map for one export.
-struct PlacedMapEdits {
-  std::vector<MapEdit> edits;           ///< with their points in the frame of the exported map
-  std::vector<std::string> complaints;  ///< one sentence, without full stop, for each edit that has no place
-};
-
-/// Places the edits, which must state their frames, in the exported map.
-PlacedMapEdits placed_edits(const std::vector<MapEdit>& edits, const mrpt::math::TPose2D& export_T_mapper,
-                            const std::vector<mrpt::math::TPose2D>& map_T_robot) {
-  PlacedMapEdits placed;
-  for (const MapEdit& edit : edits) {
-    auto at_place = placed_edit(edit, export_T_mapper, [&](std::size_t scan) {
-      return scan < map_T_robot.size() ? std::optional(map_T_robot[scan]) : std::nullopt;
-    });
-    if (at_place)
-      placed.edits.push_back(*std::move(at_place));
-    else
-      placed.complaints.push_back(text_of(edit) + ": its scan " + std::to_string(edit.scan) +
-                                  " is not mapped, the last scan is " +
-                                  std::to_string(map_T_robot.size() - 1));
-  }
-  return placed;
-}
-
 /// Writes the edits, or removes the file of an earlier export if there are no edits.
 void write_edits(const EditJournal& edits, const fs::path& file) {
   if (!edits.empty()) return edits.write(file);
@@ -97,15 +73,19 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   const mrpt::math::TPose2D export_T_mapper = export_T_map(m.result, m.settings.map_frame);
   const mrpt::math::TPose2D map_T_start = export_T_start(m.result, m.settings.map_frame);
   const EditJournal edits = m.edits.with_frames(map_T_start);
-  const PlacedMapEdits placed = placed_edits(edits.map_edits(), export_T_mapper, mapped_poses(m.result));
+  const PlacedMapEdits placed = placed_edits(edits.map_edits(), export_T_mapper, [&](std::size_t scan) {
+    return scan < m.result.frames.size() ? std::optional(m.result.frames[scan].map_T_robot) : std::nullopt;
+  });
   const ExportedPoses exported(m.result, export_T_mapper);
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
   drawing_clock.time([&] {
     grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map);
     m.map_edit_complaints = apply_map_edits(placed.edits, *grid);
   });
-  m.map_edit_complaints.insert(m.map_edit_complaints.end(), placed.complaints.begin(),
-                               placed.complaints.end());
+  for (const MapEdit& edit : placed.without_place)
+    m.map_edit_complaints.push_back(text_of(edit) + ": its scan " + std::to_string(edit.scan) +
+                                    " is not mapped, the last scan is " +
+                                    std::to_string(m.result.frames.size() - 1));
   m.result.stages.push_back(drawing_clock.timing());
   MapVerdict verdict;
   judging_clock.time([&] { verdict = judge_map(m.result); });

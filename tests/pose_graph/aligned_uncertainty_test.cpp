@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "pose_graph/information_matrix.h"
+#include "added_link.h"
 #include "pose_graph/placed_covariances.h"
 
 namespace psi_slam {
@@ -16,23 +16,13 @@ namespace {
 constexpr std::size_t kChainNodes = 60;
 constexpr std::size_t kNodesOfMap = 12;
 
-std::size_t link(std::size_t from, std::size_t to, Constraint::Kind kind, double sigma, PoseGraph& graph) {
-  Constraint constraint;
-  constraint.from = from;
-  constraint.to = to;
-  constraint.from_T_to = graph.pose(to) - graph.pose(from);
-  constraint.information = noisy_information(Eigen::Matrix3d::Zero(), sigma, sigma);
-  constraint.kind = kind;
-  return graph.add_constraint(constraint);
-}
-
 /// A straight path of 30 m in overlapping local maps.
 PoseGraph straight_path() {
   PoseGraph graph;
   for (std::size_t i = 0; i < kChainNodes; ++i) graph.add_node({0.5 * static_cast<double>(i), 0, 0});
   for (std::size_t anchor = 0; anchor + 1 < kChainNodes; anchor += kNodesOfMap / 2)
     for (std::size_t i = anchor + 1; i < std::min(kChainNodes, anchor + kNodesOfMap); ++i)
-      link(anchor, i, Constraint::Kind::kLocalMap, 0.02, graph);
+      add_link(anchor, i, Constraint::Kind::kLocalMap, 0.02, graph);
   return graph;
 }
 
@@ -64,7 +54,7 @@ TEST(AlignedUncertainty, leaves_out_the_growth_with_the_distance_from_the_root) 
 TEST(AlignedUncertainty, shrinks_with_loops) {
   PoseGraph graph = straight_path();
   const auto before = aligned_sigmas_m(graph, all_nodes());
-  link(0, 59, Constraint::Kind::kLoop, 0.01, graph);
+  add_link(0, 59, Constraint::Kind::kLoop, 0.01, graph);
   const auto after = aligned_sigmas_m(graph, all_nodes());
   EXPECT_LT(*after.back(), 0.9 * *before.back());
 }

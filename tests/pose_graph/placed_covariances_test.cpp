@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pose_graph/information_matrix.h"
+#include "added_link.h"
 #include "pose_graph/shared_errors.h"
 
 namespace psi_slam {
@@ -11,23 +11,13 @@ namespace {
 
 constexpr std::size_t kRunNodes = 10;
 
-std::size_t link(std::size_t from, std::size_t to, Constraint::Kind kind, double sigma, PoseGraph& graph) {
-  Constraint constraint;
-  constraint.from = from;
-  constraint.to = to;
-  constraint.from_T_to = graph.pose(to) - graph.pose(from);
-  constraint.information = noisy_information(Eigen::Matrix3d::Zero(), sigma, sigma);
-  constraint.kind = kind;
-  return graph.add_constraint(constraint);
-}
-
 // Two runs of ten nodes in one local map each, without a constraint between them.
 PoseGraph two_runs() {
   PoseGraph graph;
   for (std::size_t i = 0; i < 2 * kRunNodes; ++i) graph.add_node({0.5 * static_cast<double>(i), 0, 0});
   for (const std::size_t anchor : {std::size_t{0}, kRunNodes})
     for (std::size_t i = 1; i < kRunNodes; ++i)
-      link(anchor, anchor + i, Constraint::Kind::kLocalMap, 0.02, graph);
+      add_link(anchor, anchor + i, Constraint::Kind::kLocalMap, 0.02, graph);
   return graph;
 }
 
@@ -39,7 +29,7 @@ std::size_t count_known(const PoseGraph& graph) {
 
 TEST(PlacedCovariances, are_those_of_all_nodes_if_all_are_placed) {
   PoseGraph graph = two_runs();
-  link(9, 10, Constraint::Kind::kRunStart, 0.3, graph);
+  add_link(9, 10, Constraint::Kind::kRunStart, 0.3, graph);
   const std::vector<Eigen::Matrix3d> expected = pose_covariances(graph);
   const auto covariances = placed_covariances(graph);
   ASSERT_EQ(covariances.size(), expected.size());
@@ -49,12 +39,12 @@ TEST(PlacedCovariances, are_those_of_all_nodes_if_all_are_placed) {
 TEST(PlacedCovariances, are_empty_in_a_run_that_was_never_placed) {
   PoseGraph graph = two_runs();
   EXPECT_EQ(count_known(graph), kRunNodes) << "without a constraint between the runs";
-  link(9, 10, Constraint::Kind::kRunStart, kProvisionalSigma_m, graph);
+  add_link(9, 10, Constraint::Kind::kRunStart, kProvisionalSigma_m, graph);
   const auto covariances = placed_covariances(graph);
   ASSERT_EQ(covariances.size(), 2 * kRunNodes);
   for (std::size_t i = 0; i < covariances.size(); ++i) EXPECT_EQ(covariances[i].has_value(), i < kRunNodes);
 
-  const std::size_t loop = link(3, 15, Constraint::Kind::kLoop, 0.02, graph);
+  const std::size_t loop = add_link(3, 15, Constraint::Kind::kLoop, 0.02, graph);
   EXPECT_EQ(count_known(graph), 2 * kRunNodes) << "the loop places the second run";
   graph.set_enabled(loop, false);
   EXPECT_EQ(count_known(graph), kRunNodes);

@@ -375,6 +375,17 @@ class ReplayEditsTest : public ReplayTest {
       if (loop.frame == edit.frame && loop.local_map == edit.local_map) return loop.verdict;
     throw std::logic_error("the two were never matched");
   }
+  /// Exports the replay, and expects the same files of a run of the log with the exported edits.
+  void expect_repeated_without_window(Replay& replay, const std::filesystem::path& log) {
+    replay.export_to(out("window"), false);
+    EXPECT_EQ(wait_for_export(replay, 1)->exported->failure, "");
+
+    MappingSession session(log, settings_);
+    session.add_edits(EditJournal::read(out("window") / "loops.edits"));
+    session.run(std::atomic<bool>(false));
+    session.export_to(OutputFolder::prepare(out("headless"), false));
+    expect_same_results(out("window"), out("headless"));
+  }
 };
 
 TEST_F(ReplayEditsTest, are_shown_at_once_and_can_be_undone_and_redone) {
@@ -428,14 +439,7 @@ TEST_F(ReplayEditsTest, give_the_same_results_as_psi_slam_with_their_file) {
   replay.undo();
   replay.redo();
   wait_until_finished_after_edit(replay, 5);
-  replay.export_to(out("window"), false);
-  EXPECT_EQ(wait_for_export(replay, 1)->exported->failure, "");
-
-  MappingSession session(path, settings_);
-  session.add_edits(EditJournal::read(out("window") / "loops.edits"));
-  session.run(std::atomic<bool>(false));
-  session.export_to(OutputFolder::prepare(out("headless"), false));
-  expect_same_results(out("window"), out("headless"));
+  expect_repeated_without_window(replay, path);
 }
 
 TEST_F(ReplayEditsTest, of_one_run_are_repeated_in_the_next) {
@@ -560,14 +564,7 @@ TEST_F(ReplayEditsTest, of_the_map_are_shown_undone_and_exported_like_psi_slam_d
   EXPECT_EQ(refused->edits->edits().size(), 1U);
   const auto map = wait_for_zones(replay, 2);
   EXPECT_LT(map->raster.rectangle().width_m(), 5.5) << "the map is cropped to 4 m and the margin";
-  replay.export_to(out("window"), false);
-  EXPECT_EQ(wait_for_export(replay, 1)->exported->failure, "");
-
-  MappingSession session(path, settings_);
-  session.add_edits(EditJournal::read(out("window") / "loops.edits"));
-  session.run(std::atomic<bool>(false));
-  session.export_to(OutputFolder::prepare(out("headless"), false));
-  expect_same_results(out("window"), out("headless"));
+  expect_repeated_without_window(replay, path);
 }
 
 TEST_F(ReplayEditsTest, of_the_map_do_not_repeat_the_final_loop_search) {

@@ -127,8 +127,7 @@ Task simulated_task(double path_m, const LiveBenchmarkOptions& options) {
 LiveRow row_of(const Task& task, double speed, int processors, double timed_s,
                const std::function<void(double)>& progress) {
   use_processors(processors);
-  Replayed replayed = timed_s > 0 ? replay(task.read(), task.settings, speed, progress, timed_s)
-                                  : replay(task.read(), task.settings, speed, progress);
+  Replayed replayed = replay(task.read(), task.settings, speed, progress, timed_s);
   LiveRow row;
   row.log = task.name;
   row.speed = speed;
@@ -149,9 +148,9 @@ LiveRow row_of(const Task& task, double speed, int processors, double timed_s,
   return row;
 }
 
-/// Index of the first frame in the last `seconds` of the frames.
+/// Index of the first frame in the last `seconds` of the frames; 0: the first frame.
 std::size_t first_of_last_seconds(const std::vector<double>& due_s, double seconds) {
-  if (due_s.empty()) return 0;
+  if (due_s.empty() || seconds == 0) return 0;
   const auto first = std::lower_bound(due_s.begin(), due_s.end(), due_s.back() - seconds);
   return static_cast<std::size_t>(first - due_s.begin());
 }

@@ -30,7 +30,7 @@ using Path = std::filesystem::path;
 const char* const kLogFiles =
     "Logs and sessions|*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz;*.zst;*.zstd;*.session;*.journal|All "
     "files|*";
-const char* const kGrowingFiles = "CARMEN logs|*.log;*.clf|All files|*";
+const char* const kGrowingFiles = "Logs and bags|*.log;*.clf;*.rawlog;*.bag;*.active;*.mcap|All files|*";
 const char* const kSettingsFiles = "Settings (*.ini)|*.ini|All files|*";
 
 }  // namespace
@@ -97,7 +97,7 @@ void MainFrame::bind_file_commands() {
       frame.connect_other(source);
     };
   };
-  on_file(kConnectLog, {Ask::kOpen, "Follow a CARMEN log that is being recorded", kGrowingFiles, ""},
+  on_file(kConnectLog, {Ask::kOpen, "Follow a log or bag that is being recorded", kGrowingFiles, ""},
           connect_to(LiveInput::Kind::kFollow));
   on_file(kConnectSensors,
           {Ask::kOpen, "Open the settings of the sensors, as for rawlog-grabber", kSettingsFiles, ""},

@@ -2,28 +2,21 @@
 #include "live/line_streams.h"
 
 #include <arpa/inet.h>
-#include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <string_view>
 #include <utility>
 
 #include "base/descriptor.h"
-#include "base/text_parts.h"
-#include "frames/log_format.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::size_t kMostBytes = std::size_t{64} * 1024;  // bytes received at once
 
@@ -137,65 +130,6 @@ class TcpInput : public LineStream {
   Descriptor client_;
 };
 
-class GrowingFile : public LineStream {
- public:
-  GrowingFile(const fs::path& file, LiveControl control, std::optional<double> idle_s)
-      : LineStream(file, std::move(control), idle_s), file_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (!file_.is_open()) throw UserError("cannot read " + file.string() + ": " + std::strerror(errno));
-  }
-
- protected:
-  Received receive(std::string& bytes) override {
-    const ssize_t got = append_from(file_.number(), bytes);
-    if (got < 0 && !is_temporary(errno))
-      throw UserError("cannot read " + path().string() + ": " + std::strerror(errno));
-    if (got > 0) {
-      size_ += got;
-      return Received::kBytes;
-    }
-    struct stat state = {};
-    if (::fstat(file_.number(), &state) == 0 && state.st_size < size_)
-      throw UserError(path().string() +
-                      " became shorter while it was followed, expected a log that grows. Follow the new log");
-    ::poll(nullptr, 0, kWait_ms);
-    return Received::kNothing;
-  }
-
- private:
-  Descriptor file_;
-  off_t size_ = 0;
-};
-
-/// Throws UserError if a file is not one of lines that can grow. An empty file is one.
-void check_growing_lines(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::exists(file, ignored))
-    throw UserError(file.string() + " does not exist, expected a log that is being recorded. Check the path");
-  const std::string remedy =
-      " cannot be followed, expected a plain CARMEN log. Record CARMEN lines, or map the log when it is "
-      "complete";
-  if (fs::is_directory(file, ignored)) throw UserError(file.string() + " is a folder and" + remedy);
-  // Looking at the first bytes of a pipe would take them from the stream.
-  if (!fs::is_regular_file(file, ignored))
-    throw UserError(file.string() +
-                    " is no regular file, expected a log that is being recorded. Pipe it to "
-                    "--stdin");
-  std::array<char, 4> head{};
-  const Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  const ssize_t got = ::read(opened.number(), head.data(), head.size());
-  const std::string_view begin(head.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
-  if (starts_with(begin, "\x1f\x8b") || starts_with(begin, "\x28\xb5\x2f\xfd"))
-    throw UserError(file.string() + " is compressed and" + remedy);
-  if (begin.empty()) return;
-  LogFormat format = LogFormat::kCarmen;
-  try {
-    format = detect_log_format(file);
-  } catch (const UserError&) {  // its first lines may be comments
-  }
-  if (format != LogFormat::kCarmen)
-    throw UserError(file.string() + " is a " + std::string(name_of(format)) + " and" + remedy);
-}
-
 }  // namespace
 
 std::unique_ptr<LineStream> standard_input(LiveControl control, std::optional<double> idle_s,
@@ -206,12 +140,6 @@ std::unique_ptr<LineStream> standard_input(LiveControl control, std::optional<do
 std::unique_ptr<LineStream> tcp_input(const std::string& address, std::uint16_t port, LiveControl control,
                                       std::optional<double> idle_s) {
   return std::make_unique<TcpInput>(address, port, std::move(control), idle_s);
-}
-
-std::unique_ptr<LineStream> growing_file(const fs::path& file, LiveControl control,
-                                         std::optional<double> idle_s) {
-  check_growing_lines(file);
-  return std::make_unique<GrowingFile>(file, std::move(control), idle_s);
 }
 
 }  // namespace psi_slam

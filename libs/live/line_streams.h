@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Streams of text lines: standard input, a TCP port, and a file that grows.
+// Streams of text lines: standard input and a TCP port.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,10 +20,5 @@ std::unique_ptr<LineStream> standard_input(LiveControl control, std::optional<do
 /// first notice names. Throws UserError if the address is invalid or the port cannot be opened.
 std::unique_ptr<LineStream> tcp_input(const std::string& address, std::uint16_t port, LiveControl control,
                                       std::optional<double> idle_s);
-
-/// Reads a text file from its beginning and waits for more at its end. Throws UserError if the file is
-/// unreadable, and if its content shows a format without lines: a compressed file, a rawlog or a bag.
-std::unique_ptr<LineStream> growing_file(const std::filesystem::path& file, LiveControl control,
-                                         std::optional<double> idle_s);
 
 }  // namespace psi_slam

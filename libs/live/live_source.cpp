@@ -5,11 +5,13 @@
 #include <utility>
 
 #include "carmen/carmen_stream.h"
+#include "live/growing_log.h"
 #include "live/line_streams.h"
 #include "live/sensor_set.h"
 #include "logs/frame_pipeline.h"
 #include "psi_slam/user_error.h"
 #include "rawlog/observation_stream.h"
+#include "rosbag/rosbag_stream.h"
 
 namespace psi_slam {
 namespace {
@@ -52,9 +54,14 @@ class AwaitedSource : public FrameSource {
   std::unique_ptr<FrameSource> source_;
 };
 
+LogFormat format_of(const LiveInput& input) {
+  if (input.kind == LiveInput::Kind::kFollow) return growing_format(input.file);
+  return input.kind == LiveInput::Kind::kSensors ? LogFormat::kMrptRawlog : LogFormat::kCarmen;
+}
+
 std::unique_ptr<LineStream> open_lines(const LiveInput& input, const LiveControl& control) {
   if (input.kind == LiveInput::Kind::kTcp) return tcp_input(input.address, input.port, control, input.idle_s);
-  if (input.kind == LiveInput::Kind::kFollow) return growing_file(input.file, control, input.idle_s);
+  if (input.kind == LiveInput::Kind::kFollow) return growing_lines(input.file, control, input.idle_s);
   return standard_input(control, input.idle_s);
 }
 
@@ -80,15 +87,19 @@ std::unique_ptr<FrameSource> open_live(const LiveInput& input, const LogOptions&
   if (options.calibrate)
     throw UserError("log.calibrate needs a complete log, but " + name +
                     " is still being sent. Calibrate a recorded log, and set the options that it reports");
-  const LogFormat format =
-      input.kind == LiveInput::Kind::kSensors ? LogFormat::kMrptRawlog : LogFormat::kCarmen;
+  const LogFormat format = format_of(input);
   check_options_for(format, name, options);
   if (input.kind == LiveInput::Kind::kSensors)
     return std::make_unique<AwaitedSource<ObjectSource>>(
         std::make_unique<SensorSet>(input.file, control, input.idle_s), open_observation_stream, format,
         options, input.look_over_s);
-  return std::make_unique<AwaitedSource<ByteSource>>(open_lines(input, control), open_carmen_stream, format,
-                                                     options, input.look_over_s);
+  if (format == LogFormat::kCarmen)
+    return std::make_unique<AwaitedSource<ByteSource>>(open_lines(input, control), open_carmen_stream, format,
+                                                       options, input.look_over_s);
+  return std::make_unique<AwaitedSource<ByteSource>>(
+      growing_bytes(input.file, control, input.idle_s),
+      format == LogFormat::kMrptRawlog ? open_rawlog_stream : open_rosbag_stream, format, options,
+      input.look_over_s);
 }
 
 }  // namespace psi_slam

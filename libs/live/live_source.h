@@ -18,7 +18,7 @@ struct LiveInput {
   enum class Kind {
     kStandardInput,  ///< CARMEN lines on standard input
     kTcp,            ///< CARMEN lines that a client sends to a TCP port
-    kFollow,         ///< a CARMEN log that grows
+    kFollow,         ///< a log that grows: CARMEN lines, a rawlog, a ROS 1 bag or an MCAP file
     kSensors,        ///< sensors with drivers of MRPT, described by a settings file of rawlog-grabber
   };
 

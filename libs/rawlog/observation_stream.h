@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "compression/byte_source.h"
 #include "frames/log_reader.h"
 #include "rawlog/object_source.h"
 
@@ -18,5 +19,10 @@ namespace psi_slam {
 /// names must have appeared. At its end, the reader throws UserError if only invalid observations came.
 std::unique_ptr<LogReader> open_observation_stream(std::unique_ptr<ObjectSource> stream,
                                                    const LogOptions& options, double look_over_s);
+
+/// Reads a rawlog while it is recorded, as open_observation_stream() reads observations. The rawlog ends
+/// where the bytes end, also within an object.
+std::unique_ptr<LogReader> open_rawlog_stream(std::unique_ptr<ByteSource> recording,
+                                              const LogOptions& options, double look_over_s);
 
 }  // namespace psi_slam

@@ -7,6 +7,7 @@
 
 #include <exception>
 #include <optional>
+#include <utility>
 
 #include "compression/compressed_file.h"
 #include "psi_slam/user_error.h"
@@ -18,7 +19,7 @@ namespace {
 /// objects from one within an object.
 class ArchiveStream {
  public:
-  explicit ArchiveStream(const std::filesystem::path& path) : file_(path) {}
+  explicit ArchiveStream(std::unique_ptr<ByteSource> file) : file_(std::move(file)) {}
 
   bool is_at_end() {
     if (!ahead_) {
@@ -42,9 +43,9 @@ class ArchiveStream {
   }
 
   static std::size_t Write(const void*, std::size_t) { return 0; }
-  std::string getStreamDescription() const { return file_.path().string(); }
+  std::string getStreamDescription() const { return file_->path().string(); }
 
-  const CompressedFile& file() const { return file_; }
+  const ByteSource& file() const { return *file_; }
   bool ended_early() const { return ended_early_; }
 
   /// Reason why decompression failed. The stream keeps it, because MRPT wraps exceptions.
@@ -55,7 +56,7 @@ class ArchiveStream {
     try {
       std::size_t done = 0;
       while (done < size) {
-        const std::size_t got = file_.read(bytes + done, size - done);
+        const std::size_t got = file_->read(bytes + done, size - done);
         if (got == 0) break;
         done += got;
       }
@@ -66,7 +67,7 @@ class ArchiveStream {
     }
   }
 
-  CompressedFile file_;
+  std::unique_ptr<ByteSource> file_;
   std::optional<char> ahead_;
   std::optional<UserError> failure_;
   bool ended_early_ = false;
@@ -75,18 +76,24 @@ class ArchiveStream {
 }  // namespace
 
 struct RawlogArchive::State {
-  explicit State(const std::filesystem::path& path) : stream(path), archive(stream) {}
+  State(std::unique_ptr<ByteSource> file, bool growing)
+      : stream(std::move(file)), archive(stream), is_growing(growing) {
+    // Makes MRPT know the classes of all observations in logs, although psi-slam refers to few of these.
+    mrpt::obs::registerAllClasses_mrpt_obs();
+    mrpt::maps::registerAllClasses_mrpt_maps();
+  }
 
   ArchiveStream stream;
   mrpt::serialization::CArchiveStreamBase<ArchiveStream> archive;
+  bool is_growing;
   std::size_t objects = 0;
 };
 
-RawlogArchive::RawlogArchive(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {
-  // Makes MRPT know the classes of all observations in logs, although psi-slam refers to few of these.
-  mrpt::obs::registerAllClasses_mrpt_obs();
-  mrpt::maps::registerAllClasses_mrpt_maps();
-}
+RawlogArchive::RawlogArchive(const std::filesystem::path& path)
+    : state_(std::make_unique<State>(std::make_unique<CompressedFile>(path), false)) {}
+
+RawlogArchive::RawlogArchive(std::unique_ptr<ByteSource> recording)
+    : state_(std::make_unique<State>(std::move(recording), true)) {}
 
 RawlogArchive::~RawlogArchive() = default;
 
@@ -98,6 +105,7 @@ mrpt::serialization::CSerializable::Ptr RawlogArchive::next() {
     return state_->archive.ReadObject();
   } catch (const std::exception&) {
     if (stream.failure()) throw UserError(*stream.failure());
+    if (stream.ended_early() && state_->is_growing) return nullptr;
     if (stream.ended_early())
       throw UserError(place() + ": the file ends within this object. Fetch the log again");
     throw UserError(place() +

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "compression/byte_source.h"
 #include "rawlog/object_source.h"
 
 namespace psi_slam {
@@ -13,6 +14,8 @@ namespace psi_slam {
 class RawlogArchive : public ObjectSource {
  public:
   explicit RawlogArchive(const std::filesystem::path& path);
+  /// Reads a rawlog that is still being recorded. An object that is incomplete at the end is dropped.
+  explicit RawlogArchive(std::unique_ptr<ByteSource> recording);
   ~RawlogArchive() override;
 
   /// Returns the next object, or null at the end of the file. Throws UserError if the file ends within an

@@ -257,10 +257,14 @@ class KeptObjects : public ObjectSource {
   std::size_t next_ = 0;
 };
 
-/// Returns the time of an object that is a scan with a time stamp.
-std::optional<TimeUs> time_of_scan(const mrpt::serialization::CSerializable& object) {
-  const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&object);
-  return scan != nullptr ? time_us(*scan) : std::nullopt;
+/// Returns the scans of an object that have a time stamp.
+std::vector<const CObservation2DRangeScan*> scans_of(mrpt::serialization::CSerializable& object) {
+  std::vector<const CObservation2DRangeScan*> scans;
+  for_each_observation(object, [&](const CObservation& observation) {
+    const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation);
+    if (scan != nullptr && time_us(*scan)) scans.push_back(scan);
+  });
+  return scans;
 }
 
 /// Reads a stream until it has been looked over, see LookOver. Keeps the latest objects besides the scans.
@@ -277,13 +281,14 @@ std::vector<mrpt::serialization::CSerializable::Ptr> look_over(ObjectSource& str
       head.pop_back();
       break;
     }
-    if (const auto stamp = time_of_scan(*head.back())) {
-      scans.add_scan(*stamp);
-      awaited.erase(dynamic_cast<const CObservation&>(*head.back()).sensorLabel);
-    } else if (head.size() > kMostObjectsOfHead) {
-      head.erase(
-          std::find_if(head.begin(), head.end(), [](const auto& object) { return !time_of_scan(*object); }));
+    const auto scans_of_object = scans_of(*head.back());
+    for (const CObservation2DRangeScan* scan : scans_of_object) {
+      scans.add_scan(*time_us(*scan));
+      awaited.erase(scan->sensorLabel);
     }
+    if (scans_of_object.empty() && head.size() > kMostObjectsOfHead)
+      head.erase(std::find_if(head.begin(), head.end(),
+                              [](const auto& object) { return scans_of(*object).empty(); }));
   }
   return {head.begin(), head.end()};
 }
@@ -368,6 +373,11 @@ class RawlogReader : public LogReader {
 
 std::unique_ptr<LogReader> open_rawlog(const std::filesystem::path& path, const LogOptions& options) {
   return std::make_unique<RawlogReader>(path, options);
+}
+
+std::unique_ptr<LogReader> open_rawlog_stream(std::unique_ptr<ByteSource> recording,
+                                              const LogOptions& options, double look_over_s) {
+  return open_observation_stream(std::make_unique<RawlogArchive>(std::move(recording)), options, look_over_s);
 }
 
 std::unique_ptr<LogReader> open_observation_stream(std::unique_ptr<ObjectSource> stream,

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compression/byte_source.h"
 #include "psi_slam/time_stamp.h"
 
 namespace psi_slam {
@@ -98,6 +99,12 @@ std::unique_ptr<BagFile> open_ros1_bag(const std::filesystem::path& path);
 /// eight bytes of length, most of them in chunks that may be compressed (lz4, zstd). Reading starts at the
 /// front; the summary at the end only provides the topics. ROS 1 messages in such a file are read too.
 std::unique_ptr<BagFile> open_mcap_bag(const std::filesystem::path& path);
+
+/// Read a bag while it is recorded. topics() and progress() must not be called. The bag ends where the bytes
+/// end, also within a record. Throw UserError if the bytes do not begin like such a bag. A chunk of a ROS 1
+/// bag that is still being recorded must not be compressed: next() throws UserError then.
+std::unique_ptr<BagFile> follow_ros1_bag(std::unique_ptr<ByteSource> recording);
+std::unique_ptr<BagFile> follow_mcap_bag(std::unique_ptr<ByteSource> recording);
 
 /// Opens an SQLite file (.db3) of ROS 2, which has a table of topics and a table of messages. Messages are
 /// read in the order in which they were written. A compressed file is unpacked into a temporary file while it

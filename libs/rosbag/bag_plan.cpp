@@ -43,11 +43,11 @@ bool is_named_like_odometry(std::string frame) {
 
 class Planner {
  public:
-  Planner(const std::filesystem::path& path, const LogOptions& options)
+  Planner(std::unique_ptr<BagFile> bag, const std::filesystem::path& path, const LogOptions& options)
       : path_(path.string()),
         options_(options),
         slices_clouds_(height_slice(options).has_value()),
-        bag_(open_bag(path)),
+        bag_(std::move(bag)),
         topics_(bag_->topics()) {}
 
   BagPlan plan() {
@@ -465,8 +465,8 @@ LogOptions options_of_topic(const LogOptions& options, const std::string& topic)
   return options_of_laser(options, names_of_topic(topic));
 }
 
-BagPlan plan_bag(const std::filesystem::path& path, const LogOptions& options) {
-  return Planner(path, options).plan();
+BagPlan plan_bag(std::unique_ptr<BagFile> bag, const std::filesystem::path& path, const LogOptions& options) {
+  return Planner(std::move(bag), path, options).plan();
 }
 
 }  // namespace psi_slam

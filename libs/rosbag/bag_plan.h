@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,7 @@ LogOptions options_of_topic(const LogOptions& options, const std::string& topic)
 /// topics by their types, or by the names that the user states. Then reads until all frames are known, or to
 /// the end. If the user names no topic, plans to read all lasers whose mounts are known. Assumes that the
 /// only laser is at the robot's centre if its mount is unknown. Throws UserError if there are no scans, or if
-/// something that the user names is missing.
-BagPlan plan_bag(const std::filesystem::path& path, const LogOptions& options);
+/// something that the user names is missing. `path` names the bag in messages.
+BagPlan plan_bag(std::unique_ptr<BagFile> bag, const std::filesystem::path& path, const LogOptions& options);
 
 }  // namespace psi_slam

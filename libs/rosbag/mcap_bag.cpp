@@ -81,10 +81,10 @@ class Channels {
 
 class McapBag : public RecordBag {
  public:
-  explicit McapBag(const std::filesystem::path& path) : RecordBag(path) {
+  explicit McapBag(BagStream stream) : RecordBag(std::move(stream)) {
     if (stream_.read_up_to(kMagic.size()) != kMagic)
       throw UserError(
-          path.string() +
+          stream_.path().string() +
           " is not an MCAP file of version 0, the only version that is read. Record the bag again");
   }
 
@@ -94,7 +94,7 @@ class McapBag : public RecordBag {
     } catch (const MalformedBytes&) {
       // The summary is damaged. The records before it state the topics too.
     }
-    McapBag whole(stream_.path());
+    McapBag whole{BagStream(stream_.path())};
     whole.read_to_end();
     return whole.channels_.topics();
   }
@@ -178,7 +178,11 @@ class McapBag : public RecordBag {
 }  // namespace
 
 std::unique_ptr<BagFile> open_mcap_bag(const std::filesystem::path& path) {
-  return std::make_unique<McapBag>(path);
+  return std::make_unique<McapBag>(BagStream(path));
+}
+
+std::unique_ptr<BagFile> follow_mcap_bag(std::unique_ptr<ByteSource> recording) {
+  return std::make_unique<McapBag>(BagStream(std::move(recording)));
 }
 
 }  // namespace psi_slam

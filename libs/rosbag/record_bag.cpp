@@ -21,7 +21,7 @@ std::string_view BagStream::read_up_to(std::uint64_t size) {
     const auto wanted =
         static_cast<std::size_t>(std::min(size - have, std::max<std::uint64_t>(kPieceBytes, have)));
     if (bytes_.size() < have + wanted) bytes_.resize(have + wanted);
-    const std::size_t got = file_.read(bytes_.data() + have, wanted);
+    const std::size_t got = bytes_of_bag_->read(bytes_.data() + have, wanted);
     have += got;
     if (got == 0) break;
   }
@@ -47,8 +47,11 @@ void BagStream::skip(std::uint64_t size) {
 }
 
 void BagStream::fail_cut_off(std::uint64_t start, std::uint64_t expected) const {
-  throw UserError(place_of(start) + ": the file is cut off, expected " + std::to_string(expected) +
-                  " more bytes, found " + std::to_string(offset_ - start) + ". Fetch the bag again");
+  const std::string sentence = place_of(start) + ": the file is cut off, expected " +
+                               std::to_string(expected) + " more bytes, found " +
+                               std::to_string(offset_ - start) + ". Fetch the bag again";
+  if (is_growing_) throw EndOfRecording(sentence);
+  throw UserError(sentence);
 }
 
 std::string BagStream::place_of(std::uint64_t offset) const {
@@ -82,8 +85,10 @@ bool RecordBag::next(BagMessage& message) {
     }
   } catch (const MalformedBytes& error) {
     throw UserError(place() + ": the bag is damaged: " + error.what() + ". Fetch the bag again");
+  } catch (const EndOfRecording&) {
+    return false;
   }
-  check_end();
+  if (!stream_.is_growing()) check_end();
   return false;
 }
 

@@ -5,21 +5,35 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/byte_cursor.h"
+#include "compression/byte_source.h"
 #include "compression/compressed_file.h"
+#include "psi_slam/user_error.h"
 #include "rosbag/bag_file.h"
 
 namespace psi_slam {
+
+/// The bytes of a bag that is still being recorded ended within a record.
+class EndOfRecording : public UserError {
+ public:
+  using UserError::UserError;
+};
 
 /// Reads the bytes of a file in order. Its memory grows with the bytes that the file holds, never with a
 /// length that the file merely states.
 class BagStream {
  public:
-  explicit BagStream(const std::filesystem::path& path) : file_(path) {}
+  explicit BagStream(const std::filesystem::path& path)
+      : bytes_of_bag_(std::make_unique<CompressedFile>(path)) {}
+  /// Reads a bag that is still being recorded. read() and skip() throw EndOfRecording at its end.
+  explicit BagStream(std::unique_ptr<ByteSource> recording)
+      : bytes_of_bag_(std::move(recording)), is_growing_(true) {}
 
   /// Returns the next `size` bytes, valid until the next call. Throws UserError if the file has fewer bytes
   /// left, and MalformedBytes for a size that no record has.
@@ -32,8 +46,10 @@ class BagStream {
   std::string_view read_up_to(std::uint64_t size);
 
   std::uint64_t offset() const { return offset_; }
-  double progress() const { return file_.progress(); }
-  const std::filesystem::path& path() const { return file_.path(); }
+  double progress() const { return bytes_of_bag_->progress(); }
+  const std::filesystem::path& path() const { return bytes_of_bag_->path(); }
+  /// Returns whether the bag is still being recorded, so that it may end within a record.
+  bool is_growing() const { return is_growing_; }
 
   /// Returns an offset as a place for error messages: "run.bag: byte 4117".
   std::string place_of(std::uint64_t offset) const;
@@ -41,7 +57,8 @@ class BagStream {
  private:
   [[noreturn]] void fail_cut_off(std::uint64_t start, std::uint64_t expected) const;
 
-  CompressedFile file_;
+  std::unique_ptr<ByteSource> bytes_of_bag_;
+  bool is_growing_ = false;
   std::string bytes_;
   std::uint64_t offset_ = 0;
 };
@@ -58,7 +75,7 @@ class RecordBag : public BagFile {
   std::string place() const override;
 
  protected:
-  explicit RecordBag(const std::filesystem::path& path) : stream_(path) {}
+  explicit RecordBag(BagStream stream) : stream_(std::move(stream)) {}
 
   /// Reads the next record of the file; returns false at the end.
   virtual bool read_record_of_file() = 0;

@@ -62,9 +62,9 @@ BagTopic topic_of(const Record& record) {
 
 class Ros1Bag : public RecordBag {
  public:
-  explicit Ros1Bag(const std::filesystem::path& path) : RecordBag(path) {
+  explicit Ros1Bag(BagStream stream) : RecordBag(std::move(stream)) {
     if (stream_.read_up_to(kMagic.size()) != kMagic)
-      throw UserError(path.string() +
+      throw UserError(stream_.path().string() +
                       " is not a ROS 1 bag of version 2.0. Convert an older bag with rosbag fix");
     try {
       read_bag_header();
@@ -91,7 +91,7 @@ class Ros1Bag : public RecordBag {
       // The index is truncated or damaged. The chunks hold the connections too.
     }
     topics.clear();
-    Ros1Bag whole(stream_.path());
+    Ros1Bag whole{BagStream(stream_.path())};
     whole.read_to_end();
     for (const auto& [number, topic] : whole.connections_) add_topic(topics, topic);
     return topics;
@@ -101,7 +101,8 @@ class Ros1Bag : public RecordBag {
   bool read_record_of_file() override {
     record_offset_ = stream_.offset();
     const std::string_view length = stream_.read_up_to(sizeof(std::uint32_t));
-    if (length.empty()) return false;
+    const bool is_cut_off = stream_.is_growing() && length.size() < sizeof(std::uint32_t);
+    if (length.empty() || is_cut_off) return false;
     header_ = stream_.read(ByteCursor(length).number<std::uint32_t>());
     record_.fields = fields_of(header_);
     const auto size = ByteCursor(stream_.read(sizeof(std::uint32_t))).number<std::uint32_t>();
@@ -115,11 +116,7 @@ class Ros1Bag : public RecordBag {
     const std::uint8_t operation = operation_of(record_);
     if (operation == kConnection)
       connections_.emplace(number_field<std::uint32_t>(record_.fields, "conn"), topic_of(record_));
-    if (operation == kChunk) {
-      unpack_chunk(text_field(record_.fields, "compression"), record_.data,
-                   number_field<std::uint32_t>(record_.fields, "size"));
-      begin_chunk();
-    }
+    if (operation == kChunk) open_chunk(text_field(record_.fields, "compression"));
     return operation == kMessageData && take_message(message);
   }
 
@@ -134,6 +131,18 @@ class Ros1Bag : public RecordBag {
   }
 
  private:
+  /// The recorder states the size of a chunk after the last record of the chunk. Until then the size is 0,
+  /// and the records of the chunk follow as records of the file.
+  void open_chunk(std::string_view compression) {
+    if (stream_.is_growing() && record_.data.empty() && compression != "none")
+      throw UserError(
+          place() + ": a chunk compressed by " + std::string(compression) +
+          " is still being recorded, expected no compression in a bag that is followed. Record it "
+          "without --bz2 and --lz4");
+    unpack_chunk(compression, record_.data, number_field<std::uint32_t>(record_.fields, "size"));
+    begin_chunk();
+  }
+
   void read_bag_header() {
     if (!read_record_of_file() || operation_of(record_) != kBagHeader)
       throw MalformedBytes("the first record is not a header");
@@ -167,7 +176,11 @@ class Ros1Bag : public RecordBag {
 }  // namespace
 
 std::unique_ptr<BagFile> open_ros1_bag(const std::filesystem::path& path) {
-  return std::make_unique<Ros1Bag>(path);
+  return std::make_unique<Ros1Bag>(BagStream(path));
+}
+
+std::unique_ptr<BagFile> follow_ros1_bag(std::unique_ptr<ByteSource> recording) {
+  return std::make_unique<Ros1Bag>(BagStream(std::move(recording)));
 }
 
 }  // namespace psi_slam

@@ -6,7 +6,7 @@
 // message without a stamp has the time at which it was recorded.
 //
 // A damaged or truncated bag yields all frames before the damage, then a UserError. Odometry with an invalid
-// pose is skipped.
+// pose is skipped, and so are damaged messages of a bag that is still being recorded.
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -21,9 +21,12 @@
 #include "frames/height_slice.h"
 #include "frames/laser_readings.h"
 #include "frames/log_reader.h"
+#include "frames/look_over.h"
 #include "frames/odometry_interpolator.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_plan.h"
+#include "rosbag/begun_bag.h"
+#include "rosbag/rosbag_stream.h"
 
 namespace psi_slam {
 namespace {
@@ -112,8 +115,13 @@ class RosLaser {
 
 class RosbagReader : public LogReader {
  public:
-  RosbagReader(const std::filesystem::path& path, const LogOptions& options)
-      : plan_(plan_bag(path, options)), bag_(open_bag(path)), slice_(height_slice(options)) {
+  /// `is_stream`: the bag is still being recorded.
+  RosbagReader(BagPlan plan, std::unique_ptr<BagFile> bag, const LogOptions& options, bool is_stream)
+      : plan_(std::move(plan)),
+        bag_(std::move(bag)),
+        is_stream_(is_stream),
+        slice_(height_slice(options)),
+        interpolator_(is_stream ? kMostWaitingOfStream : OdometryInterpolator::kMaxWaiting) {
     bag_->want(plan_.topics());
     if (!plan_.has_odometry) interpolator_.expect_no_odometry();
     contents_.laser = name_list(plan_.scan_topics);
@@ -139,7 +147,7 @@ class RosbagReader : public LogReader {
       try {
         BagMessage message;
         if (bag_->next(message)) {
-          take(message);
+          take_or_skip(message);
           continue;
         }
       } catch (const UserError&) {
@@ -152,6 +160,15 @@ class RosbagReader : public LogReader {
   }
 
  private:
+  void take_or_skip(const BagMessage& message) {
+    try {
+      take(message);
+    } catch (const UserError& error) {
+      if (!is_stream_) throw;
+      if (contents_.skipped.count++ == 0) contents_.skipped.first = error.what();
+    }
+  }
+
   bool uses_gyroscope() const { return !plan_.imu_topic.empty(); }
 
   void take(const BagMessage& message) {
@@ -237,6 +254,7 @@ class RosbagReader : public LogReader {
 
   BagPlan plan_;
   std::unique_ptr<BagFile> bag_;
+  bool is_stream_;
   std::optional<HeightSlice> slice_;
   std::vector<LogOptions> sensor_options_;  // in the order of plan_.scan_topics
   std::vector<RosLaser> lasers_;            // in the order of plan_.scan_topics
@@ -249,7 +267,21 @@ class RosbagReader : public LogReader {
 }  // namespace
 
 std::unique_ptr<LogReader> open_bag_log(const std::filesystem::path& path, const LogOptions& options) {
-  return std::make_unique<RosbagReader>(path, options);
+  return std::make_unique<RosbagReader>(plan_bag(open_bag(path), path, options), open_bag(path), options,
+                                        false);
+}
+
+std::unique_ptr<LogReader> open_rosbag_stream(std::unique_ptr<ByteSource> recording,
+                                              const LogOptions& options, double look_over_s) {
+  const std::filesystem::path path = recording->path();
+  auto first = std::make_shared<std::string>(1, '\0');
+  first->resize(recording->read(first->data(), 1));
+  const bool is_ros1 = *first == "#";
+  auto bytes = std::make_unique<TextSource>(first, path, std::move(recording));
+  auto bag = is_ros1 ? follow_ros1_bag(std::move(bytes)) : follow_mcap_bag(std::move(bytes));
+  const auto beginning = std::make_shared<const BeginningOfBag>(read_beginning(*bag, options, look_over_s));
+  BagPlan plan = plan_bag(begun_bag(beginning), path, options);
+  return std::make_unique<RosbagReader>(std::move(plan), begun_bag(beginning, std::move(bag)), options, true);
 }
 
 }  // namespace psi_slam

@@ -2,17 +2,14 @@
 #include "live/line_streams.h"
 
 #include <gmock/gmock.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
-#include <fstream>
-#include <thread>
 
 #include "base/descriptor.h"
+#include "reading_thread.h"
 #include "sender.h"
-#include "temporary_folder.h"
 #include "test_files.h"
 
 namespace psi_slam {
@@ -21,49 +18,12 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Reads a stream in a thread of its own, until it ends or the object is destroyed.
-class ReadingThread {
- public:
-  /// `stop` ends the stream.
-  ReadingThread(std::unique_ptr<LineStream> stream, std::atomic<bool>& stop)
-      : stop_(stop), thread_([this, stream = std::move(stream)] {
-          std::array<char, 7> bytes{};
-          while (const std::size_t size = stream->read(bytes.data(), bytes.size())) {
-            const std::lock_guard lock(mutex_);
-            text_.append(bytes.data(), size);
-          }
-        }) {}
-  ~ReadingThread() {
-    stop_ = true;
-    if (thread_.joinable()) thread_.join();
-  }
-  ReadingThread(const ReadingThread&) = delete;
-  ReadingThread& operator=(const ReadingThread&) = delete;
-
-  std::string text() {
-    const std::lock_guard lock(mutex_);
-    return text_;
-  }
-  /// Returns all text after the stream has ended.
-  std::string rest() {
-    thread_.join();
-    return text_;
-  }
-
- private:
-  std::atomic<bool>& stop_;
-  std::mutex mutex_;
-  std::string text_;
-  std::thread thread_;
-};
-
 class LineStreamsTest : public testing::Test {
  protected:
   LiveControl control() {
     return {[this] { return stop_.load(); }, [this](const std::string& notice) { notices_.add(notice); }};
   }
 
-  TemporaryFolder folder_;
   Notices notices_;
   std::atomic<bool> stop_ = false;
 };
@@ -146,58 +106,6 @@ TEST_F(LineStreamsTest, rejects_addresses_and_ports_that_cannot_be_opened) {
   const auto port = static_cast<std::uint16_t>(notices_.port());
   EXPECT_THAT(sentence_of([&] { tcp_input("127.0.0.1", port, control(), std::nullopt); }),
               AllOf(HasSubstr("Address already in use"), HasSubstr("Choose another port with --tcp")));
-}
-
-TEST_F(LineStreamsTest, follows_a_file_that_grows) {
-  const auto file = folder_.path() / "my.log";
-  write_file(file, "");
-  ReadingThread reader(growing_file(file, control(), std::nullopt), stop_);
-  std::ofstream recorder(file, std::ios::app);
-  recorder << "one\ntw" << std::flush;
-  EXPECT_TRUE(soon([&] { return reader.text() == "one\n"; }));
-  recorder << "o\n" << std::flush;
-  EXPECT_TRUE(soon([&] { return reader.text() == "one\ntwo\n"; }));
-  stop_ = true;
-  EXPECT_EQ(reader.rest(), "one\ntwo\n");
-}
-
-TEST_F(LineStreamsTest, a_file_that_stops_growing_ends_as_a_log) {
-  const auto file = folder_.path() / "my.log";
-  write_file(file, "FLASER one\nFLASER two");
-  EXPECT_EQ(ReadingThread(growing_file(file, control(), 0.0), stop_).rest(), "FLASER one\nFLASER two");
-}
-
-TEST_F(LineStreamsTest, a_followed_file_must_not_shrink) {
-  const auto file = folder_.path() / "my.log";
-  write_file(file, "one\n");
-  const auto stream = growing_file(file, control(), std::nullopt);
-  std::array<char, 9> bytes{};
-  EXPECT_EQ(stream->read(bytes.data(), bytes.size()), 4U);
-  write_file(file, "");
-  EXPECT_THAT(sentence_of([&] { stream->read(bytes.data(), bytes.size()); }),
-              HasSubstr("my.log became shorter while it was followed"));
-}
-
-TEST_F(LineStreamsTest, says_which_files_cannot_be_followed) {
-  const auto complaint = [&](const std::string& bytes) {
-    const auto file = folder_.path() / "log";
-    write_file(file, bytes);
-    return sentence_of([&] { growing_file(file, control(), std::nullopt); });
-  };
-  EXPECT_THAT(complaint("#ROSBAG V2.0\n"), HasSubstr("log is a ROS 1 bag and cannot be followed"));
-  EXPECT_THAT(complaint("\x89MCAP0\r\n"), HasSubstr("log is a ROS 2 bag (MCAP) and cannot be followed"));
-  EXPECT_THAT(complaint("\x98"
-                        "CObservation2DRangeScan"),
-              HasSubstr("is a MRPT rawlog and cannot be followed"));
-  EXPECT_THAT(complaint("\x1f\x8b\x08"), HasSubstr("log is compressed and cannot be followed"));
-  EXPECT_THAT(sentence_of([&] { growing_file(folder_.path(), control(), std::nullopt); }),
-              HasSubstr("is a folder and cannot be followed"));
-  const auto pipe = folder_.path() / "pipe";
-  ASSERT_EQ(::mkfifo(pipe.c_str(), S_IRUSR | S_IWUSR), 0);
-  EXPECT_THAT(sentence_of([&] { growing_file(pipe, control(), std::nullopt); }),
-              AllOf(HasSubstr("pipe is no regular file"), HasSubstr("Pipe it to --stdin")));
-  EXPECT_THAT(sentence_of([&] { growing_file(folder_.path() / "none", control(), std::nullopt); }),
-              HasSubstr("none does not exist"));
 }
 
 }  // namespace

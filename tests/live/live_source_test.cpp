@@ -48,6 +48,22 @@ TEST_P(RealLog, gives_the_same_frames_while_it_grows) {
   EXPECT_EQ(live->skipped_lines().count, whole->skipped_lines().count);
 }
 
+class RealBag : public testing::TestWithParam<const char*> {};
+
+TEST_P(RealBag, gives_the_same_frames_while_it_grows) {
+  const auto bag = shared_file(GetParam());
+  if (!bag) GTEST_SKIP() << kNeedsData;
+  const auto live = open_live(to_the_end_of(*bag), {}, quiet_control());
+  const auto whole = open_log(*bag);
+  EXPECT_GT(expect_same_frames(*live, *whole), 100U);
+  EXPECT_EQ(live->skipped_lines().count, whole->skipped_lines().count);
+}
+
+INSTANTIATE_TEST_SUITE_P(LiveSource, RealBag,
+                         testing::Values("bags/guardian_controller_2.bag",
+                                         "bags/jarvis_circular_path_fast.bag", "bags/jan17_expt04.bag"),
+                         [](const auto& bag) { return "bag_" + std::to_string(bag.index); });
+
 INSTANTIATE_TEST_SUITE_P(LiveSource, RealLog,
                          testing::Values("aces.clf.gz", "intel.clf.gz", "mit-csail.clf.gz",
                                          "mit-killian.clf.gz", "fr079.clf.gz", "sparse/acapulco.clf.gz",

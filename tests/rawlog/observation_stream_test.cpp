@@ -8,6 +8,9 @@
 
 #include "log_files.h"
 #include "rawlog_files.h"
+#include "same_frames.h"
+#include "temporary_folder.h"
+#include "test_files.h"
 
 namespace psi_slam {
 namespace {
@@ -61,6 +64,52 @@ RawlogObjects scans(const std::string& label, int from, int to) {
 RawlogObjects joined(RawlogObjects first, const RawlogObjects& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
+}
+
+/// Bytes of a rawlog with pairs of actions and sensory frames, ten a second.
+std::string bytes_of_rawlog(int seconds) {
+  RawlogObjects objects;
+  for (int i = 0; i < 10 * seconds; ++i) {
+    objects.push_back(movement(mrpt::poses::CPose2D(0.1, 0, 0.01)));
+    objects.push_back(sensory_frame({range_scan(kBegin + i * kSecond / 10)}));
+  }
+  const TemporaryFolder folder;
+  write_rawlog(folder.path() / "run.rawlog", objects, false);
+  return read_file(folder.path() / "run.rawlog");
+}
+
+std::unique_ptr<LogReader> stream_of(const std::string& bytes) {
+  return open_rawlog_stream(
+      std::make_unique<TextSource>(std::make_shared<const std::string>(bytes), "run.rawlog"), {}, 5);
+}
+
+TEST(RawlogStream, has_the_frames_of_the_complete_rawlog) {
+  const TemporaryFolder folder;
+  const std::string bytes = bytes_of_rawlog(8);
+  write_file(folder.path() / "run.rawlog", bytes);
+  const auto whole = open_rawlog(folder.path() / "run.rawlog", {});
+  EXPECT_EQ(expect_same_frames(*stream_of(bytes), *whole), 80U);
+}
+
+TEST(RawlogStream, ends_where_the_bytes_end) {
+  const std::string bytes = bytes_of_rawlog(2);
+  const auto expected = all_frames(*stream_of(bytes));
+  ASSERT_EQ(expected.size(), 20U);
+  std::size_t most = 0;
+  for (std::size_t size = bytes.size() / 2; size < bytes.size(); size += 13) {
+    const std::size_t frames = all_frames(*stream_of(bytes.substr(0, size))).size();
+    EXPECT_GE(frames, most) << size << " bytes";
+    most = frames;
+  }
+  EXPECT_EQ(most, 19U) << "the last object is incomplete";
+}
+
+TEST(RawlogStream, counts_scans_within_sensory_frames) {
+  // 6,000 sensory frames and 6,000 actions: actions would be dropped if they were no part of the beginning.
+  const auto reader = stream_of(bytes_of_rawlog(600));
+  const auto frames = all_frames(*reader);
+  ASSERT_EQ(frames.size(), 6000U);
+  EXPECT_GT(frames[1].odom_T_robot.norm(), 0.05);
 }
 
 TEST_F(ObservationStreamTest, is_looked_over_for_some_seconds) {

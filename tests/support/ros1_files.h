@@ -83,7 +83,8 @@ inline std::string ros1_message(const Recorded& message) {
 struct Ros1Layout {
   std::string compression = "none";  ///< "none", "bz2" or "lz4"
   std::size_t messages_per_chunk = 7;
-  bool is_closed = true;  ///< false: no index, as after a recorder was killed
+  bool is_closed = true;     ///< false: no index, as after a recorder was killed
+  bool states_sizes = true;  ///< false: as the recorder writes chunks before it completes them
 };
 
 class Ros1Writer {
@@ -152,10 +153,12 @@ class Ros1Writer {
 
   void end_chunk() {
     if (chunk_.empty()) return;
+    const std::size_t size = layout_.states_sizes ? chunk_.size() : 0;
     file_ += record({{"op", "\x05"},
                      {"compression", layout_.compression},
-                     {"size", ros1_packed(static_cast<std::uint32_t>(chunk_.size()))}},
-                    compressed());
+                     {"size", ros1_packed(static_cast<std::uint32_t>(size))}},
+                    layout_.states_sizes ? compressed() : "");
+    if (!layout_.states_sizes) file_ += compressed();
     file_ += record({{"op", "\x04"}, {"ver", ros1_packed(std::uint32_t{1})}}, std::string(24, '\0'));
     ++chunks_;
     chunk_.clear();

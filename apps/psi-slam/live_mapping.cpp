@@ -19,4 +19,9 @@ bool LiveMapping::step() {
   return true;
 }
 
+void LiveMapping::catch_up() {
+  session_.mapper().wait();
+  map_.settle(session_.mapper());
+}
+
 }  // namespace psi_slam

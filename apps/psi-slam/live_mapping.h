@@ -33,6 +33,9 @@ class LiveMapping {
   /// MappingSession::step() throws.
   bool step();
 
+  /// Waits for the loops of the mapped scans, and draws all scans that they moved.
+  void catch_up();
+
  private:
   MappingSession& session_;
   Notify notify_;

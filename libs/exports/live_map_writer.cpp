@@ -44,6 +44,13 @@ void LiveMapWriter::update(const Mapper& mapper, const LiveGridMap::Hurry& hurry
   if (Clock::now() - last_ >= period_ && has_news && map_.is_complete()) hand_over();
 }
 
+void LiveMapWriter::settle(const Mapper& mapper) {
+  if (period_.count() == 0) return;
+  do {
+    update(mapper);
+  } while (!map_.is_settled());
+}
+
 void LiveMapWriter::hand_over() {
   last_ = Clock::now();
   handed_work_ = map_.work();

@@ -36,6 +36,9 @@ class LiveMapWriter {
   /// finish().
   void update(const Mapper& mapper, const LiveGridMap::Hurry& hurry = {});
 
+  /// Draws all scans that moved, as calls of update() do in the time between later scans.
+  void settle(const Mapper& mapper);
+
   /// Why the map could not be written the last time, a sentence without full stop; empty if it was written.
   std::optional<std::string> failure() const;
 

@@ -224,7 +224,7 @@ Replayed replay(std::vector<Frame> frames, const Settings& settings, double spee
   });
   do {
     if (mapper.frames().size() == first_timed) {
-      mapper.wait();
+      mapping.catch_up();
       cpu_before = std::clock();
       missed_before = mapper.missed_deadlines();
       first = Clock::now();

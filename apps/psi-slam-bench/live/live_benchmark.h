@@ -74,9 +74,9 @@ struct Replayed {
 
 /// Maps the frames as they become due, as psi-slam live does: with the journal and the map that it writes,
 /// here to a temporary folder. Only the last `timed_s` seconds are timed (0: all); the scans before are
-/// mapped as fast as possible, and the timed scans begin when the back end has worked them off. Moved scans
-/// of the map may then still have to be drawn. Throws UserError if there are no frames, and SystemFailure if
-/// the files cannot be written.
+/// mapped as fast as possible, and the timed scans begin when the back end has worked them off and the map
+/// shows them where they are. Throws UserError if there are no frames, and SystemFailure if the files cannot
+/// be written.
 Replayed replay(std::vector<Frame> frames, const Settings& settings, double speed,
                 const std::function<void(double)>& progress, double timed_s = 0);
 

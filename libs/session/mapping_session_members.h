@@ -17,6 +17,7 @@
 #include "session/edit_journal.h"
 #include "session/session_input.h"
 #include "session/session_journal.h"
+#include "session/session_prior.h"
 #include "session/session_recording.h"
 #include "session/settings.h"
 
@@ -70,6 +71,8 @@ struct MappingSession::Members {
   EditJournal edits;
   std::vector<std::string> edit_complaints;
   std::vector<std::string> map_edit_complaints;  ///< those of the last export
+  std::optional<SessionPrior> prior;             ///< empty without a prior map
+  std::vector<std::string> prior_complaints;     ///< walls of the prior map that the last export contradicts
   Observer observer;
   State state = State::kReading;
   MappingResult result;

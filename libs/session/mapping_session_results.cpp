@@ -80,6 +80,8 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
   drawing_clock.time([&] {
     grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map);
+    if (m.prior) m.prior_complaints = m.prior->compare(*grid);
+    if (m.prior && m.settings.prior.extend) grid = m.prior->extended(*grid);
     m.map_edit_complaints = apply_map_edits(placed.edits, *grid);
   });
   for (const MapEdit& edit : placed.without_place)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localization/prior_map.h"
 
+#include <mrpt/math/wrap2pi.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -121,16 +123,23 @@ std::optional<MeasuredPose> PriorMap::place_near(std::size_t node, const Keyfram
   const MatchResult match = matcher_.match(problem);
   if (!match.found || match.ambiguity.value_or(0) > kMaxAmbiguity) return std::nullopt;
   TPose2D matched = match.map_T_robot;
+  Eigen::Matrix3d covariance = match.covariance;
   const RefinedPose predicted =
       refine(map.scores(), context, prior_T_predicted, RefinementOptions(), problem.prior);
-  if (predicted.mean_score >= kPriorPredictionShare * match.refined_response) matched = predicted.map_T_robot;
+  if (predicted.mean_score >= kPriorPredictionShare * match.refined_response) {
+    matched = predicted.map_T_robot;
+    // Both poses fit, so the place is at least as uncertain as they are apart.
+    const Eigen::Vector3d apart(matched.x - match.map_T_robot.x, matched.y - match.map_T_robot.y,
+                                mrpt::math::wrapToPi(matched.phi - match.map_T_robot.phi));
+    covariance += apart * apart.transpose();
+  }
   const LocalMap::Agreement agreement = map.agreement(context, matched);
   const auto points = static_cast<double>(context.points.size());
   if (static_cast<double>(agreement.observed) < kMinObserved * points || agreement.share() < kMinAgree ||
       clear_beams(map.scores(), *keyframes.nodes[node].points, matched).share() < kMinClear)
     return std::nullopt;
   MeasuredPose place{matched, options_.sigma_m, options_.sigma_m / kHeadingArm_m};
-  place.further = match.covariance;
+  place.further = covariance;
   return place;
 }
 

@@ -193,11 +193,11 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   };
   FixedKnowledge knowledge = m.edits.knowledge();
   std::optional<std::string> refusal;
-  m.prior_complaints.clear();
   if (m.prior) refusal = m.prior->place(*m.mapper, knowledge);
   m.mapper->set_knowledge(std::move(knowledge));
   m.result = m.mapper->finish(progress, m.after_finish);
   if (refusal) m.result.contradictions.push_back(*std::move(refusal));
+  m.contradictions_of_mapping = m.result.contradictions.size();
   m.check_log();
   m.enter(Members::State::kFinished);
   if (m.after_finish == Mapper::AfterFinish::kNothing) m.mapper.reset();

@@ -72,7 +72,6 @@ struct MappingSession::Members {
   std::vector<std::string> edit_complaints;
   std::vector<std::string> map_edit_complaints;  ///< those of the last export
   std::optional<SessionPrior> prior;             ///< empty without a prior map
-  std::vector<std::string> prior_complaints;     ///< walls of the prior map that the last export contradicts
   Observer observer;
   State state = State::kReading;
   MappingResult result;
@@ -85,6 +84,8 @@ struct MappingSession::Members {
   double phase_began_s = 0;  ///< value of work_s when the phase began
   double work_s = 0;         ///< time of work, without pauses between calls
   std::size_t scans = 0;
+  /// Number of entries of result.contradictions that precede those of the export.
+  std::size_t contradictions_of_mapping = 0;
   std::size_t stages_of_mapping = 0;  ///< number of entries of result.stages that precede those of the export
 };
 

@@ -145,6 +145,8 @@ TEST(PriorMap, the_plan_of_a_long_bare_corridor_corrects_its_length) {
   PriorPlaces places = PriorMap(drawn_walls(walls), {}).places(run.mapper, PriorStart{0, {2, 1.2, 0}});
   EXPECT_FALSE(places.poses.empty()) << places.objection;
   const MappingResult result = aligned(run, std::move(places));
+  std::printf("corridor %f\n", mean_error_m(result, run.truth));
+  for (const auto& c : result.contradictions) std::printf("%s\n", c.c_str());
   EXPECT_LT(mean_error_m(result, run.truth), 0.2);
 }
 

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "../local_maps/simulated_drive.h"
 #include "drawn_floor_plan.h"
 #include "mapping/mapper_options.h"
 #include "same_map.h"
@@ -120,34 +119,6 @@ TEST(PriorMap, the_plan_of_another_building_is_refused) {
     EXPECT_THAT(places.poses, IsEmpty()) << other;
     EXPECT_FALSE(places.objection.empty()) << other;
   }
-}
-
-/// A corridor of 70 m that is bare except for its ends, measured 4 % too short.
-TEST(PriorMap, the_plan_of_a_long_bare_corridor_corrects_its_length) {
-  SimulatedWalls corridor;
-  corridor.add_box(0, 0, 70, 2.4);
-  corridor.add_box(5, 0, 5.6, 0.5);
-  corridor.add_box(62, 2, 62.4, 2.4);
-  OdometryErrors errors;
-  errors.length_factor = 0.96;
-  errors.length_share = 0.05;
-  const SimulatedDrive drive = drive_along(corridor, path_along({{2, 1.2}, {66, 1.2}}, 0.2), errors, 5);
-  std::vector<PlanSegment> walls;
-  for (const SimulatedWalls::Wall& wall : corridor.walls)
-    walls.push_back({{wall.x0, wall.y0}, {wall.x1, wall.y1}});
-  MapperOptions options;
-  options.back_end.final_search.passes = 1;
-  MappedRun run{Mapper(options), {}};
-  for (const Frame& frame : drive.frames) run.mapper.add(frame);
-  run.mapper.end_log();
-  for (const mrpt::math::TPose2D& pose : drive.map_T_robot)
-    run.truth.world_T_robot.push_back(TPose2D(2, 1.2, 0) + pose);
-  PriorPlaces places = PriorMap(drawn_walls(walls), {}).places(run.mapper, PriorStart{0, {2, 1.2, 0}});
-  EXPECT_FALSE(places.poses.empty()) << places.objection;
-  const MappingResult result = aligned(run, std::move(places));
-  std::printf("corridor %f\n", mean_error_m(result, run.truth));
-  for (const auto& c : result.contradictions) std::printf("%s\n", c.c_str());
-  EXPECT_LT(mean_error_m(result, run.truth), 0.2);
 }
 
 }  // namespace

@@ -16,7 +16,6 @@
 namespace psi_slam {
 namespace {
 
-using mrpt::math::TPose2D;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;

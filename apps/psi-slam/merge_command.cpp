@@ -20,7 +20,8 @@ EditJournal edits_of_later_run(const SessionInput& input, const std::string& nam
   load_recorded(recorded, input.recording()->facts, name);
   EditJournal edits = input.edits();
   const auto frame = fixed_export_T_map(recorded.settings.map_frame);
-  if (frame && !edits.knowledge().states_frame()) edits = edits.with_frames(*frame);
+  const bool has_prior = !recorded.settings.prior.map.empty();
+  if (frame && !has_prior && !edits.knowledge().states_frame()) edits = edits.with_frames(*frame);
   const auto count = [&](const auto& condition) {
     return static_cast<std::size_t>(
         std::count_if(edits.map_edits().begin(), edits.map_edits().end(), condition));
@@ -35,7 +36,8 @@ EditJournal edits_of_later_run(const SessionInput& input, const std::string& nam
   if (without_place > 0)
     streams.err << "psi-slam: " << name << ": " << without_place
                 << (without_place == 1 ? " edit of the drawn map is" : " edits of the drawn map are")
-                << " left out, because the frame of the map, which the walls or known poses decide, is not "
+                << " left out, because the frame of the map, which the walls, known poses or a prior map "
+                   "decide, is not "
                 << "recorded. Save the session again with psi-slam --resume " << name
                 << " -o DIR --save-session FILE, and merge FILE\n";
   return edits;

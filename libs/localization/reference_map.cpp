@@ -48,6 +48,7 @@ bool ends_with(const std::string& text, const std::string& end) {
 
 constexpr double kLeastResolution_m = 0.001;
 constexpr double kMostResolution_m = 1;
+constexpr double kLeastOffset = 0.01;  // of a cell; less is rounding
 
 void check_resolution(const std::filesystem::path& path, double resolution_m) {
   if (!(resolution_m >= kLeastResolution_m && resolution_m <= kMostResolution_m))
@@ -67,9 +68,10 @@ void check_image(const std::filesystem::path& path, const std::filesystem::path&
         " does not exist, expected the image of the map. Copy the image, or correct the key image");
 }
 
-Grid read_yaml(const std::filesystem::path& path) {
+PlacedMapFile read_yaml(const std::filesystem::path& path) {
   CompressedFile readable(path, kExpected);  // throws UserError for an unreadable file
-  Grid grid;
+  PlacedMapFile map;
+  Grid& grid = map.grid;
   try {
     const auto yaml = mrpt::containers::yaml::FromFile(path.string());
     check_resolution(path, yaml["resolution"].as<double>());
@@ -82,6 +84,13 @@ Grid read_yaml(const std::filesystem::path& path) {
       throw UserError(path.string() +
                       ": the image that it names is unreadable, expected an image file such as map.pgm. "
                       "Export the map again with psi-slam");
+    const double resolution_m = yaml["resolution"].as<double>();
+    const auto offset = [&](double stated_m, float read_m) {
+      const double off_m = stated_m - static_cast<double>(read_m);
+      return std::abs(off_m) > kLeastOffset * resolution_m ? off_m : 0;
+    };
+    map.offset = {offset(yaml["origin"](0).as<double>(), grid.getXMin()),
+                  offset(yaml["origin"](1).as<double>(), grid.getYMin())};
   } catch (const UserError&) {
     throw;
   } catch (const std::exception&) {
@@ -90,7 +99,7 @@ Grid read_yaml(const std::filesystem::path& path) {
         " is not a map of map_server: expected image, resolution, origin, negate, occupied_thresh "
         "and free_thresh. Add the missing keys, or export the map again with psi-slam");
   }
-  return grid;
+  return map;
 }
 
 std::vector<char> all_bytes(const std::filesystem::path& path) {
@@ -163,19 +172,23 @@ ReferenceMap make_reference_map(const Grid& map, double search_resolution_m, dou
   return reference;
 }
 
-Grid read_map_file(const std::filesystem::path& path) {
+PlacedMapFile read_placed_map_file(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   const bool is_yaml = ends_with(name, ".yaml") || ends_with(name, ".yml");
   if (!is_yaml && !ends_with(name, ".gridmap.gz") && !ends_with(name, ".gridmap"))
     throw UserError(path.string() +
                     " is not a map: expected map.yaml or map.gridmap.gz, as psi-slam writes them. Name one "
                     "of these files");
-  Grid grid = is_yaml ? read_yaml(path) : read_gridmap(path);
-  const auto& cells = grid.getRawMap();
+  PlacedMapFile map = is_yaml ? read_yaml(path) : PlacedMapFile{read_gridmap(path)};
+  const auto& cells = map.grid.getRawMap();
   if (std::none_of(cells.begin(), cells.end(), [](Grid::cellType cell) { return cell < 0; }))
     throw UserError(path.string() +
                     ": the map has no wall, expected at least one occupied cell. Use a map with walls");
-  return grid;
+  return map;
+}
+
+Grid read_map_file(const std::filesystem::path& path) {
+  return read_placed_map_file(path).grid;
 }
 
 }  // namespace psi_slam

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/math/TPoint2D.h>
 
 #include <filesystem>
 #include <memory>
@@ -28,5 +29,15 @@ ReferenceMap make_reference_map(const mrpt::maps::COccupancyGridMap2D& map, doub
 /// decides. Throws UserError if the file is unreadable or of another kind, or if the map is rotated or has no
 /// wall.
 mrpt::maps::COccupancyGridMap2D read_map_file(const std::filesystem::path& path);
+
+/// A map, and the vector from its place by MRPT to its place by its file, in metres. MRPT moves maps by up to
+/// half a cell, so that their corners lie on multiples of the resolution.
+struct PlacedMapFile {
+  mrpt::maps::COccupancyGridMap2D grid;
+  mrpt::math::TPoint2D offset{0, 0};
+};
+
+/// Reads a map like read_map_file(), with its exact place.
+PlacedMapFile read_placed_map_file(const std::filesystem::path& path);
 
 }  // namespace psi_slam

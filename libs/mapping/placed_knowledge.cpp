@@ -167,6 +167,33 @@ void PlacedKnowledge::add_tag(const std::string& name, const FixedKnowledge& kno
   }
 }
 
+// Returns one sentence about all places in a prior map that the finished map contradicts.
+std::optional<std::string> PlacedKnowledge::contradicted_matches(const KnownLandmarks& in_graph,
+                                                                 const PoseGraph& graph,
+                                                                 double max_chi) const {
+  std::size_t matched = 0;
+  std::size_t contradicted = 0;
+  const KnownPose* worst = nullptr;
+  KnownResidual worst_off;
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    const std::optional<KnownPose>& pose = origins_[i].pose;
+    if (!pose || !pose->is_matched) continue;
+    ++matched;
+    const KnownResidual off = in_graph.place_residual(i, graph);
+    if (in_graph.uses_place(i, graph) && off.chi <= max_chi) continue;
+    ++contradicted;
+    if (worst != nullptr && off.distance_m <= worst_off.distance_m) continue;
+    worst = &*pose;
+    worst_off = off;
+  }
+  if (worst == nullptr) return std::nullopt;
+  const TPose2D& place = worst->site_T_robot.pose;
+  return sentence_start(worst->source) + "the scans contradict this map at " + std::to_string(contradicted) +
+         " of " + std::to_string(matched) + " places of the robot, most at x " + fixed_text(place.x, 1) +
+         " m, y " + fixed_text(place.y, 1) + " m, where it is off by " + text_of(worst_off) +
+         ". Check the walls there, and prior.sigma_m";
+}
+
 std::vector<std::string> PlacedKnowledge::contradictions(const KnownLandmarks& in_graph,
                                                          const PoseGraph& graph, double max_chi) const {
   std::vector<std::string> sentences = complaints_;
@@ -180,9 +207,11 @@ std::vector<std::string> PlacedKnowledge::contradictions(const KnownLandmarks& i
                           " in the finished map, " + fixed_text(off.chi, 1) +
                           " stated standard deviations. Check it and its sigma_m and sigma_deg");
   };
+  if (auto sentence = contradicted_matches(in_graph, graph, max_chi))
+    sentences.push_back(*std::move(sentence));
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     const Origin& origin = origins_[i];
-    if (origin.pose)
+    if (origin.pose && !origin.pose->is_matched)
       judge(origin.pose->source, "the pose at " + time_text(origin.pose->time_us), "the other known poses",
             in_graph.uses_place(i, graph), in_graph.place_residual(i, graph));
     if (origin.place)

@@ -44,6 +44,8 @@ class PlacedKnowledge {
     std::vector<TagSighting> sightings;
   };
 
+  std::optional<std::string> contradicted_matches(const KnownLandmarks& in_graph, const PoseGraph& graph,
+                                                  double max_chi) const;
   void add_pose(const KnownPose& pose, const std::optional<Moment>& moment);
   void add_tag(const std::string& name, const FixedKnowledge& knowledge,
                const std::vector<std::pair<TagSighting, Moment>>& sightings);

@@ -16,10 +16,13 @@
 
 #include "mapping/mapper_options.h"
 #include "mrpt/entry_frames.h"
+#include "mrpt/initial_map.h"
 #include "observations/mrpt_objects.h"
 #include "pose_graph/newest_covariance.h"
+#include "pose_graph/shared_errors.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/user_error.h"
+#include "rendering/extended_map.h"
 #include "rendering/live_grid_map.h"
 #include "rendering/live_poses.h"
 #include "rendering/map_image.h"
@@ -65,6 +68,8 @@ struct CMetricMapBuilderPsi::Implementation {
 
   void start(const CPosePDFGaussian& map_T_start) {
     start_ = map_T_start;
+    initial_.reset();
+    is_aligned_ = false;
     mapper_ = std::make_unique<Mapper>(mapper_options_);
     entries_.emplace(options_.log, "CMetricMapBuilderPsi");
     waiting_observations_.clear();
@@ -110,21 +115,56 @@ struct CMetricMapBuilderPsi::Implementation {
       if (!mapper_->add(*std::move(frame)).node) continue;
       node_frames_.push_back(index);
       node_observations_.push_back(kept);
+      follow_initial_map();
     }
   }
 
-  void finish() {
-    if (finished_) return;
+  // Moves the map to the place of the robot in the initial map, if the newest node shows it.
+  void follow_initial_map() {
+    if (!initial_) return;
+    const std::optional<MeasuredPose> initial_T_run = initial_->follow(*mapper_);
+    if (!initial_T_run) return;
+    Eigen::Matrix3d covariance = initial_T_run->further;
+    const double sigma_m = initial_T_run->sigma_m;
+    const double sigma_rad = initial_T_run->sigma_rad.value_or(0);
+    covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
+    start_ = CPosePDFGaussian(CPose2D(initial_T_run->pose), mrpt::math::CMatrixDouble33(covariance));
+  }
+
+  // Lets the mapper place the run in the initial map. Returns why it cannot, a sentence.
+  std::optional<std::string> align() {
+    if (!initial_) return std::nullopt;
+    mapper_->end_log();
+    PriorPlaces places = initial_->places(*mapper_);
+    if (!places.objection.empty())
+      return "the run does not fit initial_map: " + places.objection + ". The map contains the run alone";
+    FixedKnowledge knowledge;
+    knowledge.poses = std::move(places.poses);
+    mapper_->set_knowledge(std::move(knowledge));
+    start_ = CPosePDFGaussian();
+    is_aligned_ = true;
+    return std::nullopt;
+  }
+
+  // Returns what contradicts the initial map, as sentences.
+  std::vector<std::string> finish() {
+    if (finished_) return {};
     entries_->end_of_log();
     map_ready_scans();
+    const std::optional<std::string> refusal = align();
     MappingResult result = mapper_->finish();
+    if (refusal) result.contradictions.push_back(*refusal);
     graph_ = mapper_->graph();
     mapper_.reset();
     newest_covariance_ = {};
     log_ = std::move(result.log);
     frames_ = std::move(result.frames);
     finished_ = true;
+    return std::move(result.contradictions);
   }
+
+  // Whether poses are in the frame of an initial map.
+  bool shows_initial_map() const { return finished_ ? is_aligned_ : initial_ && initial_->is_found(); }
 
   const std::vector<Frame>& log() const { return finished_ ? log_ : mapper_->log(); }
   const std::vector<FrameRecord>& frames() const { return finished_ ? frames_ : mapper_->frames(); }
@@ -133,7 +173,8 @@ struct CMetricMapBuilderPsi::Implementation {
   CPosePDFGaussian estimate() const {
     if (frames().empty()) return start_;
     CPosePDFGaussian robot(CPose2D(frames().back().map_T_robot));
-    Eigen::Matrix3d covariance = newest_covariance_.update(graph());
+    Eigen::Matrix3d covariance = is_aligned_ ? pose_covariance(graph(), node_observations_.size() - 1)
+                                             : newest_covariance_.update(graph());
     const double sigma_m = mapper_options_.local_map_sigma_m;
     const double sigma_rad = mapper_options_.local_map_sigma_rad;
     covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
@@ -154,7 +195,11 @@ struct CMetricMapBuilderPsi::Implementation {
   // the object of an earlier call if only the metric map holds it and `may_change_metric_map` is true.
   COccupancyGridMap2D::Ptr up_to_date_grid(bool may_change_metric_map) const {
     if (!finished_) return live_grid(may_change_metric_map);
-    if (!drawn_finished_) drawn_grid_ = draw_grid_map(log_, final_poses(), options_.map);
+    if (!drawn_finished_) {
+      drawn_grid_ = draw_grid_map(log_, final_poses(), options_.map);
+      if (is_aligned_ && drawn_grid_->getResolution() == initial_->grid().getResolution())
+        drawn_grid_ = extended_map(initial_->grid(), *drawn_grid_);
+    }
     drawn_finished_ = true;
     return drawn_grid_;
   }
@@ -199,7 +244,9 @@ struct CMetricMapBuilderPsi::Implementation {
   mutable std::mutex mutex_;  // protects all members below
 
   CPosePDFGaussian start_;
-  std::unique_ptr<Mapper> mapper_;  // null after finish()
+  std::optional<InitialMap> initial_;  // empty without an initial map
+  bool is_aligned_ = false;            // whether the finished map has the frame of the initial map
+  std::unique_ptr<Mapper> mapper_;     // null after finish()
   std::optional<EntryFrames> entries_;
   // Observations that are not mapped yet. Each entry has the index of the scan with which these arrived.
   std::deque<std::pair<std::size_t, CSensoryFrame::Ptr>> waiting_observations_;
@@ -234,11 +281,13 @@ CMetricMapBuilderPsi::~CMetricMapBuilderPsi() = default;
 void CMetricMapBuilderPsi::initialize(const mrpt::maps::CSimpleMap& initial_map,
                                       const mrpt::poses::CPosePDF* x0) {
   const std::lock_guard<std::mutex> lock(implementation_->mutex_);
+  Implementation& m = *implementation_;
+  std::optional<InitialMap> initial;
   if (!initial_map.empty())
-    throw UserError("CMetricMapBuilderPsi::initialize: initial_map has " +
-                    std::to_string(initial_map.size()) +
-                    " frames. Give an empty map: psi-slam cannot extend an earlier map.");
-  implementation_->start(x0 != nullptr ? CPosePDFGaussian(*x0) : implementation_->estimate());
+    initial.emplace(initial_map, m.options_.log, m.options_.map, m.mapper_options_.back_end.loop_consensus);
+  m.start(x0 != nullptr ? CPosePDFGaussian(*x0) : m.estimate());
+  m.initial_ = std::move(initial);
+  if (m.initial_ && x0 != nullptr) m.initial_->start_at(m.start_.mean.asTPose());
 }
 
 void CMetricMapBuilderPsi::processActionObservation(mrpt::obs::CActionCollection& action,
@@ -264,7 +313,7 @@ void CMetricMapBuilderPsi::processObservation(const CObservation::Ptr& observati
 
 void CMetricMapBuilderPsi::finish() {
   const std::lock_guard<std::mutex> lock(implementation_->mutex_);
-  implementation_->finish();
+  for (const std::string& sentence : implementation_->finish()) logStr(mrpt::system::LVL_WARN, sentence);
 }
 
 mrpt::poses::CPose3DPDF::Ptr CMetricMapBuilderPsi::getCurrentPoseEstimation() const {
@@ -278,6 +327,7 @@ void CMetricMapBuilderPsi::getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& out_map)
   mrpt::math::CMatrixDouble33 covariance = mrpt::math::CMatrixDouble33::Zero();
   covariance.setDiagonal(3, 1e-6);
   out_map.clear();
+  if (m.shows_initial_map()) out_map = m.initial_->frames();
   for (std::size_t node = 0; node < m.node_observations_.size(); ++node) {
     const CPose2D pose(m.start_.mean.asTPose() + m.graph().pose(node));
     out_map.insert(CPosePDFGaussian::Create(pose, covariance), m.node_observations_[node]);
@@ -286,7 +336,9 @@ void CMetricMapBuilderPsi::getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& out_map)
 
 unsigned int CMetricMapBuilderPsi::getCurrentlyBuiltMapSize() {
   const std::lock_guard<std::mutex> lock(implementation_->mutex_);
-  return static_cast<unsigned int>(implementation_->node_observations_.size());
+  const Implementation& m = *implementation_;
+  const std::size_t earlier = m.shows_initial_map() ? m.initial_->frames().size() : 0;
+  return static_cast<unsigned int>(earlier + m.node_observations_.size());
 }
 
 #if MRPT_VERSION >= 0x292

@@ -40,14 +40,28 @@ constexpr double kMostDriftOfFew = 100;
 constexpr double kMostDrift = 1e4;
 constexpr std::size_t kManyPairs = 6;  // of four marks
 
+Matrix3d covariance_of(const MeasuredPose& measured) {
+  const double of_heading = measured.sigma_rad.value_or(0);
+  const double of_position = measured.sigma_m * measured.sigma_m;
+  return Matrix3d(Vector3d(of_position, of_position, of_heading * of_heading).asDiagonal()) +
+         measured.further;
+}
+
+Matrix3d information_of(const MeasuredPose& measured) {
+  Matrix3d information = Matrix3d::Zero();
+  if (measured.sigma_rad)
+    information = noisy_information(measured.further, measured.sigma_m, *measured.sigma_rad);
+  else
+    information.topLeftCorner<2, 2>() = covariance_of(measured).topLeftCorner<2, 2>().inverse();
+  return information;
+}
+
 Constraint known_constraint(std::size_t from, std::size_t to, const MeasuredPose& from_T_to, double weight) {
   Constraint constraint;
   constraint.from = from;
   constraint.to = to;
   constraint.from_T_to = from_T_to.pose;
-  const double of_position = weight / (from_T_to.sigma_m * from_T_to.sigma_m);
-  const double of_heading = from_T_to.sigma_rad ? weight / (*from_T_to.sigma_rad * *from_T_to.sigma_rad) : 0;
-  constraint.information = Vector3d(of_position, of_position, of_heading).asDiagonal();
+  constraint.information = weight * information_of(from_T_to);
   constraint.kind = Constraint::Kind::kKnown;
   constraint.kernel = RobustKernel{RobustKernel::Type::kHuber, kKnownKernelWidth * std::sqrt(weight)};
   return constraint;
@@ -97,11 +111,6 @@ Vector3d disagreement(const Poses& poses, Comparison comparison) {
   return difference(by_graph, by_site);
 }
 
-Vector3d variances(const MeasuredPose& measured) {
-  const double of_heading = measured.sigma_rad.value_or(0);
-  return {measured.sigma_m * measured.sigma_m, measured.sigma_m * measured.sigma_m, of_heading * of_heading};
-}
-
 // Difference between the relative pose of two marks by the graph and by their places, and its covariance.
 struct Disagreement {
   Eigen::VectorXd error;
@@ -137,13 +146,15 @@ Disagreement disagreement_of(const SeenMark& a, const SeenMark& b, const TPose2D
     step.z() = wrap_to_pi(step.z());
     jacobian.col(i) = step / (2 * kStep);
   }
-  Eigen::Matrix<double, 12, 1> of_statements;
-  of_statements << variances(a.node_T_mark), variances(b.node_T_mark), variances(a.site_T_mark),
-      variances(b.site_T_mark);
+  Eigen::Matrix<double, 12, 12> of_statements = Eigen::Matrix<double, 12, 12>::Zero();
+  of_statements.block<3, 3>(0, 0) = covariance_of(a.node_T_mark);
+  of_statements.block<3, 3>(3, 3) = covariance_of(b.node_T_mark);
+  of_statements.block<3, 3>(6, 6) = covariance_of(a.site_T_mark);
+  of_statements.block<3, 3>(9, 9) = covariance_of(b.site_T_mark);
   const Eigen::Matrix<double, 3, 3> by_graph = jacobian.leftCols<3>();
   const Eigen::Matrix<double, 3, 12> by_statements = jacobian.rightCols<12>();
   const Matrix3d drift = by_graph * covariance * by_graph.transpose();
-  const Matrix3d statements = by_statements * of_statements.asDiagonal() * by_statements.transpose();
+  const Matrix3d statements = by_statements * of_statements * by_statements.transpose();
   const int size = dimensions(comparison);
   return {disagreement(poses, comparison).head(size), drift.topLeftCorner(size, size),
           statements.topLeftCorner(size, size) + kLeastVariance * MatrixXd::Identity(size, size)};

@@ -72,6 +72,7 @@ MappingSession::MappingSession(const SessionInput& input, const Settings& settin
   m_->mapper = std::make_unique<Mapper>(options_for(input, settings));
   m_->edits = input.edits();
   m_->check_knowledge({});
+  if (!settings.prior.map.empty()) m_->prior.emplace(settings);
   m_->make_due_edits({});
   if (m_->recording) m_->later_runs = m_->recording->facts.runs;
 }
@@ -190,8 +191,13 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
     clock.resume();
     return goes_on;
   };
-  m.mapper->set_knowledge(m.edits.knowledge());
+  FixedKnowledge knowledge = m.edits.knowledge();
+  std::optional<std::string> refusal;
+  if (m.prior) refusal = m.prior->place(*m.mapper, knowledge);
+  m.mapper->set_knowledge(std::move(knowledge));
   m.result = m.mapper->finish(progress, m.after_finish);
+  if (refusal) m.result.contradictions.push_back(*std::move(refusal));
+  m.contradictions_of_mapping = m.result.contradictions.size();
   m.check_log();
   m.enter(Members::State::kFinished);
   if (m.after_finish == Mapper::AfterFinish::kNothing) m.mapper.reset();
@@ -240,6 +246,7 @@ void MappingSession::Members::check_knowledge(const EditJournal& further) const 
   all.add(further);
   check_tags(all.knowledge());
   check_frame(settings.map_frame, all.knowledge());
+  check_prior(settings, all.knowledge());
 }
 
 void MappingSession::Members::make_due_edits(EditTime now) {

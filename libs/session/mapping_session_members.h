@@ -17,6 +17,7 @@
 #include "session/edit_journal.h"
 #include "session/session_input.h"
 #include "session/session_journal.h"
+#include "session/session_prior.h"
 #include "session/session_recording.h"
 #include "session/settings.h"
 
@@ -70,6 +71,7 @@ struct MappingSession::Members {
   EditJournal edits;
   std::vector<std::string> edit_complaints;
   std::vector<std::string> map_edit_complaints;  ///< those of the last export
+  std::optional<SessionPrior> prior;             ///< empty without a prior map
   Observer observer;
   State state = State::kReading;
   MappingResult result;
@@ -82,6 +84,8 @@ struct MappingSession::Members {
   double phase_began_s = 0;  ///< value of work_s when the phase began
   double work_s = 0;         ///< time of work, without pauses between calls
   std::size_t scans = 0;
+  /// Number of entries of result.contradictions that precede those of the export.
+  std::size_t contradictions_of_mapping = 0;
   std::size_t stages_of_mapping = 0;  ///< number of entries of result.stages that precede those of the export
 };
 

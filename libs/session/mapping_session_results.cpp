@@ -80,6 +80,11 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
   drawing_clock.time([&] {
     grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map);
+    m.result.contradictions.resize(m.contradictions_of_mapping);
+    if (m.prior)
+      for (std::string& sentence : m.prior->compare(*grid))
+        m.result.contradictions.push_back(std::move(sentence));
+    if (m.prior && m.settings.prior.extend) grid = m.prior->extended(*grid);
     m.map_edit_complaints = apply_map_edits(placed.edits, *grid);
   });
   for (const MapEdit& edit : placed.without_place)

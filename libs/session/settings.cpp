@@ -160,6 +160,24 @@ void describe_map_frame(OptionTable& table, MapFrameOptions& frame) {
               "Coordinate y of the point of the turned map that becomes its origin.");
 }
 
+void describe_prior(OptionTable& table, PriorOptions& prior) {
+  table.section("prior", "A floor plan or an earlier map, with which the run is aligned")
+      .text("map", prior.map,
+            "File of the prior map: map.yaml with its image, map.gridmap.gz, or a floor plan in DXF. The "
+            "exported map has its frame. Empty: no prior map.")
+      .number("sigma_m", prior.sigma_m, between(0.001, 10), "m",
+              "Standard deviation of the walls of the prior map: how well it is measured.")
+      .flag("extend", prior.extend,
+            "The exported map keeps all known cells of the prior map, and the run only adds what it saw "
+            "beyond. false: the exported map shows the run alone.")
+      .optional_number("metres_per_unit", prior.metres_per_unit, between(1e-6, 1000), "m",
+                       "DXF: length of a unit of the drawing, such as 0.001 for millimetres. auto: as the "
+                       "drawing states.")
+      .text("layers", prior.layers,
+            "DXF: layers with walls, separated by commas. Layers of furniture, doors and dimensions are "
+            "best left out. Empty: all layers.");
+}
+
 void describe_live(OptionTable& table, Settings& settings) {
   table.section("live", "Mapping while the robot drives")
       .integer("latency_nodes", settings.mapper.latency_nodes, between(0, 1000), "nodes",
@@ -211,6 +229,7 @@ void describe(OptionTable& table, Settings& settings) {
   describe_map(table, settings.map);
   describe_map_files(table, settings.map_files);
   describe_map_frame(table, settings.map_frame);
+  describe_prior(table, settings.prior);
   describe_localization(table, settings.localization);
   describe_live(table, settings);
   describe_run(table, settings.run);

@@ -48,6 +48,15 @@ struct MapFrameOptions {
   double origin_y_m = 0;
 };
 
+/// A map known before the run, with which the run is aligned.
+struct PriorOptions {
+  std::string map;                        ///< file of the prior map; empty: none
+  double sigma_m = 0.05;                  ///< standard deviation of its walls
+  bool extend = false;                    ///< whether the exported map keeps the cells of the prior map
+  std::optional<double> metres_per_unit;  ///< unit of a DXF drawing; empty: as the drawing states
+  std::string layers;                     ///< layers of a DXF drawing with walls; empty: all
+};
+
 struct Settings {
   LogOptions log;  ///< without robot_T_laser: log_options() takes it from `laser_mount`
   LaserMount laser_mount;
@@ -55,6 +64,7 @@ struct Settings {
   GridMapOptions map;
   MapFileOptions map_files;
   MapFrameOptions map_frame;
+  PriorOptions prior;
   /// Without the options that localizer_options() takes from `mapper` and `run`.
   LocalizerOptions localization;
   LiveOptions live;

@@ -21,12 +21,18 @@ struct TrueRun {
   std::vector<mrpt::math::TPose2D> world_T_robot;  ///< true pose of the robot at each frame
 };
 
+/// Options of the floor plan of a building.
+inline FloorPlanOptions plan_options(std::uint64_t plan) {
+  FloorPlanOptions options = simulated_log_options(1, 1).plan;
+  options.seed = plan;
+  options.corridors_m = 90;
+  return options;
+}
+
 /// Simulates a run through a building. `plan` is the seed of the building, `run` the seed of path and noise.
 inline TrueRun run_through(std::uint64_t plan, std::uint64_t run, double path_m) {
-  constexpr double kCorridors_m = 90;
   SimulatedLogOptions options = simulated_log_options(path_m, run);
-  options.plan.seed = plan;
-  options.plan.corridors_m = kCorridors_m;
+  options.plan = plan_options(plan);
   options.path.scan_rate_hz = 4;
   SimulatedLog log(options);
   TrueRun result;

@@ -285,19 +285,70 @@ TEST(MetricMapBuilderPsi, initialize_begins_another_map) {
   expect_pose(estimate_of(builder).mean.asTPose(), first);  // without a given start, the estimate stays
 }
 
-TEST(MetricMapBuilderPsi, an_initial_map_is_an_error) {
+// Returns the map of a run that starts at `start`, from its first scans.
+mrpt::maps::CSimpleMap first_map(const TPose2D& start, std::size_t scans) {
   CMetricMapBuilderPsi builder;
-  process_as_actions(builder, observed_drive(30));
+  mrpt::math::CMatrixDouble33 covariance = mrpt::math::CMatrixDouble33::Zero();
+  covariance.setDiagonal(3, 1e-6);
+  const mrpt::poses::CPosePDFGaussian x0(CPose2D(start), covariance);
+  builder.initialize({}, &x0);
+  process_as_actions(builder, observed_drive(scans));
+  builder.finish();
   mrpt::maps::CSimpleMap map;
   builder.getCurrentlyBuiltMap(map);
-  ASSERT_FALSE(map.empty());
+  return map;
+}
+
+// Two thirds of the way round the office are the initial map; the run goes all the way round.
+TEST(MetricMapBuilderPsi, an_initial_map_is_extended_in_its_frame) {
+  const TPose2D start(10, -5, 2);
+  const mrpt::maps::CSimpleMap initial = first_map(start, 450);
+  const SimulatedDrive drive = observed_drive(700);
+  for (const bool is_start_known : {true, false}) {
+    CMetricMapBuilderPsi builder;
+    mrpt::math::CMatrixDouble33 covariance = mrpt::math::CMatrixDouble33::Zero();
+    covariance.setDiagonal(3, 0.01);
+    const mrpt::poses::CPosePDFGaussian x0(CPose2D(start + TPose2D(0.2, -0.1, 0.05)), covariance);
+    builder.initialize(initial, is_start_known ? &x0 : nullptr);
+    process_as_actions(builder, drive);
+    expect_pose(estimate_of(builder).mean.asTPose(), start + drive.map_T_robot[drive.frames.size() - 1], 0.2);
+    builder.finish();
+    expect_pose(estimate_of(builder).mean.asTPose(), start + drive.map_T_robot[drive.frames.size() - 1],
+                0.06);
+    EXPECT_GT(estimate_of(builder).cov(0, 0), 0);
+    const std::vector<TPose2D> poses = node_poses(builder);
+    ASSERT_GT(poses.size(), 2 * initial.size());
+    EXPECT_EQ(poses.size(), builder.getCurrentlyBuiltMapSize());
+    expect_pose(poses[initial.size()], start, 0.06);
+
+    const auto grid = builder.grid();
+    const auto far = start + TPose2D(drive.map_T_robot[650].x, drive.map_T_robot[650].y, 0);
+    EXPECT_GT(grid->getPos(static_cast<float>(far.x), static_cast<float>(far.y)), 0.6F);
+  }
+}
+
+TEST(MetricMapBuilderPsi, a_run_elsewhere_does_not_extend_the_initial_map) {
+  const mrpt::maps::CSimpleMap initial = first_map({0, 0, 0}, 100);
+  CMetricMapBuilderPsi builder;
+  builder.initialize(initial);
+  SimulatedDrive room = drive_along(furnished_room(), path_along({{1, 3}, {6, 3}, {6, 1}, {3, 2}}), {}, 3);
+  process_as_actions(builder, room);
+  builder.finish();
+  expect_pose(estimate_of(builder).mean.asTPose(), room.map_T_robot.back(), 0.1);
+  EXPECT_EQ(node_poses(builder).size(), builder.getCurrentlyBuiltMapSize());
+  expect_pose(node_poses(builder).front(), {0, 0, 0}, 1e-6);
+}
+
+TEST(MetricMapBuilderPsi, an_initial_map_without_scans_is_refused) {
+  CMetricMapBuilderPsi builder;
+  mrpt::maps::CSimpleMap map;
+  map.insert(mrpt::poses::CPosePDFGaussian::Create(), CSensoryFrame::Create());
   try {
     builder.initialize(map);
     FAIL() << "no exception";
   } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("has " + std::to_string(map.size()) + " frames. Give an empty map"));
+    EXPECT_THAT(error.what(), HasSubstr("has 1 frames, but no return of a 2D range scan"));
   }
-  EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), map.size()) << "the builder has not changed";
 }
 
 TEST(MetricMapBuilderPsi, its_metric_map_is_one_grid_drawn_when_asked_for) {

@@ -73,6 +73,15 @@ TEST(KnownLandmarks, two_poses_correct_the_scale) {
   EXPECT_EQ(graph.pose(graph.root()).x, 500'000) << "the root is a point of the site";
 }
 
+TEST(KnownLandmarks, a_further_covariance_makes_a_pose_weak_along_one_axis) {
+  PoseGraph graph = short_drive();
+  Landmark weak = known_pose(80, site_T_node(80));
+  weak.site_T_mark->further(1, 1) = 25;  // along the way
+  settled({known_pose(0, site_T_node(0)), weak}, graph);
+  EXPECT_NEAR(graph.pose(80).x, site_T_node(80).x, 0.05);
+  EXPECT_GT(std::abs(graph.pose(80).y - site_T_node(80).y), 0.6) << "0.02 m without the weakness";
+}
+
 TEST(KnownLandmarks, positions_alone_turn_the_map_into_the_site) {
   PoseGraph graph = short_drive();
   settled({known_position(5), known_position(40), known_position(76)}, graph);

@@ -70,8 +70,9 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
   const std::size_t localization = member_count<LocalizerOptions>() - 4 +
                                    member_count<GlobalSearchOptions>() - 4 +
                                    member_count<ScanContextOptions>();
-  const std::size_t others = member_count<GridMapOptions>() + member_count<MapFrameOptions>() + files +
-                             member_count<LiveOptions>() + member_count<RunOptions>() + localization;
+  const std::size_t others = member_count<GridMapOptions>() + member_count<MapFrameOptions>() +
+                             member_count<PriorOptions>() + files + member_count<LiveOptions>() +
+                             member_count<RunOptions>() + localization;
   EXPECT_EQ(described(), log + mapper + others)
       << "a struct of options has a member that describe() of settings.cpp does not know";
 }

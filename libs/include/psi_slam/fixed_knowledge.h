@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Poses and places known from outside: a dock, a position by GPS, a surveyed start, AprilTags. They place
-/// the map in the frame in which they are stated, here called the frame of the site, and correct its drift.
+/// Poses and places known from outside: a dock, a position by GPS, a surveyed start, AprilTags, places in a
+/// floor plan. They place the map in the frame in which they are stated, here called the frame of the site,
+/// and correct its drift.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -21,6 +23,8 @@ struct MeasuredPose {
   double sigma_m = 0;        ///< standard deviation of x and of y, metres, > 0
   std::optional<double>
       sigma_rad{};  ///< standard deviation of the heading, radians, > 0; empty: unknown heading
+  /// Covariance that is added to these variances, along the axes of the frame of the pose: m^2, m rad, rad^2.
+  Eigen::Matrix3d further = Eigen::Matrix3d::Zero();
 };
 
 /// Pose or position of the robot at a time.
@@ -30,6 +34,7 @@ struct KnownPose {
   std::size_t from_scan =
       0;                 ///< first scan of the run that the time belongs to; 0: the first run with the time
   std::string source{};  ///< where this is stated, such as "my.edits:3", for messages
+  bool is_matched = false;  ///< found by matching with a prior map, not stated by a person
 };
 
 /// Known place of a tag: a mark at a fixed place that a sensor of the robot recognises.

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Floor plans in DXF files.
+#pragma once
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace psi_slam {
+
+struct PlanDrawingOptions {
+  double resolution_m = 0.05;             ///< side of a cell
+  std::optional<double> metres_per_unit;  ///< empty: the unit that the drawing states, $INSUNITS
+  std::string layers;                     ///< layers with walls, separated by commas; empty: all
+};
+
+/// Returns whether a file name ends in .dxf, in upper or lower case.
+bool is_plan_drawing(const std::filesystem::path& path);
+
+/// Draws the lines of a DXF file as walls into free space. The map has the drawing's origin and axes. Throws
+/// UserError if the file is unreadable, if its unit is unknown, or if the chosen layers have no lines or an
+/// implausible extent.
+mrpt::maps::COccupancyGridMap2D read_plan_drawing(const std::filesystem::path& path,
+                                                  const PlanDrawingOptions& options);
+
+}  // namespace psi_slam

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The prior map of a mapping session: settings [prior].
+#pragma once
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "localization/prior_map.h"
+#include "localization/reference_map.h"
+#include "psi_slam/fixed_knowledge.h"
+#include "psi_slam/mapper.h"
+#include "session/settings.h"
+
+namespace psi_slam {
+
+/// Throws UserError if a prior map contradicts other settings or the knowledge, because both state the frame
+/// of the map, or if prior.extend lacks a prior map.
+void check_prior(const Settings& settings, const FixedKnowledge& knowledge);
+
+class SessionPrior {
+ public:
+  /// Reads the prior map. Throws UserError if its file is unreadable, or if the map cannot be extended.
+  explicit SessionPrior(const Settings& settings);
+
+  /// Adds the places of the run in the prior map to the knowledge. Returns why the run cannot be aligned, one
+  /// sentence; empty if it is aligned.
+  std::optional<std::string> place(const Mapper& mapper, FixedKnowledge& knowledge);
+
+  /// Returns the walls of the prior map that the finished map shows as free space, as sentences. Empty if the
+  /// run is not aligned.
+  std::vector<std::string> compare(const mrpt::maps::COccupancyGridMap2D& map) const;
+
+  /// Returns the prior map with the cells of `map` where the prior map is unknown; a copy of `map` if the run
+  /// is not aligned. Both maps must have equal cells.
+  mrpt::maps::COccupancyGridMap2D::Ptr extended(const mrpt::maps::COccupancyGridMap2D& map) const;
+
+ private:
+  PriorOptions options_;
+  PlacedMapFile file_;
+  PriorMap map_;
+  bool is_aligned_ = false;
+};
+
+}  // namespace psi_slam

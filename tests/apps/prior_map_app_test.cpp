@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tests whole runs of psi-slam with a prior map.
+#include <gmock/gmock.h>
+
+#include <mrpt/math/TPoint2D.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "../session/room_log.h"
+#include "app_run.h"
+#include "localization/reference_map.h"
+#include "temporary_folder.h"
+#include "test_files.h"
+#include "trajectory/trajectory_file.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr int kScansOfRound = 50;
+
+class PriorMapApp : public testing::Test {
+ protected:
+  void SetUp() override { write_lines(log_, room_log_lines(60, kScansOfRound)); }
+
+  std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+
+  AppRun map(const std::string& out, std::vector<std::string> more) const {
+    more.insert(more.end(), {"-q", "-o", path(out).string()});
+    return run_app(more);
+  }
+
+  /// Maps another log of the room in the frame of the room, with these edits of the drawn map.
+  std::string prior_map(const std::string& edits) const {
+    write_lines(path("prior.log"), room_log_lines(100, 100));
+    std::string lines;
+    for (const int scan : {0, 30, 60}) {
+      const mrpt::math::TPose2D pose = room_pose(2 * M_PI * scan / 100);
+      lines += "pose time_s=" + std::to_string(1000 + 0.2 * scan) + " x_m=" + std::to_string(pose.x) +
+               " y_m=" + std::to_string(pose.y) + " yaw_deg=" + std::to_string(pose.phi * 180 / M_PI) +
+               " sigma_m=0.01 sigma_deg=0.5\n";
+    }
+    write_file(path("prior.edits"), lines + edits);
+    const AppRun run = map("prior", {path("prior.log").string(), "--edits", path("prior.edits").string()});
+    EXPECT_EQ(run.code, 0) << run.err;
+    return "prior.map=" + (path("prior") / "map.yaml").string();
+  }
+
+  /// Largest distance of a pose of the run from its true place in the room.
+  double worst_m(const std::string& out) const {
+    const Trajectory trajectory = read_trajectory(path(out) / "trajectory.tum");
+    EXPECT_EQ(trajectory.size(), 60U);
+    double worst = 0;
+    for (std::size_t i = 0; i < trajectory.size(); ++i) {
+      const mrpt::math::TPose2D truth = room_pose(2 * M_PI * static_cast<double>(i) / kScansOfRound);
+      worst = std::max(worst, std::hypot(trajectory[i].pose.x - truth.x, trajectory[i].pose.y - truth.y));
+    }
+    return worst;
+  }
+
+  void expect_same_files(const std::string& a, const std::string& b) const {
+    for (const char* name : {"map.pgm", "map.yaml", "trajectory.csv", "graph.g2o"}) {
+      const std::string bytes = read_file(path(a) / name);
+      EXPECT_FALSE(bytes.empty()) << name;
+      EXPECT_EQ(read_file(path(b) / name), bytes) << name << " of " << b;
+    }
+  }
+
+  TemporaryFolder folder_;
+  const std::filesystem::path log_ = folder_.path() / "room.log";
+};
+
+TEST_F(PriorMapApp, the_run_gets_the_frame_of_the_prior_map_and_repeats_to_the_last_byte) {
+  const std::string prior = prior_map("");
+  const AppRun run = map(
+      "a", {log_.string(), "--set", prior, "--set", "run.threads=1", "--save-session", path("s").string()});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, Not(HasSubstr("map.yaml")));
+  EXPECT_LT(worst_m("a"), 0.06);
+  ASSERT_EQ(map("b", {log_.string(), "--set", prior, "--set", "run.threads=3"}).code, 0);
+  expect_same_files("a", "b");
+  ASSERT_EQ(map("c", {"--resume", path("s").string()}).code, 0);
+  expect_same_files("a", "c");
+}
+
+TEST_F(PriorMapApp, walls_that_are_not_there_are_named_and_missing_furniture_is_not) {
+  // The prior map lacks the pillar, and has a wall that the scans see through.
+  const std::string prior =
+      prior_map("erase polygon=4.7,2.7;7.7,2.7;7.7,5.3;4.7,5.3\nwall line=9,3;9,5 width_m=0.1\n");
+  const AppRun run = map("a", {log_.string(), "--set", prior});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("the scans see free space at 1 wall of this map: 2."),
+                             HasSubstr("m from x 9.0 m, y "), HasSubstr("to x 9.0 m, y ")));
+  EXPECT_LT(worst_m("a"), 0.06);
+}
+
+/// A DXF drawing of the room in millimetres, on the layer WALLS. A diagonal across the room is on DIMENSIONS.
+std::string room_drawing(const std::string& header) {
+  std::string dxf = header + "0\nSECTION\n2\nENTITIES\n";
+  const auto add = [&](const std::string& layer, double x0, double y0, double x1, double y1) {
+    dxf += "0\nLINE\n8\n" + layer + "\n10\n" + std::to_string(1000 * x0) + "\n20\n" +
+           std::to_string(1000 * y0) + "\n11\n" + std::to_string(1000 * x1) + "\n21\n" +
+           std::to_string(1000 * y1) + "\n";
+  };
+  const std::vector<mrpt::math::TPoint2D> walls{{0, 0},   {12, 0}, {12, 8}, {7, 8}, {7, 9.5},
+                                                {4, 9.5}, {4, 8},  {0, 8},  {0, 0}};
+  for (std::size_t i = 0; i + 1 < walls.size(); ++i)
+    add("WALLS", walls[i].x, walls[i].y, walls[i + 1].x, walls[i + 1].y);
+  add("DIMENSIONS", 0, 0, 12, 8);
+  return dxf + "0\nENDSEC\n0\nEOF\n";
+}
+
+TEST_F(PriorMapApp, a_drawing_without_the_pillar_states_the_frame) {
+  write_file(path("room.dxf"), room_drawing("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n"));
+  write_file(path("unitless.dxf"), room_drawing(""));
+  const auto with = [&](const std::string& file) { return "prior.map=" + path(file).string(); };
+  const AppRun run = map("a", {log_.string(), "--set", with("room.dxf"), "--set", "prior.layers=WALLS"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, Not(HasSubstr("room.dxf")));
+  EXPECT_LT(worst_m("a"), 0.08);
+  const AppRun unitless = map("b", {log_.string(), "--set", with("unitless.dxf")});
+  EXPECT_EQ(unitless.code, 2);
+  EXPECT_THAT(unitless.err, HasSubstr("states no unit of length"));
+  ASSERT_EQ(map("c", {log_.string(), "--set", with("unitless.dxf"), "--set", "prior.layers=WALLS", "--set",
+                      "prior.metres_per_unit=0.001"})
+                .code,
+            0);
+  EXPECT_EQ(read_file(path("c") / "trajectory.csv"), read_file(path("a") / "trajectory.csv"));
+  const AppRun layerless = map("d", {log_.string(), "--set", with("room.dxf"), "--set", "prior.layers=A"});
+  EXPECT_EQ(layerless.code, 2);
+  EXPECT_THAT(layerless.err, HasSubstr("Its layers are: DIMENSIONS, WALLS"));
+  const AppRun huge =
+      map("e", {log_.string(), "--set", with("room.dxf"), "--set", "prior.metres_per_unit=1"});
+  EXPECT_EQ(huge.code, 2);
+  EXPECT_THAT(huge.err, HasSubstr("12000.0 m x 9500.0 m"));
+}
+
+TEST_F(PriorMapApp, the_map_of_another_building_is_left_out) {
+  const std::string size = "120 70";
+  std::string image = "P2\n" + size + "\n255\n";
+  for (int y = 0; y < 70; ++y)
+    for (int x = 0; x < 120; ++x)
+      image += x % 30 == 3 || y % 33 == 3 || (x > 60 && y == 18) ? "0\n" : "254\n";
+  write_file(path("other.pgm"), image);
+  write_file(path("other.yaml"),
+             "image: other.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
+             "free_thresh: 0.196\n");
+  const AppRun run = map("a", {log_.string(), "--set", "prior.map=" + path("other.yaml").string()});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("other.yaml: this map is left out, because the run does not fit it"),
+                             HasSubstr("its own frame")));
+  ASSERT_EQ(map("b", {log_.string()}).code, 0);
+  expect_same_files("b", "a");
+}
+
+TEST_F(PriorMapApp, a_prior_map_is_extended_without_changing_its_cells) {
+  const std::string prior = prior_map("crop polygon=0,0;9,0;9,10;0,10\n");
+  ASSERT_EQ(map("a", {log_.string(), "--set", prior, "--set", "prior.extend=true"}).code, 0);
+  EXPECT_LT(worst_m("a"), 0.06);
+  const auto before = read_map_file(path("prior") / "map.yaml");
+  const auto after = read_map_file(path("a") / "map.yaml");
+  EXPECT_LT(before.getXMax(), 9.5F);
+  EXPECT_GT(after.getXMax(), 11.9F);
+  std::size_t known = 0;
+  std::size_t new_walls = 0;
+  for (int y = 0; y < static_cast<int>(after.getSizeY()); ++y) {
+    for (int x = 0; x < static_cast<int>(after.getSizeX()); ++x) {
+      const double x_m = static_cast<double>(after.idx2x(x));
+      const double y_m = static_cast<double>(after.idx2y(y));
+      const float cell = before.getPos(static_cast<float>(x_m), static_cast<float>(y_m));
+      if (cell != 0.5F) {
+        ++known;
+        EXPECT_EQ(after.getCell(x, y), cell) << x_m << ' ' << y_m;
+      } else if (x_m > 11.8 && after.getCell(x, y) < 0.3F) {
+        EXPECT_NEAR(x_m, 12, 0.15);
+        ++new_walls;
+      }
+    }
+  }
+  EXPECT_GT(known, 10'000U);
+  EXPECT_GT(new_walls, 100U);
+}
+
+TEST_F(PriorMapApp, merged_runs_get_its_frame_too) {
+  const std::string prior = prior_map("");
+  write_lines(path("second.log"), room_log_lines(40, kScansOfRound));
+  const AppRun run = run_app(
+      {"merge", log_.string(), path("second.log").string(), "--set", prior, "-q", "-o", path("m").string()});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Trajectory trajectory = read_trajectory(path("m") / "trajectory.tum");
+  ASSERT_EQ(trajectory.size(), 100U);
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    const std::size_t scan = i < 60 ? i : i - 60;
+    const mrpt::math::TPose2D truth = room_pose(2 * M_PI * static_cast<double>(scan) / kScansOfRound);
+    EXPECT_LT(std::hypot(trajectory[i].pose.x - truth.x, trajectory[i].pose.y - truth.y), 0.06) << i;
+  }
+}
+
+TEST_F(PriorMapApp, contradicting_settings_and_edits_are_refused) {
+  const std::string prior = prior_map("");
+  const auto refused = [&](std::vector<std::string> more, const std::string& sentence) {
+    more.insert(more.begin(), log_.string());
+    const AppRun run = map("refused", std::move(more));
+    EXPECT_EQ(run.code, 2) << sentence;
+    EXPECT_THAT(run.err, HasSubstr(sentence));
+  };
+  refused({"--set", prior, "--set", "map.align=walls"},
+          "prior.map states the frame of the map, but map.align");
+  refused({"--set", prior, "--edits", path("prior.edits").string()},
+          "and so do the lines pose and tag of the edits");
+  refused({"--set", "prior.extend=true"}, "prior.extend needs a map to extend");
+  refused({"--set", "prior.map=" + path("none.yaml").string()}, "none.yaml");
+  refused({"--set", prior, "--set", "prior.extend=true", "--set", "map.resolution_m=0.1"},
+          "Set map.resolution_m=0.05");
+  const std::string yaml = read_file(path("prior") / "map.yaml");
+  const std::size_t origin = yaml.find("origin: [");
+  write_file(path("prior") / "shifted.yaml",
+             yaml.substr(0, origin) + "origin: [-1.023, -1.5, 0]" + yaml.substr(yaml.find(']', origin) + 1));
+  refused({"--set", "prior.map=" + (path("prior") / "shifted.yaml").string(), "--set", "prior.extend=true"},
+          "its origin is no multiple of its resolution");
+}
+
+}  // namespace
+}  // namespace psi_slam

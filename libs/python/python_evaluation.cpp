@@ -130,11 +130,11 @@ void bind_evaluation(py::module_& module) {
                        interpolated);
 
   py::class_<ErrorSummary>(module, "ErrorSummary", "Summary of the errors of all relations used.")
-      .def_readonly("mean", &ErrorSummary::mean)
+      .def_readonly("mean", &ErrorSummary::mean, "Mean error.")
       .def_readonly("std", &ErrorSummary::std, "Standard deviation of the population (divided by n).")
       .def_readonly("median", &ErrorSummary::median, "The upper of two middle values.")
       .def_readonly("p95", &ErrorSummary::p95, "The value below which 95 % of the errors lie.")
-      .def_readonly("max", &ErrorSummary::max)
+      .def_readonly("max", &ErrorSummary::max, "Largest error.")
       .def("__repr__", [](const ErrorSummary& summary) {
         return "<psi_slam.ErrorSummary: " + fixed_text(summary.mean, 4) + " ± " + fixed_text(summary.std, 4) +
                ">";
@@ -152,12 +152,17 @@ void bind_evaluation(py::module_& module) {
                     "Relations with at least one pose interpolated.")
       .def_readonly("skipped", &RelationsMetric::skipped,
                     "Relations outside the trajectory or in a long gap.")
-      .def_readonly("translation_abs_m", &RelationsMetric::translation_abs_m)
-      .def_readonly("translation_sq_m2", &RelationsMetric::translation_sq_m2)
-      .def_readonly("rotation_abs_deg", &RelationsMetric::rotation_abs_deg)
-      .def_readonly("rotation_sq_deg2", &RelationsMetric::rotation_sq_deg2)
-      .def_readonly("cartographer_translation_abs_m", &RelationsMetric::cartographer_translation_abs_m)
-      .def_readonly("cartographer_translation_sq_m2", &RelationsMetric::cartographer_translation_sq_m2)
+      .def_readonly("translation_abs_m", &RelationsMetric::translation_abs_m,
+                    "Translational errors, metres: an ErrorSummary.")
+      .def_readonly("translation_sq_m2", &RelationsMetric::translation_sq_m2,
+                    "Squared translational errors, m^2.")
+      .def_readonly("rotation_abs_deg", &RelationsMetric::rotation_abs_deg, "Rotational errors, degrees.")
+      .def_readonly("rotation_sq_deg2", &RelationsMetric::rotation_sq_deg2,
+                    "Squared rotational errors, deg^2.")
+      .def_readonly("cartographer_translation_abs_m", &RelationsMetric::cartographer_translation_abs_m,
+                    "Translational errors as Cartographer's tool defines them, metres.")
+      .def_readonly("cartographer_translation_sq_m2", &RelationsMetric::cartographer_translation_sq_m2,
+                    "Their squares, m^2.")
       .def_property_readonly(
           "errors", &error_array,
           "Error of each relation used: a structured array with the fields time1_s, time2_s,\n"

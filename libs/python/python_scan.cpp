@@ -15,6 +15,7 @@
 
 #include "base/number_text.h"
 #include "frames/laser_readings.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -62,7 +63,10 @@ std::optional<mrpt::math::TPose2D> pose_of(const py::handle& given) {
   if (!array || array.size() != 3) return std::nullopt;
   const double* const pose = array.data();
   if (!std::all_of(pose, pose + 3, [](double number) { return std::isfinite(number); })) return std::nullopt;
-  return mrpt::math::TPose2D(pose[0], pose[1], mrpt::math::wrapToPi(pose[2]));
+  mrpt::math::TPose2D found(pose[0], pose[1], pose[2]);
+  if (std::abs(found.phi) > M_PI)
+    found.normalizePhi();  // only if necessary: wrapping may change the last digit
+  return found;
 }
 
 PythonScan make_scan(const py::object& ranges_m, double time_s, double max_range_m,
@@ -114,9 +118,9 @@ Frame frame_of(const PythonScan& scan, const py::object& odometry, const LogOpti
   frame.has_odometry = !odometry.is_none();
   if (!frame.has_odometry) return frame;
   const auto odom_T_robot = pose_of(odometry);
-  if (!odom_T_robot)
+  if (!odom_T_robot || !is_possible_odometry(*odom_T_robot))
     throw UserError("Mapper.add: odometry is " + std::string(py::str(odometry)) +
-                    ", expected None or (x, y, yaw) of the robot: three finite numbers, metres and radians");
+                    ", expected None or (x, y, yaw) of the robot: finite numbers, metres up to 10,000 km and radians");
   frame.odom_T_robot = *odom_T_robot;
   return frame;
 }

@@ -51,7 +51,7 @@ void RunWatch::show(const PythonProgress& progress, bool keeps_result) {
   const py::gil_scoped_acquire lock;
   try {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (!stop_ && !progress_.is_none()) progress_(progress);
+    if (!error_ && !progress_.is_none()) progress_(progress);
   } catch (const py::error_already_set& error) {
     const bool is_interrupt = error.matches(PyExc_KeyboardInterrupt);
     if (is_interrupt && (interrupted_ || !keeps_result)) throw;

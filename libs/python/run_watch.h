@@ -27,7 +27,8 @@ struct PythonProgress {
 ///
 /// The first Ctrl-C makes stop() true; the run then finishes the map of the scans so far. The second one
 /// throws pybind11::error_already_set out of the run. If the Python function, or a signal handler, raises
-/// another exception, stop() becomes true, and result_or_raise() raises it.
+/// another exception, stop() becomes true, the function is not called again, and result_or_raise() raises the
+/// exception.
 class RunWatch {
  public:
   /// Needs the interpreter's lock. `progress` is None or a function that takes a Progress.

@@ -23,7 +23,10 @@ def mypy(*arguments, folder):
 
 
 def test_stubs_describe_the_module(tmp_path):
-    run = mypy("mypy.stubtest", "psi_slam", "--ignore-missing-stub", "--concise", folder=tmp_path)
+    # pybind11 has a metaclass of its own, and constructors without a signature. Interrupted gets its result when raised.
+    allowed = tmp_path / "allowed.txt"
+    allowed.write_text("psi_slam(\\._core)?\\.[A-Za-z]+(\\.__init__)?\npsi_slam(\\._core)?\\.Interrupted\\.result\n")
+    run = mypy("mypy.stubtest", "psi_slam", "--allowlist", allowed, "--concise", folder=tmp_path)
     assert run.returncode == 0, run.stdout + run.stderr
 
 

@@ -38,8 +38,8 @@ def measured_ranges(x: float, y: float, yaw: float, random: np.random.Generator)
         along_beam = ((x0 - x) * wy - (y0 - y) * wx) / (dx * wy - dy * wx)
         along_wall = ((x0 - x) * dy - (y0 - y) * dx) / (dx * wy - dy * wx)
     hit = (along_beam > 0) & (along_wall >= 0) & (along_wall <= 1)
-    ranges: Array = np.where(hit, along_beam, np.inf).min(axis=1)
-    return ranges + random.normal(0, 0.01, BEAMS)
+    ranges: Array = np.where(hit, along_beam, np.inf).min(axis=1) + random.normal(0, 0.01, BEAMS)
+    return ranges
 
 
 def true_path(scans: int) -> Array:
@@ -58,9 +58,10 @@ def seen_from(pose: Array, other: Array) -> Array:
 
 
 def composed(pose: Array, motion: Array) -> Array:
+    """The pose that is `motion` away from `pose`, in its frame."""
     c, s = np.cos(pose[2]), np.sin(pose[2])
     x, y, turn = motion
-    return pose + np.array([c * x - s * y, s * x + c * y, turn])
+    return np.array([pose[0] + c * x - s * y, pose[1] + s * x + c * y, pose[2] + turn])
 
 
 def main() -> int:

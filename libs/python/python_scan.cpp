@@ -119,8 +119,9 @@ Frame frame_of(const PythonScan& scan, const py::object& odometry, const LogOpti
   if (!frame.has_odometry) return frame;
   const auto odom_T_robot = pose_of(odometry);
   if (!odom_T_robot || !is_possible_odometry(*odom_T_robot))
-    throw UserError("Mapper.add: odometry is " + std::string(py::str(odometry)) +
-                    ", expected None or (x, y, yaw) of the robot: finite numbers, metres up to 10,000 km and radians");
+    throw UserError(
+        "Mapper.add: odometry is " + std::string(py::str(odometry)) +
+        ", expected None or (x, y, yaw) of the robot: finite numbers, metres up to 10,000 km and radians");
   frame.odom_T_robot = *odom_T_robot;
   return frame;
 }

@@ -120,7 +120,7 @@ py::object error_array(const RelationsMetric& metric) {
                                    error.cartographer_translation_m,
                                    error.interpolated};
                  });
-  return std::move(rows);
+  return py::object(std::move(rows));
 }
 
 }  // namespace

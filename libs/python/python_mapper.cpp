@@ -124,7 +124,7 @@ py::object covariance_array(const PythonPose& pose) {
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
       array.mutable_at(row, column) = (*pose.covariance)(row, column);
-  return std::move(array);
+  return py::object(std::move(array));
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ struct PythonGridMap {
 template <class Array>
 py::object read_only(Array array) {
   array.attr("flags").attr("writeable") = false;
-  return std::move(array);
+  return py::object(std::move(array));
 }
 
 py::object pose_array(const std::vector<PoseRow>& rows) {

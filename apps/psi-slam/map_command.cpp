@@ -33,9 +33,7 @@ std::string changed_settings(const OptionTable& table) {
 
 SessionInput input_of(const CommandLine& line, BoundSettings& bound, const Streams& streams) {
   if (line.resume.empty()) {
-    if (is_session_file(line.log))
-      throw UserError(line.log + " is a session, not a log. Resume it with psi-slam --resume " + line.log +
-                      " -o DIR");
+    require_log(line.log);
     load_settings(line, bound, streams);
     return SessionInput(line.log);
   }

@@ -99,19 +99,28 @@ std::string frames_csv(const std::vector<FrameRecord>& frames) {
   return text;
 }
 
+std::vector<std::optional<Eigen::Matrix3d>> frame_covariances(const MappingResult& result) {
+  const std::vector<std::optional<Eigen::Matrix3d>> of_nodes = placed_covariances(result.graph);
+  std::vector<std::optional<Eigen::Matrix3d>> of_frames(result.frames.size());
+  if (of_nodes.empty()) return of_frames;
+  std::size_t node = 0;
+  for (std::size_t i = 0; i < of_frames.size(); ++i) {
+    while (node + 1 < result.node_frames.size() && result.node_frames[node + 1] <= i) ++node;
+    of_frames[i] = of_nodes[node];
+  }
+  return of_frames;
+}
+
 std::string trajectory_csv(const MappingResult& result) {
-  const std::vector<std::optional<Eigen::Matrix3d>> covariances = placed_covariances(result.graph);
+  const std::vector<std::optional<Eigen::Matrix3d>> covariances = frame_covariances(result);
   const std::vector<FrameSpan> logs = logs_of(result);
   std::string text = kTrajectoryHeader;
   text.reserve(text.size() + result.frames.size() * 130);
-  std::size_t node = 0;
   std::size_t log = 0;
   for (std::size_t i = 0; i < result.frames.size(); ++i) {
-    while (node + 1 < result.node_frames.size() && result.node_frames[node + 1] <= i) ++node;
     while (log + 1 < logs.size() && logs[log + 1].begin <= i) ++log;
     text += format_seconds(result.frames[i].time_us) + values(result.frames[i].map_T_robot) +
-            covariance_values(covariances.empty() ? std::nullopt : covariances[node]) + ',' +
-            std::to_string(log + 1) + '\n';
+            covariance_values(covariances[i]) + ',' + std::to_string(log + 1) + '\n';
   }
   return text;
 }

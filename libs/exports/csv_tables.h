@@ -3,6 +3,8 @@
 // radians, times seconds unless the column's name says otherwise.
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,11 +23,14 @@ std::string csv_field(const std::string& text);
 /// SearchKind.
 std::string frames_csv(const std::vector<FrameRecord>& frames);
 
+/// Returns the covariance of (x, y, theta) of each scan's pose in the axes of the map: m^2, m rad, rad^2. It
+/// is that of the scan's node, or of the last node before it, relative to the first scan, and accounts for
+/// shared errors; see placed_covariances(). Empty if the place of the node in the map is unknown.
+std::vector<std::optional<Eigen::Matrix3d>> frame_covariances(const MappingResult& result);
+
 /// Returns trajectory.csv: one row per scan in the order of the log, with its time, its pose in the map and
-/// the covariance of (x, y, theta) in the axes of the map: m^2, m rad, rad^2. The covariance is that of the
-/// scan's node, or of the last node before it, relative to the first scan, and accounts for shared errors;
-/// see placed_covariances(). Its fields are empty if the place of the node in the map is unknown. `run` is
-/// the number of the log as in logs_of(), counted from 1 as in the names of the files trajectory-1.tum, ...
+/// its covariance by frame_covariances(), with empty fields if there is none. `run` is the number of the log
+/// as in logs_of(), counted from 1 as in the names of the files trajectory-1.tum, ...
 std::string trajectory_csv(const MappingResult& result);
 
 /// Returns loops.csv: one row per attempt to close a loop in the order of the records, with its match,

@@ -13,6 +13,7 @@
 #include "psi_slam/version.h"
 #include "rendering/placed_edits.h"
 #include "report/output_folder.h"
+#include "session/drawn_map.h"
 #include "session/map_frame.h"
 #include "session/mapping_session_members.h"
 #include "session/session_file.h"
@@ -62,7 +63,7 @@ void write_edits(const EditJournal& edits, const fs::path& file) {
 
 }  // namespace
 
-RunSummary MappingSession::export_to(const OutputFolder& folder) {
+DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   Members& m = *m_;
   m.begin(SessionProgress::Phase::kWriting);
   WorkClock clock(m.work_s);
@@ -95,21 +96,36 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   MapVerdict verdict;
   judging_clock.time([&] { verdict = judge_map(m.result); });
   m.result.stages.push_back(judging_clock.timing());
-  writing_clock.time([&] {
-    write_g2o(m.result.graph, folder.path() / "graph.g2o");
-    write_edits(edits, folder.path() / "loops.edits");
-    export_results(m.result, *grid, folder, m.settings.map_files);
-    write_zone_files(folder.path(), *grid, placed.edits);
-  });
-  m.result.stages.push_back(writing_clock.timing());
+  if (folder) {
+    writing_clock.time([&] {
+      write_g2o(m.result.graph, folder->path() / "graph.g2o");
+      write_edits(edits, folder->path() / "loops.edits");
+      export_results(m.result, *grid, *folder, m.settings.map_files);
+      write_zone_files(folder->path(), *grid, placed.edits);
+    });
+    m.result.stages.push_back(writing_clock.timing());
+  }
   clock.stop();
   m.result.wall_s = m.work_s;
   RunSummary summary = summarize_run(m.result, *grid, m.settings.map);
   summary.map.map_T_start = map_T_start;
   summary.verdict = std::move(verdict);
   summary.log.spare_scans = skipped_lines().spare_scans;
-  export_account(m.result, run_info(), summary, *grid, folder);
-  return summary;
+  if (folder) export_account(m.result, run_info(), summary, *grid, *folder);
+  return {std::move(grid), std::move(summary)};
+}
+
+RunSummary MappingSession::export_to(const OutputFolder& folder) {
+  return draw_and_write(&folder).summary;
+}
+
+DrawnMap MappingSession::draw() {
+  return draw_and_write(nullptr);
+}
+
+void MappingSession::read_exported(const std::function<void(const MappingResult&)>& read) {
+  const ExportedPoses exported(m_->result, export_T_map(m_->result, m_->settings.map_frame));
+  read(m_->result);
 }
 
 void MappingSession::export_to(const fs::path& folder, bool force) {

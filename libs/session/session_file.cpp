@@ -72,6 +72,12 @@ bool is_session_file(const fs::path& path) {
          (begin == kMagic || begin == kJournalMagic);
 }
 
+void require_log(const fs::path& path) {
+  if (is_session_file(path))
+    throw UserError(path.string() + " is a session, not a log. Resume it with psi-slam --resume " +
+                    path.string() + " -o DIR");
+}
+
 void write_session_file(const fs::path& path, const SessionFacts& facts, const std::vector<Frame>& frames) {
   std::string bytes(kMagic);
   append_number(bytes, kSessionVersion);

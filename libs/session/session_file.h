@@ -15,6 +15,9 @@ namespace psi_slam {
 /// Whether the file begins with the magic word of sessions or of journals. False if the file is unreadable.
 bool is_session_file(const std::filesystem::path& path);
 
+/// Throws UserError if the file, which should be a log, is a session or a journal.
+void require_log(const std::filesystem::path& path);
+
 /// Writes the file whole or not at all. Throws SystemFailure if it cannot be written.
 void write_session_file(const std::filesystem::path& path, const SessionFacts& facts,
                         const std::vector<Frame>& frames);

@@ -39,7 +39,12 @@ function(psi_slam_install_documents)
   install(FILES README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/psi-slam COMPONENT programs)
   install(DIRECTORY share/doc/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/psi-slam/share/doc COMPONENT programs)
   install(DIRECTORY share/examples
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libpsi-slam-dev COMPONENT development)
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libpsi-slam-dev COMPONENT development PATTERN python EXCLUDE)
+  if(TARGET psi_slam_python)
+    install(DIRECTORY share/examples/python/
+      DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-psi-slam/examples COMPONENT python FILES_MATCHING PATTERN "*.py")
+    psi_slam_install_legal_documents(python3-psi-slam python)
+  endif()
   psi_slam_install_legal_documents(psi-slam programs)
   psi_slam_install_legal_documents(libpsi-slam-dev development)
   if(TARGET psi-slam-sweep-mpi)

@@ -4,6 +4,7 @@
 #   libpsi-slam-dev   the library
 #   psi-slam-mpi      the programs for clusters, if CMake found MPI. They are a package of their own, so that psi-slam does
 #                     not depend on MPI.
+#   python3-psi-slam  the Python module, if it is built
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME psi-slam)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -11,6 +12,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL programs development)
 if(TARGET psi-slam-sweep-mpi)
   list(APPEND CPACK_COMPONENTS_ALL cluster)
+endif()
+if(TARGET psi_slam_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_STRIP_FILES ON)
@@ -41,6 +45,21 @@ set(CPACK_COMPONENT_CLUSTER_DESCRIPTION
 "Maps many logs with many settings on the ranks of an MPI job. Runs the
 sweeps and the benchmark of psi-slam on a cluster.")
 
+# The module fits one version of Python only.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-psi-slam)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+if(TARGET psi_slam_python)
+  string(REGEX MATCH "^([0-9]+)[.]([0-9]+)$" version "${PSI_SLAM_PYTHON_VERSION}")
+  math(EXPR next "${CMAKE_MATCH_2} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= ${version}), python3 (<< ${CMAKE_MATCH_1}.${next}), python3-numpy")
+endif()
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-pandas")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+"Python module of psi-slam, a graph SLAM system for wheeled robots. Maps logs,
+or scans from NumPy arrays, and gives poses, loops and the map as arrays.")
+
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpsi-slam-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)  # static libraries have no shared-library dependencies
@@ -58,7 +77,7 @@ file(WRITE ${PROJECT_BINARY_DIR}/changelog.Debian
   "  * Packed by CPack; changelog.gz lists the changes.\n\n"
   " -- ${CPACK_DEBIAN_PACKAGE_MAINTAINER}  ${now}\n")
 execute_process(COMMAND gzip --force --best --no-name ${PROJECT_BINARY_DIR}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
-foreach(package psi-slam:programs libpsi-slam-dev:development psi-slam-mpi:cluster)
+foreach(package psi-slam:programs libpsi-slam-dev:development psi-slam-mpi:cluster python3-psi-slam:python)
   string(REPLACE ":" ";" package ${package})
   list(GET package 0 name)
   list(GET package 1 component)

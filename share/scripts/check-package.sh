@@ -47,6 +47,7 @@ say "making the packages"
 programs=$(find "$work/packages" -maxdepth 1 -name 'psi-slam_*.deb')
 library=$(find "$work/packages" -maxdepth 1 -name 'libpsi-slam-dev_*.deb')
 cluster=$(find "$work/packages" -maxdepth 1 -name 'psi-slam-mpi_*.deb')  # exists only if CMake found MPI
+python=$(find "$work/packages" -maxdepth 1 -name 'python3-psi-slam_*.deb')  # exists only if CMake found pybind11
 [ -f "$programs" ] && [ -f "$library" ] || fail "expected psi-slam and libpsi-slam-dev, found $(ls "$work/packages")"
 # Use files instead of pipes: grep --quiet may end before dpkg-deb has written everything.
 dpkg-deb --field "$programs" Depends >"$work/depends.txt"
@@ -111,6 +112,18 @@ if [ -n "$cluster" ]; then
   done
   inside apt-get purge --quiet --quiet --yes psi-slam-mpi >"$work/purge-mpi.log" 2>&1 ||
     fail "the package psi-slam-mpi cannot be removed"
+fi
+if [ -n "$python" ]; then
+  say "installing python3-psi-slam in the minimal Debian 12"
+  cp "$python" "$system/tmp/python3-psi-slam.deb"
+  inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/python3-psi-slam.deb >"$work/install-python.log" 2>&1 ||
+    fail "the package python3-psi-slam cannot be installed: $(tail -5 "$work/install-python.log")"
+  inside python3 -c 'import psi_slam; print("psi_slam", psi_slam.__version__)' || fail "Python cannot import psi_slam"
+  inside python3 /usr/share/doc/python3-psi-slam/examples/02_feed_scans.py /tmp/fed ||
+    fail "the installed example 02_feed_scans.py fails"
+  [ -s "$system/tmp/fed/map.png" ] || fail "the installed Python module wrote no map.png"
+  inside apt-get purge --quiet --quiet --yes python3-psi-slam >"$work/purge-python.log" 2>&1 ||
+    fail "the package python3-psi-slam cannot be removed"
 fi
 inside apt-get purge --quiet --quiet --yes psi-slam >"$work/purge.log" 2>&1 || fail "the package psi-slam cannot be removed"
 if [ -e "$system/usr/share/psi-slam" ]; then fail "removing the package psi-slam leaves /usr/share/psi-slam"; fi

@@ -14,6 +14,8 @@ packages=(
   libopenmpi-dev openmpi-bin
   gdal-bin python3-gdal python3-ezdxf python3-pil librsvg2-bin man-db groff-base dpkg-dev file
 )
+packages+=(pybind11-dev python3-dev python3-numpy)  # the Python module
+packages+=(python3-pytest python3-matplotlib python3-pandas mypy)  # its tests
 
 fail() {
   echo "install-dependencies.sh: $*" >&2

@@ -10,14 +10,17 @@
 #include <functional>
 #include <thread>
 
+#include "exports/mapped_trajectory.h"
 #include "exports/run_summary.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/grid_map.h"
+#include "rendering/map_image.h"
 #include "report/output_folder.h"
 #include "report/report_html.h"
 #include "room_log.h"
 #include "same_results.h"
+#include "session/drawn_map.h"
 #include "session/edit_journal.h"
 #include "session/session_input.h"
 #include "session/settings.h"
@@ -280,6 +283,30 @@ TEST_F(MappingSessionTest, exports_the_graph_and_the_figures_of_the_whole_run) {
   EXPECT_LT(stages_s, summary.wall_s);
   EXPECT_EQ(session.run_info().log_name, "room.log");
   EXPECT_EQ(session.run_info().settings.at("front_end.window_m"), "0.2");
+}
+
+TEST_F(MappingSessionTest, draws_and_reads_what_it_exports_without_writing) {
+  settings_.map_frame.align = "90";
+  settings_.map_frame.origin_x_m = 3;
+  MappingSession session(log(room_log_lines()), settings_);
+  session.run(go_on_);
+  const mrpt::math::TPose2D before = session.result().frames[100].map_T_robot;
+  const DrawnMap drawn = session.draw();
+  std::string poses;
+  session.read_exported([&](const MappingResult& result) {
+    poses = tum_text(trajectory_of(result.frames));
+    EXPECT_NE(result.frames[100].map_T_robot, before);
+  });
+  EXPECT_EQ(session.result().frames[100].map_T_robot, before);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out"));
+
+  const OutputFolder folder = output();
+  const RunSummary summary = session.export_to(folder);
+  EXPECT_EQ(poses, read_file(folder.path() / "trajectory.tum"));
+  EXPECT_EQ(summary_without_times(summary_json(session.result(), session.run_info(), drawn.summary)),
+            summary_without_times(read_file(folder.path() / "summary.json")));
+  write_map_image(folder_.path() / "drawn.png", *drawn.grid);
+  EXPECT_EQ(read_file(folder_.path() / "drawn.png"), read_file(folder.path() / "map.png"));
 }
 
 TEST_F(MappingSessionTest, report_summary_and_caller_get_the_same_times) {

@@ -30,6 +30,7 @@ class Configuration;
 class EditJournal;
 class OutputFolder;
 class SessionInput;
+struct DrawnMap;
 struct MapEdit;
 struct RunInfo;
 struct RunSummary;
@@ -171,6 +172,13 @@ class MappingSession {
   /// Creates the folder and exports to it. Throws UserError if it is not empty, unless `force` is true.
   void export_to(const std::filesystem::path& folder, bool force = false);
 
+  /// Draws and judges the map as export_to() does, but writes no file. Needs finish(). The definition of
+  /// DrawnMap is internal.
+  DrawnMap draw();
+  /// Calls `read` with the finished map, with its poses in the frame in which export_to() writes them. Needs
+  /// finish().
+  void read_exported(const std::function<void(const MappingResult&)>& read);
+
   /// Records the session in a journal from now on, so that a crash or a power failure loses only the
   /// scans of the last moments. A journal is read like a session. Its file replaces an existing one; a
   /// recording that is resumed is copied to it first. Call before the first step(). Throws SystemFailure if
@@ -197,6 +205,8 @@ class MappingSession {
   RunInfo run_info() const;
 
  private:
+  DrawnMap draw_and_write(const OutputFolder* folder);
+
   struct Members;
   std::unique_ptr<Members> m_;
 };

@@ -30,9 +30,12 @@ runtime=(
 test=(
   libgtest-dev libgmock-dev libx11-dev xauth xvfb python3 doxygen dpkg-dev
   libopenmpi-dev openmpi-bin
-  python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs
   gdal-bin python3-gdal python3-ezdxf python3-pil librsvg2-bin man-db groff-base
 )
+
+# Part of the list `test`. Tests that need a package of these are skipped where the release has none.
+optional=(python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs)
+test+=("${optional[@]}")
 
 say() { echo "install-dependencies.sh: $*" >&2; }
 fail() {
@@ -64,7 +67,7 @@ without() {
 packages_of() {
   local expression
   for expression in "$@"; do
-    grep --extended-regexp --line-regexp -e "$expression" "$work/available" | sort --version-sort | tail -n 1
+    grep --extended-regexp --line-regexp -e "$expression" "$work/available" | sort --version-sort | tail -n 1 || true
   done
 }
 
@@ -130,12 +133,22 @@ else
   # Packages that depend on a name make it known, even if the release does not have it: print only what has a version.
   apt-cache dumpavail | sed -n 's/^Package: //p' >"$work/available"
   mapfile -t unavailable < <(without "$work/available" "${missing[@]}")
-  [ "${#unavailable[@]}" -eq 0 ] ||
-    fail "$(system_name) has no package ${unavailable[*]}. Use $tried, or Ubuntu 24.04 or later, or build what is missing" \
-      "from source and run cmake --preset release"
+  needed=()
+  for package in "${unavailable[@]}"; do
+    if [[ " ${optional[*]} " == *" $package "* ]]; then
+      say "$(system_name) has no package $package. The tests that need it are skipped"
+    else
+      needed+=("$package")
+    fi
+  done
+  [ "${#needed[@]}" -eq 0 ] ||
+    fail "$(system_name) lacks the packages ${needed[*]}. Use $tried, or build what is missing from source and run" \
+      "cmake --preset release"
   mapfile -t packages_to_install < <(packages_of "${missing[@]}")
-  say "installing ${packages_to_install[*]}"
-  apt_get install --yes --no-install-recommends "${packages_to_install[@]}" >&2 ||
-    fail "apt-get install failed. Read its message above"
+  if [ "${#packages_to_install[@]}" -gt 0 ]; then
+    say "installing ${packages_to_install[*]}"
+    apt_get install --yes --no-install-recommends "${packages_to_install[@]}" >&2 ||
+      fail "apt-get install failed. Read its message above"
+  fi
 fi
 if [[ " $* " == *" build "* ]]; then check_cmake; fi

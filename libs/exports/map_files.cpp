@@ -3,10 +3,12 @@
 
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <functional>
+#include <memory>
 
 #include "base/atomic_file.h"
 #include "compression/compression.h"
@@ -27,8 +29,9 @@ mrpt::maps::CSimpleMap simple_map(const MappingResult& result) {
     auto observations = mrpt::obs::CSensoryFrame::Create();
     for (const auto& observation : range_observations(result.log.at(frame)))
       observations->insert(observation);
-    const mrpt::poses::CPose2D pose(result.frames.at(frame).map_T_robot);
-    map.insert(mrpt::poses::CPosePDFGaussian::Create(pose, covariance), observations);
+    const mrpt::poses::CPosePDFGaussian pose(mrpt::poses::CPose2D(result.frames.at(frame).map_T_robot),
+                                             covariance);
+    map.insert(std::make_shared<mrpt::poses::CPose3DPDFGaussian>(pose), observations);
   }
   return map;
 }

@@ -90,7 +90,8 @@ std::vector<fs::path> files_listed(const fs::path& metadata) {
   std::vector<fs::path> files;
   try {
     const auto yaml = mrpt::containers::yaml::FromFile(metadata.string());
-    for (const auto& file : yaml["rosbag2_bagfile_information"]["relative_file_paths"].asSequence())
+    const auto paths = yaml["rosbag2_bagfile_information"]["relative_file_paths"];
+    for (const auto& file : paths.asSequence())
       files.push_back(listed_file(metadata.parent_path(), file.as<std::string>()));
   } catch (const std::exception&) {
     throw UserError(

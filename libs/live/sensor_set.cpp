@@ -98,8 +98,7 @@ class SensorSet::Sensor {
   std::vector<CSerializable::Ptr> read() {
     driver_->doProcess();
     std::vector<CSerializable::Ptr> objects;
-    CGenericSensor::TListObservations observations;
-    driver_->getObservations(observations);
+    const CGenericSensor::TListObservations observations = driver_->getObservations();
     bool fails = driver_->getState() == CGenericSensor::ssError;
     for (const auto& [stamp, object] : observations) {
       fails = fails || is_empty_scan(*object);

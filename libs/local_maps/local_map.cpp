@@ -72,8 +72,8 @@ void LocalMap::draw_hit(int x, int y) {
   if (last_scan_[cell] == scan_) return;
   last_scan_[cell] = scan_;
   const Grid::cellType hit = Grid::p2l(static_cast<float>(options_.hit_probability));
-  Grid::updateCell_fast_occupied(grid_->getRow(y) + x, hit,
-                                 static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MIN + hit));
+  grid_->updateCell_fast_occupied(grid_->getRow(y) + x, hit,
+                                  static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MIN + hit));
 }
 
 // Draws hits in the cells between two beam ends on one surface, without the cells of the ends.

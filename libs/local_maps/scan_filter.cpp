@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/float_hypot.h"
 #include "frames/scan_neighbours.h"
 #include "local_maps/seen_surfaces.h"
 
@@ -20,8 +21,26 @@ constexpr float kMaxGapPerMetre = 0.15F;  // the same limit per metre of range; 
 constexpr float kMaxResidual_m = 0.04F;   // largest root mean square distance of points from their line
 
 bool on_one_surface(const Point& a, const Point& b) {
-  const float gap = std::hypot(a.x - b.x, a.y - b.y);
-  return gap <= std::max(kMaxGap_m, kMaxGapPerMetre * std::hypot(a.x, a.y));
+  const float gap = float_hypot(a.x - b.x, a.y - b.y);
+  return gap <= std::max(kMaxGap_m, kMaxGapPerMetre * float_hypot(a.x, a.y));
+}
+
+// Returns the unit vector along which points spread least, from the sums over their offsets (x, y) from the
+// mean: `half_difference` = Σ(x² − y²)/2 and `xy` = Σxy. Points spread most at the angle atan2(xy,
+// half_difference)/2. The half-angle formulas need square roots only, which are the same on every processor.
+Point direction_of_least_spread(double half_difference, double xy) {
+  const double root = std::sqrt(half_difference * half_difference + xy * xy);
+  if (root == 0) return {0, 1};
+  double cosine = 0;
+  double sine = 0;
+  if (half_difference >= 0) {
+    cosine = std::sqrt(0.5 + 0.5 * half_difference / root);
+    sine = xy / (2 * root * cosine);
+  } else {
+    sine = std::copysign(std::sqrt(0.5 - 0.5 * half_difference / root), xy);
+    cosine = xy / (2 * root * sine);
+  }
+  return {static_cast<float>(-sine), static_cast<float>(cosine)};
 }
 
 // Returns the unit normal of the line through a point and its neighbours. Returns (0, 0) if these are fewer
@@ -49,11 +68,10 @@ Point normal_at(const std::vector<Point>& points, std::size_t index, bool is_rin
     yy += dy * dy;
   }
   const float half_difference = 0.5F * (xx - yy);
-  const float root = std::hypot(half_difference, xy);
+  const float root = float_hypot(half_difference, xy);
   const float smaller = 0.5F * (xx + yy) - root;
   if (smaller > count * kMaxResidual_m * kMaxResidual_m) return {0, 0};
-  const float along = 0.5F * std::atan2(xy, half_difference);
-  return {-std::sin(along), std::cos(along)};
+  return direction_of_least_spread(static_cast<double>(half_difference), static_cast<double>(xy));
 }
 
 ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,

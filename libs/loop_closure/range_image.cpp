@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/float_hypot.h"
+
 namespace psi_slam {
 namespace {
 
@@ -27,7 +29,7 @@ RangeImage::RangeImage(const ScanPoints& scan) {
       const float dx = scan.points[i].x - origin.x;
       const float dy = scan.points[i].y - origin.y;
       const std::size_t b = bin(std::atan2(static_cast<double>(dy), static_cast<double>(dx)));
-      const float range = std::hypot(dx, dy);
+      const float range = float_hypot(dx, dy);
       view.nearest_m[b] = std::min(view.nearest_m[b], range);
       view.farthest_m[b] = std::max(view.farthest_m[b], range);
     }

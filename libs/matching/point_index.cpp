@@ -28,9 +28,10 @@ struct PointSource {
   // NOLINTEND
 };
 
-/// Result set for nanoflann that collects all points within a distance.
+/// Result set for nanoflann that collects all points within a distance, in any order.
 class Within {
  public:
+  using DistanceType = float;
   explicit Within(float square) : square_(square) {}
   std::vector<std::size_t> found;
 
@@ -42,6 +43,7 @@ class Within {
     if (square <= square_) found.push_back(index);
     return true;
   }
+  void sort() {}
   // NOLINTEND
 
  private:

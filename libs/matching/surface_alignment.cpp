@@ -9,6 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/float_hypot.h"
+
 namespace psi_slam {
 namespace {
 
@@ -65,7 +67,7 @@ class SurfaceSearch {
     }
     if (count == 0) return std::nullopt;
     // The sum is not 0, because all normals agree with `facing`.
-    const float length = std::hypot(sum.normal.x, sum.normal.y);
+    const float length = float_hypot(sum.normal.x, sum.normal.y);
     return Surface{{sum.point.x / count, sum.point.y / count},
                    {sum.normal.x / length, sum.normal.y / length}};
   }

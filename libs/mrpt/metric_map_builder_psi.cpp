@@ -329,8 +329,8 @@ void CMetricMapBuilderPsi::getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& out_map)
   out_map.clear();
   if (m.shows_initial_map()) out_map = m.initial_->frames();
   for (std::size_t node = 0; node < m.node_observations_.size(); ++node) {
-    const CPose2D pose(m.start_.mean.asTPose() + m.graph().pose(node));
-    out_map.insert(CPosePDFGaussian::Create(pose, covariance), m.node_observations_[node]);
+    const CPosePDFGaussian pose(CPose2D(m.start_.mean.asTPose() + m.graph().pose(node)), covariance);
+    out_map.insert(std::make_shared<mrpt::poses::CPose3DPDFGaussian>(pose), m.node_observations_[node]);
   }
 }
 

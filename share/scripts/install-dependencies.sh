@@ -1,24 +1,46 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the packages that are needed to build psi-slam on Debian 12. Does nothing if all of them are installed.
+# Installs the missing packages of one or more lists with apt-get. Does nothing if all of them are installed.
+#
+#     share/scripts/install-dependencies.sh [--print] [LIST...]     # default: build runtime
+#
+#     build      compiles the programs and the library
+#     runtime    runs the compiled programs
+#     test       runs the tests, and compiles the programs for clusters and the Python module: needed beside build and runtime
+#
+# --print prints the packages and installs nothing. Names of libraries differ between releases, so the lists contain them
+# as extended regular expressions.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-packages=(
-  build-essential cmake ninja-build pkg-config
-  libmrpt-dev mrpt-common libeigen3-dev libopencv-dev libwxgtk3.2-dev
-  libgl1-mesa-dri xauth xvfb
-  libcli11-dev nlohmann-json3-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev
-  libssl-dev libnanoflann-dev libgdal-dev libgtest-dev libgmock-dev python3
-  doxygen python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs
-  libopenmpi-dev openmpi-bin
-  gdal-bin python3-gdal python3-ezdxf python3-pil librsvg2-bin man-db groff-base dpkg-dev file
+readonly tried="Debian 12 and Debian 13"
+# shellcheck disable=SC2034  # the lists are read by their names
+build=(
+  build-essential cmake ninja-build pkg-config file
+  libmrpt-dev libeigen3-dev libopencv-dev libwxgtk3.2-dev libnanoflann-dev libgdal-dev
+  libcli11-dev nlohmann-json3-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev libssl-dev
 )
-packages+=(pybind11-dev python3-dev python3-numpy)  # the Python module
-packages+=(python3-pytest python3-matplotlib python3-pandas mypy)  # its tests
+# shellcheck disable=SC2034
+runtime=(
+  'libmrpt-slam[0-9.]+' 'libmrpt-graphslam[0-9.]+' 'libmrpt-hwdrivers[0-9.]+' 'libmrpt-gui[0-9.]+' mrpt-common
+  'libopencv-imgcodecs[0-9]+(t64)?' 'libwxgtk3.2-1(t64)?' 'libwxgtk-gl3.2-1(t64)?' 'libgdal[0-9]+(t64)?' 'libssl3(t64)?'
+  zlib1g libbz2-1.0 liblz4-1 libzstd1 libsqlite3-0 libgl1 libopengl0 libgl1-mesa-dri
+)
+# shellcheck disable=SC2034
+test=(
+  libgtest-dev libgmock-dev libx11-dev xauth xvfb python3 doxygen dpkg-dev
+  libopenmpi-dev openmpi-bin
+  pybind11-dev python3-dev python3-numpy python3-pytest python3-matplotlib python3-pandas mypy
+  gdal-bin python3-gdal python3-ezdxf python3-pil librsvg2-bin man-db groff-base
+)
 
+# Part of the list `test`. Tests that need a package of these are skipped where the release has none.
+optional=(python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs)
+test+=("${optional[@]}")
+
+say() { echo "install-dependencies.sh: $*" >&2; }
 fail() {
-  echo "install-dependencies.sh: $*" >&2
+  say "$*"
   exit 1
 }
 
@@ -27,18 +49,26 @@ system_name() {
   (. /etc/os-release 2>/dev/null && echo "${PRETTY_NAME:-an unknown system}") || echo "an unknown system"
 }
 
-# Succeeds on Debian 12 or later. Debian testing states no version and is accepted.
+# Succeeds on a release that `tried` names.
 # shellcheck disable=SC1091
-is_supported_system() {
-  command -v apt-get >/dev/null && command -v dpkg-query >/dev/null || return 1
-  (. /etc/os-release 2>/dev/null && [ "${ID:-}" = debian ] && [ "${VERSION_ID:-12}" -ge 12 ])
+is_tried_system() {
+  (. /etc/os-release 2>/dev/null && [[ "${ID:-} ${VERSION_ID:-}" =~ ^debian\ (12|13)$ ]])
 }
 
-missing_packages() {
-  local package
-  for package in "${packages[@]}"; do
-    dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
-      echo "$package"
+# without NAMES EXPRESSION...: prints the expressions that match no line of the file NAMES as a whole.
+without() {
+  local names=$1 expression
+  shift
+  for expression in "$@"; do
+    grep --quiet --extended-regexp --line-regexp -e "$expression" "$names" || echo "$expression"
+  done
+}
+
+# Prints the newest package of each expression that the release has.
+packages_of() {
+  local expression
+  for expression in "$@"; do
+    grep --extended-regexp --line-regexp -e "$expression" "$work/available" | sort --version-sort | tail -n 1 || true
   done
 }
 
@@ -65,17 +95,61 @@ check_cmake() {
     fail "CMake $needed or later is needed, but $(command -v cmake) is version $found. Put a newer one first in PATH"
 }
 
-is_supported_system ||
-  fail "this system is $(system_name), but the script needs Debian 12 or later. Install the packages that" \
-    "share/doc/install.md lists under Dependencies, then run cmake --preset release"
-
-mapfile -t missing < <(missing_packages)
-if [ "${#missing[@]}" -eq 0 ]; then
-  echo "install-dependencies.sh: all packages that psi-slam needs are installed" >&2
-else
-  echo "install-dependencies.sh: installing ${missing[*]}" >&2
-  apt_get update >&2 || fail "apt-get update failed. Check that this machine is online"
-  apt_get install --yes --no-install-recommends "${missing[@]}" >&2 ||
-    fail "apt-get install failed. Read its message above"
+only_print=false
+if [ "${1:-}" = --print ]; then
+  only_print=true
+  shift
 fi
-check_cmake
+if [ $# -eq 0 ]; then set -- build runtime; fi
+wanted=()
+for list in "$@"; do
+  case "$list" in
+    build | runtime | test)
+      declare -n packages=$list
+      wanted+=("${packages[@]}")
+      ;;
+    *)
+      say "there is no list $list. Name one or more of build, runtime and test"
+      exit 2
+      ;;
+  esac
+done
+if $only_print; then
+  printf '%s\n' "${wanted[@]}"
+  exit
+fi
+command -v apt-get >/dev/null ||
+  fail "this system is $(system_name), which has no apt-get. Install the packages that share/doc/install.md lists under" \
+    "Dependencies, then run cmake --preset release"
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+dpkg-query --show --showformat='${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p' >"$work/installed"
+mapfile -t missing < <(without "$work/installed" "${wanted[@]}")
+if [ "${#missing[@]}" -eq 0 ]; then
+  say "all packages for $* are installed"
+else
+  is_tried_system || say "psi-slam was tried on $tried, but not on $(system_name). Packages may be missing or too old there"
+  apt_get update >&2 || fail "apt-get update failed. Check that this machine is online"
+  # Packages that depend on a name make it known, even if the release does not have it: print only what has a version.
+  apt-cache dumpavail | sed -n 's/^Package: //p' >"$work/available"
+  mapfile -t unavailable < <(without "$work/available" "${missing[@]}")
+  needed=()
+  for package in "${unavailable[@]}"; do
+    if [[ " ${optional[*]} " == *" $package "* ]]; then
+      say "$(system_name) has no package $package. The tests that need it are skipped"
+    else
+      needed+=("$package")
+    fi
+  done
+  [ "${#needed[@]}" -eq 0 ] ||
+    fail "$(system_name) lacks the packages ${needed[*]}. Use $tried, or build what is missing from source and run" \
+      "cmake --preset release"
+  mapfile -t packages_to_install < <(packages_of "${missing[@]}")
+  if [ "${#packages_to_install[@]}" -gt 0 ]; then
+    say "installing ${packages_to_install[*]}"
+    apt_get install --yes --no-install-recommends "${packages_to_install[@]}" >&2 ||
+      fail "apt-get install failed. Read its message above"
+  fi
+fi
+if [[ " $* " == *" build "* ]]; then check_cmake; fi

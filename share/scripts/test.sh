@@ -20,7 +20,7 @@ cd "$(dirname "$0")/../.."
 
 results="$PWD/build/release/test-results.xml"
 
-share/scripts/build.sh
+share/scripts/build.sh --tests
 rm -f "$results"
 status=0
 # Runs one more test than there are processors, because tests of the window mostly wait.

@@ -163,7 +163,7 @@ TEST_F(WrongInput, a_malformed_line_is_skipped_with_a_warning) {
 TEST_F(WrongInput, time_that_runs_backwards_is_mapped_in_the_order_of_the_file) {
   auto lines = room_log_lines(60);
   for (std::size_t i = 20; i < 30; ++i) {  // ten scans with time stamps in reverse order
-    const std::string& stamp = words_of(lines[i])[2 + kRoomBeams + 6];
+    const std::string stamp = words_of(lines[i])[2 + kRoomBeams + 6];
     lines[i].replace(lines[i].find(stamp), stamp.size(), "1003." + std::to_string(500000 - 1000 * i));
   }
   const std::string log = room_log(lines);

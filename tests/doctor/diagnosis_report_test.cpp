@@ -94,7 +94,7 @@ TEST_F(DiagnosisReportTest, writes_json) {
   EXPECT_EQ(sound["beam_angles"]["best"], "left_open");
   EXPECT_EQ(sound["beam_angles"]["fits"].size(), 4U);
   EXPECT_TRUE(sound.contains("laser_mount_estimate"));
-  EXPECT_NO_THROW(nlohmann::json::parse(sound.dump()));
+  EXPECT_TRUE(nlohmann::json::accept(sound.dump()));
 }
 
 }  // namespace

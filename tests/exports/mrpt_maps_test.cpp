@@ -27,13 +27,11 @@ TEST(MrptMaps, mrpt_loads_the_simple_map_with_poses_scans_and_times) {
   ASSERT_TRUE(read.loadFromFile(path.string()));
   ASSERT_EQ(read.size(), result.node_frames.size());
   for (std::size_t node = 0; node < read.size(); ++node) {
-    mrpt::poses::CPose3DPDF::Ptr pose;
-    mrpt::obs::CSensoryFrame::Ptr observations;
-    read.get(node, pose, observations);
+    const auto& keyframe = *(read.begin() + static_cast<std::ptrdiff_t>(node));
     const auto& frame = result.frames[result.node_frames[node]];
-    EXPECT_NEAR(pose->getMeanVal().x(), frame.map_T_robot.x, 1e-9);
-    EXPECT_NEAR(pose->getMeanVal().yaw(), frame.map_T_robot.phi, 1e-9);
-    const auto scan = observations->getObservationByClass<mrpt::obs::CObservation2DRangeScan>();
+    EXPECT_NEAR(keyframe.pose->getMeanVal().x(), frame.map_T_robot.x, 1e-9);
+    EXPECT_NEAR(keyframe.pose->getMeanVal().yaw(), frame.map_T_robot.phi, 1e-9);
+    const auto scan = keyframe.sf->getObservationByClass<mrpt::obs::CObservation2DRangeScan>();
     ASSERT_TRUE(scan);
     EXPECT_EQ(scan->getScanSize(), 181U);
     EXPECT_NEAR(mrpt::Clock::toDouble(scan->timestamp), seconds(frame.time_us), 1e-6);

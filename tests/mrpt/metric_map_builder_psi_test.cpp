@@ -20,6 +20,7 @@
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <type_traits>
 
 #include "../local_maps/simulated_drive.h"
 #include "observations/mrpt_objects.h"
@@ -84,14 +85,24 @@ std::vector<TPose2D> node_poses(const CMetricMapBuilderPsi& builder) {
   mrpt::maps::CSimpleMap map;
   builder.getCurrentlyBuiltMap(map);
   std::vector<TPose2D> poses;
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    mrpt::poses::CPose3DPDF::Ptr pose;
-    CSensoryFrame::Ptr observations;
-    map.get(i, pose, observations);
-    poses.push_back(CPose2D(pose->getMeanVal()).asTPose());
-    EXPECT_GE(observations->size(), 1U);
+  for (const auto& keyframe : map) {
+    poses.push_back(CPose2D(keyframe.pose->getMeanVal()).asTPose());
+    EXPECT_GE(keyframe.sf->size(), 1U);
   }
   return poses;
+}
+
+template <class Map>
+const mrpt::maps::CMultiMetricMap& as_reference(const Map& map) {
+  if constexpr (std::is_pointer_v<Map>)
+    return *map;
+  else
+    return map;
+}
+
+// Returns the metric map of a builder. MRPT returns it as a pointer before version 2.9.2.
+const mrpt::maps::CMultiMetricMap& metric_map_of(const CMetricMapBuilderPsi& builder) {
+  return as_reference(builder.getCurrentlyBuiltMetricMap());
 }
 
 // Returns the first scans of a simulated run with wrong odometry.
@@ -354,14 +365,14 @@ TEST(MetricMapBuilderPsi, an_initial_map_without_scans_is_refused) {
 TEST(MetricMapBuilderPsi, its_metric_map_is_one_grid_drawn_when_asked_for) {
   const SimulatedDrive drive = observed_drive(100);
   CMetricMapBuilderPsi builder;
-  const auto* metric_map = builder.getCurrentlyBuiltMetricMap();
+  const mrpt::maps::CMultiMetricMap* metric_map = &metric_map_of(builder);
   const auto before = builder.grid();
   process_as_actions(builder, drive);
   ASSERT_EQ(metric_map->maps.size(), 1U);
   EXPECT_EQ(metric_map->mapByClass<mrpt::maps::COccupancyGridMap2D>(), before)
       << "the map stays as it was drawn, until the next call";
 
-  EXPECT_EQ(builder.getCurrentlyBuiltMetricMap(), metric_map) << "the builder always returns the same object";
+  EXPECT_EQ(&metric_map_of(builder), metric_map) << "the builder always returns the same object";
   const auto grid = metric_map->mapByClass<mrpt::maps::COccupancyGridMap2D>();
   EXPECT_NE(grid, before);
   EXPECT_GT(grid->getSizeX(), before->getSizeX());
@@ -383,7 +394,7 @@ TEST(MetricMapBuilderPsi, its_metric_map_is_one_grid_drawn_when_asked_for) {
 using mrpt::maps::COccupancyGridMap2D;
 
 COccupancyGridMap2D::Ptr metric_grid(const CMetricMapBuilderPsi& builder) {
-  return builder.getCurrentlyBuiltMetricMap()->mapByClass<COccupancyGridMap2D>();
+  return metric_map_of(builder).mapByClass<COccupancyGridMap2D>();
 }
 
 // Maps scan by scan. Calls `ask` after each scan.
@@ -486,12 +497,7 @@ TEST(MetricMapBuilderPsi, nodes_of_two_lasers_keep_the_observations_of_both) {
   mrpt::maps::CSimpleMap map;
   builder.getCurrentlyBuiltMap(map);
   ASSERT_GT(map.size(), 3U);
-  for (std::size_t node = 0; node < map.size(); ++node) {
-    mrpt::poses::CPose3DPDF::Ptr pose;
-    CSensoryFrame::Ptr observations;
-    map.get(node, pose, observations);
-    EXPECT_EQ(observations->size(), 2U) << node;
-  }
+  for (const auto& keyframe : map) EXPECT_EQ(keyframe.sf->size(), 2U);
 }
 
 TEST(MetricMapBuilderPsi, other_observations_are_kept_beside_their_scan) {
@@ -511,10 +517,7 @@ TEST(MetricMapBuilderPsi, other_observations_are_kept_beside_their_scan) {
   EXPECT_EQ(node_poses(with_another), node_poses(alone));
   mrpt::maps::CSimpleMap map;
   with_another.getCurrentlyBuiltMap(map);
-  mrpt::poses::CPose3DPDF::Ptr pose;
-  CSensoryFrame::Ptr observations;
-  map.get(0, pose, observations);
-  EXPECT_EQ(observations->size(), 2U);
+  EXPECT_EQ(map.begin()->sf->size(), 2U);
 }
 
 TEST(MetricMapBuilderPsi, uses_laser_and_mount_of_the_options) {

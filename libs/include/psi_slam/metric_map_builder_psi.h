@@ -101,7 +101,7 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   /// or 2.5 mrad, so this function may be called at every scan. A correction of the whole map is thus worked
   /// off over several calls, and a standstill counts with all its scans. The first
   /// call after finish() draws the whole grid.
-#if MRPT_VERSION >= 0x292
+#if MRPT_VERSION >= 0x292  // 2.9.2; the macro of later versions, such as 0x20e07 of 2.14.7, is larger
   const mrpt::maps::CMultiMetricMap& getCurrentlyBuiltMetricMap() const override;
 #else
   const mrpt::maps::CMultiMetricMap* getCurrentlyBuiltMetricMap() const override;

@@ -33,6 +33,10 @@ constexpr double kMostRefuted = 1.5;      // by which one cell counts in its pat
 constexpr double kLeastOfPatch = 0.4;     // mean refutation around a cell that is refuted itself
 constexpr double kStraightReach_m = 0.3;  // reach of the cells whose line gives the normal
 constexpr double kStraightRatio = 0.1;    // of the variances across and along a straight obstacle
+constexpr double kRim_m = 0.15;           // reach of the cells that vanish with a thing
+constexpr double kLeastOfRim = 0.3;       // refutation of a cell that vanishes with a thing
+constexpr float kLeastCrossed = 1;        // or weight of the beams that crossed it without an end in it
+constexpr std::uint32_t kRimSlack = 3;    // intervals by which it may have been seen longer
 constexpr double kSurfaceGap_m = 0.25;    // largest distance between the ends of neighbouring beams
 constexpr double kLargeSurface_m = 1.5;
 constexpr double kLink_m = 0.3;  // gap within one thing
@@ -67,6 +71,11 @@ void measure_distances(std::vector<std::int32_t>& cells, std::int64_t width, std
 
 double distance_m(const TPoint2D& a, const TPoint2D& b) {
   return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
+}
+
+/// Returns whether [first, last] lies within [other_first, other_last], with kRimSlack intervals more.
+bool is_within(std::uint32_t first, std::uint32_t last, std::uint32_t other_first, std::uint32_t other_last) {
+  return first + kRimSlack >= other_first && last <= other_last + kRimSlack;
 }
 
 /// Returns the mean angle between neighbouring beams, or 0 for a single beam.
@@ -198,11 +207,14 @@ void MovingThings::mark_hit(const TPoint2D& end, bool of_surface) {
     Sightings& cell = cells_[static_cast<std::size_t>(found)];
     cell.hit_in = interval_;
     if (of_surface) cell.surface_in = interval_;
+    return &cell;
   };
   const std::int32_t at_end = find_[static_cast<std::size_t>(y * layout_.width + x)];
-  if (at_end >= 0)
-    mark(at_end);
-  else if (-at_end <= near_)
+  if (at_end >= 0) {
+    Sightings& cell = *mark(at_end);
+    if (cell.first_end == 0) cell.first_end = interval_;
+    cell.last_end = interval_;
+  } else if (-at_end <= near_)
     for_each_near(x, y, mark);
 }
 
@@ -256,6 +268,7 @@ void MovingThings::end_interval() {
     const bool is_new_visit = cell.seen_in == 0 || interval_ - cell.seen_in > kGapOfVisits;
     cell.seen_in = interval_;
     if (is_new_visit) cell.free_of_visit = 0;
+    see_crossed(cell);
     if (is_hit_near(cell))
       see_occupied(cell, is_new_visit);
     else
@@ -263,6 +276,15 @@ void MovingThings::end_interval() {
   }
   seen_.clear();
   ++interval_;
+}
+
+/// Counts the beams that crossed a cell before the first beam and after the last beam that ended in the cell
+/// itself.
+void MovingThings::see_crossed(Sightings& cell) const {
+  if (cell.last_end == interval_)
+    cell.crossed_after = 0;
+  else if (cell.passed_in == interval_)
+    (cell.first_end == 0 ? cell.crossed_before : cell.crossed_after) += std::min(1.0F, cell.beams / beams_);
 }
 
 /// Returns whether a beam of this interval ended in a cell or near it.
@@ -297,13 +319,15 @@ void MovingThings::see_free(Sightings& cell) {
   cell.free_since_hit += weight;
 }
 
+/// Returns the share of the free weight that refutes a cell, at most kMostRefuted.
+double MovingThings::refuted(const Sightings& cell) {
+  const double needed = kLeastFree + kFreePerVisit * (cell.visits - 1) + kFreePerReturn * cell.returns;
+  return std::min(kMostRefuted, static_cast<double>(cell.free) / needed);
+}
+
 /// Judges a cell together with the obstacles around it that were seen occupied from before its first hit
 /// until after its last.
 bool MovingThings::is_moving(const Sightings& cell) const {
-  const auto refuted = [](const Sightings& of) {
-    const double needed = kLeastFree + kFreePerVisit * (of.visits - 1) + kFreePerReturn * of.returns;
-    return std::min(kMostRefuted, static_cast<double>(of.free) / needed);
-  };
   if (cell.hits == 0) return false;
   double sum = 0;
   int count = 0;
@@ -350,11 +374,38 @@ void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
   }
 }
 
+/// Adds the cells at the rim of moving things, which few beams refute or which are close to a wall: beams saw
+/// them occupied only while they saw a neighbour that moved.
+void MovingThings::add_rims(std::vector<bool>& is_moving) const {
+  const std::int64_t reach = cells_in(kRim_m, layout_.resolution_m);
+  std::vector<std::size_t> rim;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const Sightings& cell = cells_[i];
+    if (is_moving[i] || cell.hits == 0) continue;
+    const bool is_doubtful = refuted(cell) >= kLeastOfRim;
+    const bool is_crossed = cell.first_end != 0 && cell.crossed_before + cell.crossed_after >= kLeastCrossed;
+    if (!is_doubtful && !is_crossed) continue;
+    bool is_of_thing = false;
+    for_each_around(cell.x, cell.y, reach, [&](std::int32_t found) {
+      if (!is_moving[static_cast<std::size_t>(found)]) return;
+      const Sightings& thing = cells_[static_cast<std::size_t>(found)];
+      is_of_thing =
+          is_of_thing ||
+          (is_doubtful && is_within(cell.first_hit, cell.last_hit, thing.first_hit, thing.last_hit)) ||
+          (is_crossed && thing.first_end != 0 &&
+           is_within(cell.first_end, cell.last_end, thing.first_end, thing.last_end));
+    });
+    if (is_of_thing) rim.push_back(i);
+  }
+  for (const std::size_t i : rim) is_moving[i] = true;
+}
+
 void MovingThings::remove_from(COccupancyGridMap2D& grid) {
   end_interval();
   std::vector<bool> is_moving(cells_.size());
   for (std::size_t i = 0; i < cells_.size(); ++i) is_moving[i] = this->is_moving(cells_[i]);
   keep_large_surfaces(is_moving);
+  add_rims(is_moving);
   for (std::size_t i = 0; i < cells_.size(); ++i)
     if (is_moving[i]) grid.getRow(cells_[i].y)[cells_[i].x] = cell_value(kPassEvidence);
 }

@@ -13,6 +13,10 @@
 // does not matter, while a table leg that many beams miss stays. The cells within 0.25 m that were seen
 // occupied throughout the same time are judged together.
 //
+// A cell within 0.15 m of a refuted one vanishes, too, if it was occupied only during the same time and if
+// its free weight reaches 0.3 of what refutes it, or if beams crossed it with a weight of 1 before the first
+// beam or after the last beam that ended in the cell itself. So the ends of a door beside its frame vanish.
+//
 // Obstacles longer than 1.5 m stay if the beams hit them as one surface: a wall in two places after an
 // error of the poses, or a barrier that beams hit only from some directions.
 #pragma once
@@ -58,6 +62,8 @@ class MovingThings {
     std::uint32_t seen_in = 0;     ///< last interval that saw the cell
     std::uint32_t first_hit = 0;   ///< first interval that saw the cell occupied; 0 if none did
     std::uint32_t last_hit = 0;    ///< last interval that saw the cell occupied
+    std::uint32_t first_end = 0;   ///< first interval with a beam that ended in the cell itself; 0 if none
+    std::uint32_t last_end = 0;    ///< last such interval
     std::uint16_t hits = 0;        ///< number of intervals that saw the cell occupied
     std::uint16_t surface = 0;     ///< number of these in which a large surface was hit
     std::uint16_t visits = 0;      ///< number of visits that saw the cell occupied
@@ -65,6 +71,8 @@ class MovingThings {
     float free = 0;                ///< weight of the intervals that saw the cell free, without short gaps
     float free_of_visit = 0;       ///< part of it since the start of the visit or the last hit
     float free_since_hit = 0;      ///< part of it since the last hit
+    float crossed_before = 0;      ///< weight of the intervals that crossed the cell before first_end
+    float crossed_after = 0;       ///< and after last_end
   };
 
   void find_obstacles(const mrpt::maps::COccupancyGridMap2D& grid);
@@ -78,8 +86,11 @@ class MovingThings {
   bool is_hit_near(const Sightings& cell) const;
   void see_occupied(Sightings& cell, bool is_new_visit);
   void see_free(Sightings& cell);
+  void see_crossed(Sightings& cell) const;
+  static double refuted(const Sightings& cell);
   bool is_moving(const Sightings& cell) const;
   void keep_large_surfaces(std::vector<bool>& is_moving) const;
+  void add_rims(std::vector<bool>& is_moving) const;
 
   /// Calls `visit` with the index in cells_ of each obstacle at most `reach` columns and rows from (x, y).
   template <class Visit>

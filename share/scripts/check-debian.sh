@@ -129,6 +129,8 @@ prepare() {
   cp /etc/resolv.conf /etc/hosts "$root/etc/"
   mount_in "$root/proc" -t proc proc
   mount_in "$root/dev/shm" -t tmpfs tmpfs
+  mount_in "$root/dev/pts" -t devpts -o newinstance,ptmxmode=0666 devpts  # tests of sensors need pseudo-terminals
+  ln -sf pts/ptmx "$root/dev/ptmx"
 }
 
 say "installing a bare Debian $version in $work"

@@ -30,7 +30,7 @@ using Path = std::filesystem::path;
 const char* const kLogFiles =
     "Logs and sessions|*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz;*.zst;*.zstd;*.session;*.journal|All "
     "files|*";
-const char* const kGrowingFiles = "Logs and bags|*.log;*.clf;*.rawlog;*.bag;*.active;*.mcap|All files|*";
+const char* const kGrowingFiles = "Logs and bags|*.log;*.clf;*.rawlog;*.gz;*.bag;*.active;*.mcap|All files|*";
 const char* const kSettingsFiles = "Settings (*.ini)|*.ini|All files|*";
 
 }  // namespace

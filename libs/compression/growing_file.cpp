@@ -54,6 +54,7 @@ std::size_t GrowingFile::read(char* bytes, std::size_t size) {
 void GrowingFile::check_size() {
   struct stat state = {};
   if (::fstat(descriptor_, &state) != 0) return;
+  largest_bytes_ = std::max<std::int64_t>(largest_bytes_, ::lseek(descriptor_, 0, SEEK_CUR));
   if (state.st_size < largest_bytes_)
     throw UserError(path_.string() +
                     " became shorter while it was followed, expected a log that grows. Follow the new log");

@@ -28,7 +28,7 @@ class GrowingFile {
   std::filesystem::path path_;
   int descriptor_;  // owned by file_
   std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
-  std::int64_t largest_bytes_ = 0;  // largest size on disk so far
+  std::int64_t largest_bytes_ = 0;  // largest number of bytes seen on disk
 };
 
 }  // namespace psi_slam

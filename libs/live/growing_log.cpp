@@ -73,6 +73,7 @@ LogFormat format_by_name(fs::path file) {
   const std::string ending = file.extension().string();
   if (ending == ".bag" || ending == ".active") return LogFormat::kRos1Bag;
   if (ending == ".mcap") return LogFormat::kRos2Mcap;
+  if (ending == ".db3") return LogFormat::kRos2Sqlite;
   return ending == ".rawlog" ? LogFormat::kMrptRawlog : LogFormat::kCarmen;
 }
 

@@ -14,8 +14,9 @@
 namespace psi_slam {
 
 /// Returns the format of a log that is being recorded, by its content if it has any yet, otherwise by the
-/// name of the file: .bag and .active, .mcap, .rawlog, and CARMEN for all others; each may end in .gz. Throws
-/// UserError for what cannot be followed: what is no regular file, SQLite bags, and files compressed by zstd.
+/// name of the file: .bag and .active, .mcap, .db3, .rawlog, and CARMEN for all others; each may end in .gz.
+/// Throws UserError for what cannot be followed: what is no regular file, SQLite bags, and files compressed
+/// by zstd.
 LogFormat growing_format(const std::filesystem::path& file);
 
 /// Reads a text file, plain or gzipped, from its beginning and waits for more at its end. Throws UserError if

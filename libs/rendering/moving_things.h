@@ -14,8 +14,8 @@
 // occupied throughout the same time are judged together.
 //
 // A cell within 0.15 m of a refuted one vanishes, too, if it was occupied only during the same time and if
-// its free weight reaches 0.3 of what refutes it, or if beams crossed it with a weight of 1 before the first
-// beam or after the last beam that ended in the cell itself. So the ends of a door beside its frame vanish.
+// its free weight reaches 0.3 of what refutes it, or if the beams that crossed it before the first beam and
+// after the last beam that ended in the cell itself weigh 1 in sum. So the ends of a door beside its frame vanish.
 //
 // Obstacles longer than 1.5 m stay if the beams hit them as one surface: a wall in two places after an
 // error of the poses, or a barrier that beams hit only from some directions.

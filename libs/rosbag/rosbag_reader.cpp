@@ -142,6 +142,7 @@ class RosbagReader : public LogReader {
       if (auto frame = uses_gyroscope() ? headings_.take() : interpolator_.take()) return frame;
       if (at_end_) {
         if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+        if (frames_given() == 0 && invalid_.count > 0) throw UserError(invalid_.first);
         return std::nullopt;
       }
       try {
@@ -165,6 +166,7 @@ class RosbagReader : public LogReader {
       take(message);
     } catch (const UserError& error) {
       if (!is_stream_) throw;
+      if (invalid_.count++ == 0) invalid_.first = error.what();
       if (contents_.skipped.count++ == 0) contents_.skipped.first = error.what();
     }
   }
@@ -255,6 +257,7 @@ class RosbagReader : public LogReader {
   BagPlan plan_;
   std::unique_ptr<BagFile> bag_;
   bool is_stream_;
+  SkippedLines invalid_;  // damaged messages of a stream
   std::optional<HeightSlice> slice_;
   std::vector<LogOptions> sensor_options_;  // in the order of plan_.scan_topics
   std::vector<RosLaser> lasers_;            // in the order of plan_.scan_topics
@@ -276,6 +279,10 @@ std::unique_ptr<LogReader> open_rosbag_stream(std::unique_ptr<ByteSource> record
   const std::filesystem::path path = recording->path();
   auto first = std::make_shared<std::string>(1, '\0');
   first->resize(recording->read(first->data(), 1));
+  if (first->empty())
+    throw UserError(
+        path.string() +
+        " is empty: its recorder has written nothing yet. Start the recorder, and follow it again");
   const bool is_ros1 = *first == "#";
   auto bytes = std::make_unique<TextSource>(first, path, std::move(recording));
   auto bag = is_ros1 ? follow_ros1_bag(std::move(bytes)) : follow_mcap_bag(std::move(bytes));

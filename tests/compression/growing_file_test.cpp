@@ -79,6 +79,17 @@ TEST(GrowingFile, must_not_shrink) {
   EXPECT_THAT(sentence_of([&] { read_now(file); }), HasSubstr("my.log became shorter while it was followed"));
 }
 
+TEST(GrowingFile, must_not_shrink_while_it_is_read) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "my.log";
+  write_file(path, std::string(1'000'000, 'a'));
+  GrowingFile file(path);
+  std::array<char, 7> room{};
+  EXPECT_EQ(file.read(room.data(), room.size()), room.size());
+  write_file(path, "");
+  EXPECT_THAT(sentence_of([&] { read_now(file); }), HasSubstr("my.log became shorter"));
+}
+
 TEST(GrowingFile, says_what_cannot_be_read) {
   const TemporaryFolder folder;
   EXPECT_THAT(sentence_of([&] { GrowingFile(folder.path() / "none"); }), HasSubstr("cannot read"));

@@ -93,6 +93,9 @@ TEST_F(GrowingLogTest, says_which_files_cannot_be_followed) {
               HasSubstr("log is a ROS 2 bag (SQLite) and cannot be followed"));
   EXPECT_THAT(complaint_about("\x28\xb5\x2f\xfd"),
               HasSubstr("log is compressed by zstd and cannot be followed"));
+  write_file(folder_.path() / "run_0.db3", "");
+  EXPECT_THAT(sentence_of([&] { growing_format(folder_.path() / "run_0.db3"); }),
+              HasSubstr("run_0.db3 is a ROS 2 bag (SQLite) and cannot be followed"));
   EXPECT_THAT(sentence_of([&] { growing_format(folder_.path()); }),
               HasSubstr("is a folder and cannot be followed"));
   const auto pipe = folder_.path() / "pipe";

@@ -102,6 +102,17 @@ TEST(RosbagStream, skips_damaged_messages) {
   EXPECT_THAT(live->skipped_lines().first, HasSubstr("the scan's angles start at"));
 }
 
+TEST(RosbagStream, of_damaged_scans_only_is_an_error) {
+  Ros1Writer writer({});
+  for (Recorded message : recorded_run()) {
+    if (auto* scan = std::get_if<RecordedScan>(&message)) scan->angle_increment_rad = 0;
+    writer.add(message);
+  }
+  const auto live = open_text(writer.finish());
+  EXPECT_THAT(sentence_of([&] { live->next(); }), HasSubstr("the scan's angles start at"));
+  EXPECT_EQ(live->skipped_lines().count, 20U);
+}
+
 TEST(RosbagStream, of_a_compressed_chunk_that_is_being_recorded_is_an_error) {
   Ros1Writer writer({"lz4", 7, false, false});
   for (const Recorded& message : recorded_run()) writer.add(message);
@@ -129,7 +140,7 @@ TEST(RosbagStream, waits_for_the_lasers_that_the_user_names) {
 }
 
 TEST(RosbagStream, without_scans_is_an_error) {
-  EXPECT_THAT(sentence_of([&] { open_text(""); }), HasSubstr("run.bag is not an MCAP file"));
+  EXPECT_THAT(sentence_of([&] { open_text(""); }), HasSubstr("run.bag is empty"));
   Ros1Writer writer({});
   writer.add(static_mount());
   EXPECT_THAT(sentence_of([&] { open_text(writer.finish()); }), HasSubstr("run.bag has no laser scans"));

@@ -9,6 +9,7 @@
 #include "live_run.h"
 #include "psi_slam/user_error.h"
 #include "session/session_input.h"
+#include "session/session_prior.h"
 
 namespace psi_slam {
 namespace {
@@ -63,6 +64,7 @@ int map_live(const CommandLine& line, const Streams& streams) {
   const SessionInput input = input_of(line, source, run.control(), bound, texts);
   const std::size_t resumed_scans = input.recording() ? input.recording()->frames.size() : 0;
   bound.settings.mapper.estimates_covariance = poses == PoseFormat::kJson;
+  check_prior_apart(bound.settings, line.output);
   MappingSession session(input, bound.settings);
   const ScopeExit leave([&] { run.leave(); });  // the source ends before the session, also after an error
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);

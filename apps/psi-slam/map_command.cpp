@@ -19,6 +19,7 @@
 #include "session/recorded_settings.h"
 #include "session/session_file.h"
 #include "session/session_input.h"
+#include "session/session_prior.h"
 
 namespace psi_slam {
 namespace {
@@ -179,6 +180,7 @@ int map_log(const CommandLine& line, const Streams& streams) {
   EditJournal edits;
   if (!line.edits.empty()) edits = EditJournal::read(line.edits);
   OutputFolder::check(line.output, line.force);
+  check_prior_apart(bound.settings, line.output);
   check_sessions_to_write(line);
   calibrate(input, bound.settings, line, signals, streams);
   MappingSession session(input, bound.settings);

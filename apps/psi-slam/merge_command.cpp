@@ -9,6 +9,7 @@
 #include "session/map_frame.h"
 #include "session/place_run.h"
 #include "session/recorded_settings.h"
+#include "session/session_prior.h"
 
 namespace psi_slam {
 namespace {
@@ -124,6 +125,7 @@ int merge_runs(const CommandLine& line, const Streams& streams) {
   std::vector<SessionInput> inputs = open_inputs(line, bound, streams);
   if (!line.start.empty()) parse_start(line.start);
   OutputFolder::check(line.output, line.force);
+  check_prior_apart(bound.settings, line.output);
   check_sessions_to_write(line);
   const InterruptSignals signals;
   for (SessionInput& input : inputs) calibrate(input, bound.settings, line, signals, streams);

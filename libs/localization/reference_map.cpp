@@ -48,6 +48,7 @@ bool ends_with(const std::string& text, const std::string& end) {
 
 constexpr double kLeastResolution_m = 0.001;
 constexpr double kMostResolution_m = 1;
+constexpr double kFarthest_m = 200'000;
 constexpr double kLeastOffset = 0.01;  // of a cell; less is rounding
 
 void check_resolution(const std::filesystem::path& path, double resolution_m) {
@@ -172,6 +173,17 @@ ReferenceMap make_reference_map(const Grid& map, double search_resolution_m, dou
   return reference;
 }
 
+void check_map_place(const std::filesystem::path& path, const mrpt::math::TPoint2D& low,
+                     const mrpt::math::TPoint2D& high) {
+  const double farthest_m = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
+  if (farthest_m <= kFarthest_m) return;
+  throw UserError(
+      path.string() + ": the map reaches from x " + fixed_text(low.x, 1) + " m, y " + fixed_text(low.y, 1) +
+      " m to x " + fixed_text(high.x, 1) + " m, y " + fixed_text(high.y, 1) +
+      " m, expected at most 200 km from the origin, because coordinates of grid maps have 32 bits. "
+      "Subtract a constant from its coordinates");
+}
+
 PlacedMapFile read_placed_map_file(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   const bool is_yaml = ends_with(name, ".yaml") || ends_with(name, ".yml");
@@ -180,6 +192,11 @@ PlacedMapFile read_placed_map_file(const std::filesystem::path& path) {
                     " is not a map: expected map.yaml or map.gridmap.gz, as psi-slam writes them. Name one "
                     "of these files");
   PlacedMapFile map = is_yaml ? read_yaml(path) : PlacedMapFile{read_gridmap(path)};
+  const auto corner = [](float x, float y) {
+    return mrpt::math::TPoint2D(static_cast<double>(x), static_cast<double>(y));
+  };
+  check_map_place(path, corner(map.grid.getXMin(), map.grid.getYMin()),
+                  corner(map.grid.getXMax(), map.grid.getYMax()));
   const auto& cells = map.grid.getRawMap();
   if (std::none_of(cells.begin(), cells.end(), [](Grid::cellType cell) { return cell < 0; }))
     throw UserError(path.string() +

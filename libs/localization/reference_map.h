@@ -37,6 +37,11 @@ struct PlacedMapFile {
   mrpt::math::TPoint2D offset{0, 0};
 };
 
+/// Throws UserError if a map with these corners, in metres, lies too far from the origin for the coordinates
+/// of grid maps, which are 32-bit floats. `path` names the map.
+void check_map_place(const std::filesystem::path& path, const mrpt::math::TPoint2D& low,
+                     const mrpt::math::TPoint2D& high);
+
 /// Reads a map like read_map_file(), with its exact place.
 PlacedMapFile read_placed_map_file(const std::filesystem::path& path);
 

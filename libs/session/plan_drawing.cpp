@@ -16,7 +16,9 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "base/scope_exit.h"
 #include "base/text_parts.h"
+#include "localization/reference_map.h"
 #include "psi_slam/user_error.h"
 #include "rendering/grid_layout.h"
 
@@ -93,6 +95,7 @@ void add_lines(const OGRGeometry& geometry, double scale, std::vector<Line>& lin
 std::vector<Line> lines_of(const std::filesystem::path& path, const PlanDrawingOptions& options) {
   GDALAllRegister();
   CPLPushErrorHandler(CPLQuietErrorHandler);
+  const ScopeExit restore(&CPLPopErrorHandler);
   constexpr std::array<const char*, 2> kDrivers{"DXF", nullptr};
   const std::unique_ptr<GDALDataset> file(
       GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data()));
@@ -112,7 +115,6 @@ std::vector<Line> lines_of(const std::filesystem::path& path, const PlanDrawingO
       }
     }
   }
-  CPLPopErrorHandler();
   if (!file)
     throw UserError(path.string() + " is no readable DXF drawing. Export the plan as DXF in text form");
   if (lines.empty())
@@ -153,6 +155,7 @@ mrpt::maps::COccupancyGridMap2D read_plan_drawing(const std::filesystem::path& p
                     fixed_text(height_m, 1) +
                     " m, expected 1 m to 5000 m and at most 100 million cells of map.resolution_m. Correct "
                     "prior.metres_per_unit, or choose layers with prior.layers");
+  check_map_place(path, low, high);
   const auto cell = [&](double metres) { return std::llround(std::floor(metres / cell_m)); };
   GridLayout layout{cell_m, cell(low.x - kMargin_m), cell(low.y - kMargin_m), 0, 0};
   layout.width = cell(high.x + kMargin_m) + 1 - layout.x_min;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 #include "base/number_text.h"
@@ -70,8 +71,7 @@ void check_prior(const Settings& settings, const FixedKnowledge& knowledge) {
   if (prior.extend && is_plan_drawing(prior.map))
     throw UserError(
         "prior.extend keeps the known cells of a grid map, but prior.map is a drawing, all of which is "
-        "known. "
-        "Leave out prior.extend");
+        "known. Leave out prior.extend");
   const MapFrameOptions& frame = settings.map_frame;
   if (frame.align != MapFrameOptions::kNone || frame.origin_x_m != 0 || frame.origin_y_m != 0)
     throw UserError(
@@ -81,6 +81,16 @@ void check_prior(const Settings& settings, const FixedKnowledge& knowledge) {
     throw UserError(
         "prior.map states the frame of the map, and so do the lines pose and tag of the edits. Remove "
         "prior.map, or these lines");
+}
+
+void check_prior_apart(const Settings& settings, const std::filesystem::path& results_folder) {
+  if (settings.prior.map.empty()) return;
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::path folder_of_map = fs::absolute(settings.prior.map).parent_path();
+  if (!fs::equivalent(folder_of_map, results_folder, ignored)) return;
+  throw UserError("prior.map is " + settings.prior.map + ", but the results in " + results_folder.string() +
+                  " would replace it. Choose another folder with -o");
 }
 
 SessionPrior::SessionPrior(const Settings& settings)

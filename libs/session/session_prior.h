@@ -4,6 +4,7 @@
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ namespace psi_slam {
 /// Throws UserError if a prior map contradicts other settings or the knowledge, because both state the frame
 /// of the map, or if prior.extend lacks a prior map.
 void check_prior(const Settings& settings, const FixedKnowledge& knowledge);
+
+/// Throws UserError if the prior map lies in the folder of the results, which would replace it.
+void check_prior_apart(const Settings& settings, const std::filesystem::path& results_folder);
 
 class SessionPrior {
  public:

@@ -100,13 +100,16 @@ TEST_F(PriorMapApp, walls_that_are_not_there_are_named_and_missing_furniture_is_
   EXPECT_LT(worst_m("a"), 0.06);
 }
 
+/// Place of the room's origin in the drawing. Walls on the edges of cells would be drawn in part only.
+constexpr double kDrawingShift_m = 0.02;
+
 /// A DXF drawing of the room in millimetres, on the layer WALLS. A diagonal across the room is on DIMENSIONS.
 std::string room_drawing(const std::string& header) {
   std::string dxf = header + "0\nSECTION\n2\nENTITIES\n";
   const auto add = [&](const std::string& layer, double x0, double y0, double x1, double y1) {
-    dxf += "0\nLINE\n8\n" + layer + "\n10\n" + std::to_string(1000 * x0) + "\n20\n" +
-           std::to_string(1000 * y0) + "\n11\n" + std::to_string(1000 * x1) + "\n21\n" +
-           std::to_string(1000 * y1) + "\n";
+    const auto millimetres = [](double metres) { return std::to_string(1000 * (metres + kDrawingShift_m)); };
+    dxf += "0\nLINE\n8\n" + layer + "\n10\n" + millimetres(x0) + "\n20\n" + millimetres(y0) + "\n11\n" +
+           millimetres(x1) + "\n21\n" + millimetres(y1) + "\n";
   };
   const std::vector<mrpt::math::TPoint2D> walls{{0, 0},   {12, 0}, {12, 8}, {7, 8}, {7, 9.5},
                                                 {4, 9.5}, {4, 8},  {0, 8},  {0, 0}};
@@ -123,7 +126,7 @@ TEST_F(PriorMapApp, a_drawing_without_the_pillar_states_the_frame) {
   const AppRun run = map("a", {log_.string(), "--set", with("room.dxf"), "--set", "prior.layers=WALLS"});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.err, Not(HasSubstr("room.dxf")));
-  EXPECT_LT(worst_m("a"), 0.08);
+  EXPECT_LT(worst_m("a"), 0.06 + std::hypot(kDrawingShift_m, kDrawingShift_m));
   const AppRun unitless = map("b", {log_.string(), "--set", with("unitless.dxf")});
   EXPECT_EQ(unitless.code, 2);
   EXPECT_THAT(unitless.err, HasSubstr("states no unit of length"));
@@ -173,7 +176,12 @@ TEST_F(PriorMapApp, a_prior_map_is_extended_without_changing_its_cells) {
     for (int x = 0; x < static_cast<int>(after.getSizeX()); ++x) {
       const double x_m = static_cast<double>(after.idx2x(x));
       const double y_m = static_cast<double>(after.idx2y(y));
-      const float cell = before.getPos(static_cast<float>(x_m), static_cast<float>(y_m));
+      const int old_x = before.x2idx(x_m);
+      const int old_y = before.y2idx(y_m);
+      // MRPT rounds coordinates less than a cell outside of a map into it.
+      const bool is_inside =
+          x_m > static_cast<double>(before.getXMin()) && y_m > static_cast<double>(before.getYMin());
+      const float cell = is_inside ? before.getCell(old_x, old_y) : 0.5F;
       if (cell != 0.5F) {
         ++known;
         EXPECT_EQ(after.getCell(x, y), cell) << x_m << ' ' << y_m;
@@ -185,6 +193,26 @@ TEST_F(PriorMapApp, a_prior_map_is_extended_without_changing_its_cells) {
   }
   EXPECT_GT(known, 10'000U);
   EXPECT_GT(new_walls, 100U);
+}
+
+TEST_F(PriorMapApp, results_never_replace_the_prior_map) {
+  const std::string prior = prior_map("");
+  const std::string bytes = read_file(path("prior") / "map.pgm");
+  const AppRun run = map("prior", {log_.string(), "--force", "--set", prior});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("would replace it"), HasSubstr("Choose another folder with -o")));
+  EXPECT_EQ(read_file(path("prior") / "map.pgm"), bytes);
+}
+
+TEST_F(PriorMapApp, a_map_far_from_the_origin_is_refused) {
+  write_file(path("far.pgm"), "P2\n3 3\n255\n0 254 0\n254 254 254\n0 254 0\n");
+  write_file(path("far.yaml"),
+             "image: far.pgm\nresolution: 0.05\norigin: [450123.4, 5412345.6, 0]\nnegate: 0\n"
+             "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  const AppRun run = map("a", {log_.string(), "--set", "prior.map=" + path("far.yaml").string()});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("far.yaml: the map reaches from x 450123."),
+                             HasSubstr("expected at most 200 km from the origin")));
 }
 
 TEST_F(PriorMapApp, merged_runs_get_its_frame_too) {

@@ -2,8 +2,6 @@
 #include "base/thread_priority.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <thread>
 

@@ -12,7 +12,7 @@
 namespace psi_slam {
 namespace {
 
-constexpr double kFarthestCoordinate_m = 1e8;  // coordinates of a national grid have up to eight digits
+constexpr double kFarthestCoordinate_m = 2e5;  // coordinates of grid maps are 32-bit floats
 constexpr double kLargestSigma_m = 1e3;
 
 TimeUs stated_time(const EditValues& values) {
@@ -30,7 +30,8 @@ double coordinate(const EditValues& values, const char* key) {
   const double value = values.number(key);
   if (std::abs(value) > kFarthestCoordinate_m)
     throw UserError(std::string(key) + "=" + values.text(key) + ": expected a number of metres from -" +
-                    trimmed_text(kFarthestCoordinate_m, 0) + " to " + trimmed_text(kFarthestCoordinate_m, 0));
+                    trimmed_text(kFarthestCoordinate_m, 0) + " to " + trimmed_text(kFarthestCoordinate_m, 0) +
+                    ", because coordinates of grid maps have 32 bits. Subtract a constant");
   return value;
 }
 

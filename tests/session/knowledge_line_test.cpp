@@ -15,7 +15,7 @@ using testing::HasSubstr;
 TEST(KnowledgeLine, survives_parsing_bit_for_bit) {
   const std::string text =
       "pose time_s=1700000000.500000 x_m=1 y_m=-2.5 yaw_deg=90 sigma_m=0.02 sigma_deg=1\n"
-      "pose time_s=1700000001.000000 from_scan=12 x_m=0.30000000000000004 y_m=4000000 sigma_m=2\n"
+      "pose time_s=1700000001.000000 from_scan=12 x_m=0.30000000000000004 y_m=40000 sigma_m=2\n"
       "tag name=A x_m=4 y_m=5 yaw_deg=-30.5 sigma_m=0.02 sigma_deg=0.5\n"
       "seen name=A time_s=12.000000 ahead_m=1.5 left_m=-0.2 sigma_m=0.03\n";
   const EditJournal journal = EditJournal::parse("# known\n" + text, "my.edits");

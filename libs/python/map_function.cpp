@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "psi_slam/user_error.h"
 #include "python/python_result.h"
 #include "python/python_settings.h"
 #include "python/run_watch.h"
@@ -25,15 +26,20 @@ py::object map_log(const std::filesystem::path& log, const py::object& settings,
   const EditJournal journal = python_edits(edits);
   RunWatch watch(progress);
   const auto shared = std::make_shared<SharedSession>(bound.table.take_warnings());
-  shared->use([&](std::unique_ptr<MappingSession>& session) {
-    SessionInput input(log);
-    input.calibrate(log_options(bound.settings), [&](double share) { watch.show_calibration(share); });
-    session = std::make_unique<MappingSession>(input, bound.settings);
-    session->add_edits(journal);
-    session->set_observer([&](const SessionProgress& now) { watch.show(now); });
-    session->run(watch.stop());
-    session->set_observer({});
-  });
+  try {
+    shared->use([&](std::unique_ptr<MappingSession>& session) {
+      SessionInput input(log);
+      input.calibrate(log_options(bound.settings), [&](double share) { watch.show_calibration(share); });
+      session = std::make_unique<MappingSession>(input, bound.settings);
+      session->add_edits(journal);
+      session->set_observer([&](const SessionProgress& now) { watch.show(now); });
+      session->run(watch.stop());
+      session->set_observer({});
+    });
+  } catch (const UserError&) {
+    watch.raise_if_stopped();  // the scans before the stop may be too few for a map
+    throw;
+  }
   return watch.result_or_raise(py::cast(PythonResult(shared)));
 }
 

@@ -37,10 +37,18 @@ bool is_path(const py::object& given) {
 
 using Column = std::vector<double>;
 
-Column column_of(const py::handle& given) {
+/// Returns the finite numbers of a column. `what` names the argument.
+Column column_of(const py::handle& given, const std::string& what, const std::string& name) {
   const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
-  if (!array) throw py::error_already_set();
-  return Column(array.data(), array.data() + array.size());
+  if (!array) throw UserError(what + ": the column " + name + " holds other values than numbers");
+  Column column(array.data(), array.data() + array.size());
+  const auto wrong =
+      std::find_if(column.begin(), column.end(), [](double number) { return !std::isfinite(number); });
+  if (wrong != column.end())
+    throw UserError(what + ": " + name + " of row " + std::to_string(wrong - column.begin()) +
+                    " (the first row is 0) is " + exact_text(*wrong) +
+                    ", expected a finite number. Remove this row");
+  return column;
 }
 
 /// Returns the columns of a structured array, a pandas table, or a plain array with these columns in this
@@ -59,14 +67,14 @@ std::array<Column, kCount> columns_of(const py::object& given, const std::array<
     if (!fields.is_none()) {
       if (!fields.contains(names[i]))
         throw UserError(what + ": the column " + names[i] + " is missing, expected the columns " + expected);
-      columns[i] = column_of(table[names[i]]);
+      columns[i] = column_of(table[names[i]], what, names[i]);
       continue;
     }
     const py::tuple shape = table.attr("shape");
     if (shape.size() != 2 || shape[1].cast<std::size_t>() != kCount)
       throw UserError(what + ": the array has the shape " + std::string(py::str(py::handle(shape))) +
                       ", expected a file, or an array with the columns " + expected);
-    columns[i] = column_of(table.attr("T")[py::int_(i)]);
+    columns[i] = column_of(table.attr("T")[py::int_(i)], what, names[i]);
   }
   return columns;
 }

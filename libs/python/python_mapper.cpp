@@ -87,15 +87,22 @@ class PythonMapper {
 
   py::object finish(const py::object& progress) {
     RunWatch watch(progress);
-    session_->use([&](std::unique_ptr<MappingSession>& session) {
-      require_open();
-      finished_ = true;
-      queue_->close();
-      session->set_observer([&](const SessionProgress& now) { watch.show(now); });
-      session->finish(watch.stop());
-      session->set_observer({});
-    });
-    return watch.result_or_raise(py::cast(PythonResult(session_)));
+    try {
+      session_->use([&](std::unique_ptr<MappingSession>& session) {
+        if (session->finished()) return;
+        require_open();
+        finished_ = true;
+        queue_->close();
+        session->set_observer([&](const SessionProgress& now) { watch.show(now); });
+        const ScopeExit leave([&] { session->set_observer({}); });
+        session->finish(watch.stop());
+      });
+    } catch (const UserError&) {
+      watch.raise_if_stopped();
+      throw;
+    }
+    if (!result_) result_ = py::cast(PythonResult(session_));
+    return watch.result_or_raise(result_);
   }
 
  private:
@@ -116,6 +123,7 @@ class PythonMapper {
   BeamBearings bearings_rad_;  ///< of the last scan
   PythonPose newest_;
   bool finished_ = false;
+  py::object result_;  ///< made by finish()
 };
 
 py::object covariance_array(const PythonPose& pose) {
@@ -175,7 +183,9 @@ void bind_mapper(py::module_& module) {
       .def("finish", &PythonMapper::finish, py::arg("progress") = py::none(),
            "Closes the last loops, refines all poses and returns the Result.\n\n"
            "progress: as for map(). Ctrl-C skips the rest of this work and raises Interrupted with the "
-           "result.");
+           "result.\n"
+           "          An exception that it raises skips the rest, too. It may not use the Mapper.\n\n"
+           "A further call returns the same Result, also after such an exception.");
 }
 
 }  // namespace psi_slam

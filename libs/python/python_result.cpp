@@ -224,6 +224,7 @@ py::object PythonResult::settings() {
 }
 
 py::list PythonResult::warnings() {
+  if (!made_.contains("summary")) draw();  // warnings about edits and walls follow from the drawn map
   std::vector<std::string> warnings = session_->settings_warnings();
   for (std::string& warning :
        session_->use([](const std::unique_ptr<MappingSession>& session) { return session->warnings(); }))

@@ -4,12 +4,16 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "base/scope_exit.h"
 #include "psi_slam/mapping_session.h"
+#include "psi_slam/user_error.h"
 #include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
@@ -21,10 +25,17 @@ class SharedSession {
       : settings_warnings_(std::move(settings_warnings)) {}
 
   /// Calls `work` with the session, without the interpreter's lock, while no other thread uses the session.
+  /// Throws UserError if `work` of this thread calls use() again, as a progress function may.
   template <class Work>
   auto use(const Work& work) {
+    if (user_ == std::this_thread::get_id())
+      throw UserError(
+          "Mapper: a progress function or signal handler cannot use the mapper that calls it. Use the mapper "
+          "after finish()");
     const pybind11::gil_scoped_release unlocked;
     const std::lock_guard lock(mutex_);
+    user_ = std::this_thread::get_id();
+    const ScopeExit leave([&] { user_ = std::thread::id(); });
     return work(session_);
   }
 
@@ -33,6 +44,7 @@ class SharedSession {
 
  private:
   std::mutex mutex_;
+  std::atomic<std::thread::id> user_{};  ///< thread that uses the session; no thread's id: none
   std::unique_ptr<MappingSession> session_;
   std::vector<std::string> settings_warnings_;
 };

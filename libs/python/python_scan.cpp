@@ -77,6 +77,10 @@ PythonScan make_scan(const py::object& ranges_m, double time_s, double max_range
     throw UserError("Scan: time_s is " + exact_text(time_s) + ", expected a time in seconds");
   made.time_us = std::llround(time_s * 1e6);
   require_above_zero(max_range_m, "max_range_m");
+  if (!(min_range_m >= 0 && min_range_m < max_range_m))
+    throw UserError("Scan: min_range_m is " + exact_text(min_range_m) +
+                    ", expected a number of metres from 0 to below max_range_m, which is " +
+                    exact_text(max_range_m));
   made.max_range_m = max_range_m;
   made.min_range_m = min_range_m;
   made.scan.ranges_m = numbers_of<float>(ranges_m, "ranges_m");

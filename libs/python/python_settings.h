@@ -10,8 +10,8 @@
 namespace psi_slam {
 
 /// Loads the settings file `config`, unless it is None, and then the dict `settings`, unless it is None:
-/// names "section.key" and values of type str, int, float, bool, or None for "auto". Throws UserError for
-/// unknown names, for values that are not accepted, and for settings that contradict each other.
+/// names "section.key" and values of type str, path, int, float, bool, or None for "auto". Throws UserError
+/// for unknown names, for values that are not accepted, and for settings that contradict each other.
 void load_python_settings(BoundSettings& bound, const pybind11::object& config,
                           const pybind11::object& settings);
 

@@ -61,6 +61,13 @@ void RunWatch::show(const PythonProgress& progress, bool keeps_result) {
   }
 }
 
+void RunWatch::raise_if_stopped() {
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+  if (!interrupted_) return;
+  PyErr_SetNone(PyExc_KeyboardInterrupt);
+  throw py::error_already_set();
+}
+
 py::object RunWatch::result_or_raise(py::object result) {
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   if (interrupted_) raise_interrupted(result);

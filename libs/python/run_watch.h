@@ -42,6 +42,10 @@ class RunWatch {
   void show_calibration(double share);
   const std::atomic<bool>& stop() const { return stop_; }
 
+  /// Raises what stopped the run, for runs that have no result: the exception, or KeyboardInterrupt after
+  /// Ctrl-C. Needs the interpreter's lock.
+  void raise_if_stopped();
+
   /// Returns `result`, or raises what stopped the run. Needs the interpreter's lock.
   pybind11::object result_or_raise(pybind11::object result);
 

@@ -68,11 +68,14 @@ MappingSession::MappingSession(const SessionInput& input, const Settings& settin
   m_->settings = settings;
   m_->settings_text = settings_file_text(settings);
   m_->settings_warnings = std::move(settings_warnings);
-  m_->read_from(open_input(input, settings));
-  m_->mapper = std::make_unique<Mapper>(options_for(input, settings));
   m_->edits = input.edits();
+  // All that may be refused is checked before the input is opened: a stream that is read ends only with its
+  // source.
+  check(settings);
   m_->check_knowledge({});
   if (!settings.prior.map.empty()) m_->prior.emplace(settings);
+  m_->read_from(open_input(input, settings));
+  m_->mapper = std::make_unique<Mapper>(options_for(input, settings));
   m_->make_due_edits({});
   if (m_->recording) m_->later_runs = m_->recording->facts.runs;
 }

@@ -107,7 +107,22 @@ def test_wrong_arguments_are_refused(result, files, tmp_path):
         assert sentence in str(caught.value)
     with pytest.raises(psi_slam.UserError, match="max_gap_s is -1, expected"):
         psi_slam.evaluate(result, relations, max_gap_s=-1)
+    with pytest.raises(psi_slam.UserError, match="trajectory: the column time_s holds other values than numbers"):
+        psi_slam.evaluate([list("abcd")] * 2, relations)
+
+
+def test_values_that_are_not_finite_are_refused_with_their_row(result):
+    for value in (math.nan, math.inf):
+        for name in ("time_s", "x_m", "yaw_rad"):
+            broken = result.poses.copy()
+            broken[name][3] = value
+            with pytest.raises(psi_slam.UserError, match=f"trajectory: {name} of row 3 .* is {value}, expected"):
+                psi_slam.evaluate(broken, relations_array())
+        broken = relations_array()
+        broken["y_m"][2] = value
+        with pytest.raises(psi_slam.UserError, match=f"relations: y_m of row 2 .* is {value}, expected"):
+            psi_slam.evaluate(result, broken)
     broken = result.poses.copy()
-    broken["time_s"][3] = math.nan
-    with pytest.raises(psi_slam.UserError, match="trajectory: a time is nan"):
-        psi_slam.evaluate(broken, relations)
+    broken["time_s"][3] = 1e20
+    with pytest.raises(psi_slam.UserError, match="trajectory: a time is 1e.20"):
+        psi_slam.evaluate(broken, relations_array())

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import csv
 import json
+import pathlib
 import signal
 import subprocess
 import sys
@@ -205,6 +206,28 @@ def test_settings_take_python_values(log):
         psi_slam.map(log, {"map.resolution_m": [0.1]})
     with pytest.raises(psi_slam.UserError, match="expected a dict"):
         psi_slam.map(log, ["map.resolution_m=0.1"])
+    with pytest.raises(psi_slam.UserError, match="missing.yaml"):
+        psi_slam.map(log, {"prior.map": pathlib.Path("missing.yaml")})
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ({"config": 3}, "config is of type int, expected the path of a settings file"),
+        ({"edits": 3}, "edits is of type int, expected the path of a file of edits, or a list of its lines"),
+        ({"edits": [3]}, "edits: a line is of type int, expected a text"),
+    ],
+)
+def test_arguments_of_wrong_types_are_refused(log, arguments, sentence):
+    with pytest.raises(psi_slam.UserError, match=sentence):
+        psi_slam.map(log, **arguments)
+
+
+def test_warnings_do_not_depend_on_what_was_read_before(log):
+    result = psi_slam.map(log, edits=["wall line=500,500;501,500 width_m=0.2"])
+    first = result.warnings
+    assert any("500" in warning for warning in first), first
+    assert result.summary["warnings"] == first == result.warnings
 
 
 def test_progress_reports_the_phases(log):
@@ -227,20 +250,42 @@ def test_an_exception_of_progress_ends_the_mapping(log):
         psi_slam.map(log, progress=3)
 
 
+@pytest.mark.parametrize("raised", [LookupError, KeyboardInterrupt])
+def test_an_exception_of_progress_goes_before_complaints_about_the_map(tmp_path, raised):
+    log = tmp_path / "empty.log"
+    ranges = " ".join(["50.0"] * 181)
+    log.write_text("".join(f"FLASER 181 {ranges} 0 0 0 0 0 0 {i} robot {i}\n" for i in range(5)))
+    settings = {"log.max_range_m": 40}
+    with pytest.raises(psi_slam.UserError, match="has a return"):
+        psi_slam.map(log, settings)
+
+    def fail(progress):
+        raise raised("stop")
+
+    with pytest.raises(raised) as caught:
+        psi_slam.map(log, settings, progress=fail)
+    assert not isinstance(caught.value, psi_slam.Interrupted)
+
+
 def test_other_threads_run_while_mapping(log):
     counted = []
     done = threading.Event()
 
     def count():
-        while not done.is_set():
+        while not done.wait(0.001):
             counted.append(1)
 
     reports = []
     thread = threading.Thread(target=count)
-    thread.start()
-    psi_slam.map(log, progress=lambda progress: reports.append(len(counted)))
-    done.set()
-    thread.join()
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1000)  # the interpreter itself does not switch to the other thread
+    try:
+        thread.start()
+        psi_slam.map(log, progress=lambda progress: reports.append(len(counted)))
+    finally:
+        sys.setswitchinterval(interval)
+        done.set()
+        thread.join()
     assert reports[-1] > reports[0]  # the thread worked between two calls of progress
 
 

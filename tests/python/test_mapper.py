@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import math
 import signal
+import subprocess
+import sys
 import threading
 
 import numpy as np
@@ -108,6 +110,9 @@ def test_ranges_that_are_no_returns_are_marked():
         ({"angle_min_rad": math.nan}, "a beam bearing is not finite"),
         ({"time_s": math.nan}, "time_s is nan, expected a time in seconds"),
         ({"max_range_m": 0}, "max_range_m is 0, expected a number of metres above 0"),
+        ({"min_range_m": 10}, "min_range_m is 10, expected a number of metres from 0 to below max_range_m, which is 10"),
+        ({"min_range_m": math.nan}, "min_range_m is nan, expected"),
+        ({"min_range_m": -1}, "min_range_m is -1, expected"),
         ({"mount": (1, 2)}, "mount is (1, 2), expected (x, y, yaw)"),
         ({"mount": (1, 2000, 0)}, "mount is (1, 2000, 0), expected (x, y, yaw)"),
     ],
@@ -136,10 +141,65 @@ def test_wrong_use_of_a_mapper_is_refused():
         with pytest.raises(psi_slam.UserError, match="odometry is .*, expected None or"):
             mapper.add(scan, wrong)
     mapper.add(scan, (0, 0, 0))
-    mapper.finish()
-    for again in (lambda: mapper.add(scan), mapper.finish):
-        with pytest.raises(psi_slam.UserError, match="finish.. was called"):
-            again()
+    result = mapper.finish()
+    with pytest.raises(psi_slam.UserError, match="finish.. was called"):
+        mapper.add(scan)
+    assert mapper.finish() is result
+
+
+def printed_by(script):
+    """Runs a script that may not end in a process of its own."""
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=False)
+    return run.stdout + run.stderr
+
+
+@pytest.mark.parametrize(
+    ("settings", "sentence"),
+    [
+        ({"prior.map": "missing.yaml"}, "missing.yaml"),
+        ({"prior.extend": True}, "prior.extend needs a map to extend"),
+    ],
+)
+def test_a_wrong_prior_map_is_refused(settings, sentence):
+    output = printed_by(f"import psi_slam\npsi_slam.Mapper({settings!r})")
+    assert "UserError" in output and sentence in output
+
+
+@pytest.mark.parametrize("use", ["mapper.finish()", "mapper.add(scan, (0, 0, 0))"])
+def test_a_progress_function_cannot_use_its_mapper(use):
+    output = printed_by(f"""
+import numpy, psi_slam
+scan = psi_slam.Scan(numpy.ones(181), time_s=1, max_range_m=10, angle_min_rad=-1.5, angle_increment_rad=0.01)
+mapper = psi_slam.Mapper()
+mapper.add(scan, (0, 0, 0))
+try:
+    mapper.finish(lambda progress: {use})
+except psi_slam.UserError as error:
+    print(error)
+print(len(mapper.finish().poses))
+""")
+    assert output.startswith("Mapper: a progress function or signal handler cannot use the mapper that calls it")
+    assert output.endswith("\n1\n")
+
+
+def raise_lookup_error(progress):
+    raise LookupError(progress.phase)
+
+
+def test_an_exception_of_progress_leaves_the_map():
+    mapper = psi_slam.Mapper()
+    for time_s, odometry, ranges in room.drive(60):
+        mapper.add(scan_of(time_s, ranges), odometry)
+    with pytest.raises(LookupError, match="final search"):
+        mapper.finish(raise_lookup_error)
+    assert len(mapper.finish(raise_lookup_error).poses) == 60
+
+
+def test_an_exception_of_progress_goes_before_complaints_about_the_scans():
+    mapper = psi_slam.Mapper()
+    mapper.add(scan_of(1, np.full(room.BEAMS, np.inf)), (0, 0, 0))
+    with pytest.raises(LookupError):
+        mapper.finish(raise_lookup_error)
 
 
 def test_a_mapper_that_is_dropped_ends():

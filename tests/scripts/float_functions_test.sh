@@ -12,7 +12,13 @@ if [ "${#libraries[@]}" -eq 0 ]; then
   echo "float_functions_test.sh: $1/libs contains no library. Build psi-slam first" >&2
   exit 1
 fi
-if calls=$(nm --print-file-name --undefined-only "${libraries[@]}" 2>/dev/null | grep --extended-regexp " U $functions\$"); then
+symbols=$(mktemp)
+trap 'rm -f "$symbols"' EXIT
+if ! nm --print-file-name "${libraries[@]}" >"$symbols" || ! grep --quiet ' T ' "$symbols"; then
+  echo "float_functions_test.sh: nm does not print the functions of the libraries in $1/libs" >&2
+  exit 1
+fi
+if calls=$(grep --extended-regexp " U $functions\$" "$symbols"); then
   echo "float_functions_test.sh: these files call functions for floats:" >&2
   echo "$calls" >&2
   exit 1

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 _Path = Union[str, PathLike[str]]
-_Value = Union[str, float, bool, None, np.generic]
+_Value = Union[_Path, float, bool, None, np.generic]
 _Edits = Union[_Path, Iterable[str], None]
 
 __version__: str

@@ -5,7 +5,7 @@
 """
 
 import sys
-from typing import Any
+from typing import Any, Optional
 
 import pandas as pd
 
@@ -19,7 +19,7 @@ VARIANTS: dict[str, dict[str, Any]] = {
 }
 
 
-def figures(log: str, settings: dict[str, Any], relations: str | None) -> dict[str, Any]:
+def figures(log: str, settings: dict[str, Any], relations: Optional[str]) -> dict[str, Any]:
     result = psi_slam.map(log, settings)
     row: dict[str, Any] = {
         "verdict": result.verdict.state,

@@ -100,7 +100,7 @@ TEST_F(PriorMapApp, walls_that_are_not_there_are_named_and_missing_furniture_is_
   EXPECT_LT(worst_m("a"), 0.06);
 }
 
-/// Place of the room's origin in the drawing. Walls on the edges of cells would be drawn in part only.
+/// Place of the room's origin in the drawing.
 constexpr double kDrawingShift_m = 0.02;
 
 /// A DXF drawing of the room in millimetres, on the layer WALLS. A diagonal across the room is on DIMENSIONS.
@@ -125,7 +125,7 @@ TEST_F(PriorMapApp, a_drawing_without_the_pillar_states_the_frame) {
   const auto with = [&](const std::string& file) { return "prior.map=" + path(file).string(); };
   const AppRun run = map("a", {log_.string(), "--set", with("room.dxf"), "--set", "prior.layers=WALLS"});
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_THAT(run.err, Not(HasSubstr("room.dxf")));
+  EXPECT_THAT(run.err, AllOf(Not(HasSubstr("left out")), Not(HasSubstr("contradict"))));
   EXPECT_LT(worst_m("a"), 0.06 + std::hypot(kDrawingShift_m, kDrawingShift_m));
   const AppRun unitless = map("b", {log_.string(), "--set", with("unitless.dxf")});
   EXPECT_EQ(unitless.code, 2);
@@ -185,7 +185,7 @@ TEST_F(PriorMapApp, a_prior_map_is_extended_without_changing_its_cells) {
       if (cell != 0.5F) {
         ++known;
         EXPECT_EQ(after.getCell(x, y), cell) << x_m << ' ' << y_m;
-      } else if (x_m > 11.8 && after.getCell(x, y) < 0.3F) {
+      } else if (x_m > 11.8 && y_m > 0.5 && y_m < 7.5 && after.getCell(x, y) < 0.3F) {
         EXPECT_NEAR(x_m, 12, 0.15);
         ++new_walls;
       }

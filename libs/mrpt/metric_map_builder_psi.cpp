@@ -68,6 +68,7 @@ struct CMetricMapBuilderPsi::Implementation {
 
   void start(const CPosePDFGaussian& map_T_start) {
     start_ = map_T_start;
+    given_start_ = map_T_start;
     initial_.reset();
     is_aligned_ = false;
     mapper_ = std::make_unique<Mapper>(mapper_options_);
@@ -136,8 +137,10 @@ struct CMetricMapBuilderPsi::Implementation {
     if (!initial_) return std::nullopt;
     mapper_->end_log();
     PriorPlaces places = initial_->places(*mapper_);
-    if (!places.objection.empty())
+    if (!places.objection.empty()) {
+      start_ = given_start_;  // a place that was found while mapping is refused, too
       return "the run does not fit initial_map: " + places.objection + ". The map contains the run alone";
+    }
     FixedKnowledge knowledge;
     knowledge.poses = std::move(places.poses);
     mapper_->set_knowledge(std::move(knowledge));
@@ -244,6 +247,7 @@ struct CMetricMapBuilderPsi::Implementation {
   mutable std::mutex mutex_;  // protects all members below
 
   CPosePDFGaussian start_;
+  CPosePDFGaussian given_start_;
   std::optional<InitialMap> initial_;  // empty without an initial map
   bool is_aligned_ = false;            // whether the finished map has the frame of the initial map
   std::unique_ptr<Mapper> mapper_;     // null after finish()

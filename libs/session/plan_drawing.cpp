@@ -117,6 +117,11 @@ std::vector<Line> lines_of(const std::filesystem::path& path, const PlanDrawingO
   }
   if (!file)
     throw UserError(path.string() + " is no readable DXF drawing. Export the plan as DXF in text form");
+  for (const std::string& name : names_in(options.layers))
+    if (layers.count(name) == 0)
+      throw UserError(
+          path.string() + ": prior.layers names the layer " + name +
+          ", which has nothing drawn on it. Its layers are: " + name_list({layers.begin(), layers.end()}));
   if (lines.empty())
     throw UserError(path.string() + ": " +
                     (options.layers.empty() ? std::string("the drawing has no lines")

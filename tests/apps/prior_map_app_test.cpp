@@ -138,6 +138,11 @@ TEST_F(PriorMapApp, a_drawing_without_the_pillar_states_the_frame) {
   const AppRun layerless = map("d", {log_.string(), "--set", with("room.dxf"), "--set", "prior.layers=A"});
   EXPECT_EQ(layerless.code, 2);
   EXPECT_THAT(layerless.err, HasSubstr("Its layers are: DIMENSIONS, WALLS"));
+  const AppRun misspelt =
+      map("f", {log_.string(), "--set", with("room.dxf"), "--set", "prior.layers=WALLS,DIMENSION"});
+  EXPECT_EQ(misspelt.code, 2);
+  EXPECT_THAT(misspelt.err,
+              HasSubstr("prior.layers names the layer DIMENSION, which has nothing drawn on it"));
   const AppRun huge =
       map("e", {log_.string(), "--set", with("room.dxf"), "--set", "prior.metres_per_unit=1"});
   EXPECT_EQ(huge.code, 2);

@@ -99,11 +99,11 @@ std::vector<Line> lines_of(const std::filesystem::path& path, const PlanDrawingO
   constexpr std::array<const char*, 2> kDrivers{"DXF", nullptr};
   const std::unique_ptr<GDALDataset> file(
       GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data()));
+  const std::set<std::string> chosen = names_in(options.layers);
   std::vector<Line> lines;
   std::set<std::string> layers;
   if (file) {
     const double scale = metres_per_unit(path, options);
-    const std::set<std::string> chosen = names_in(options.layers);
     for (OGRLayer* layer : file->GetLayers()) {
       for (const auto& feature : layer) {
         const char* const name = feature->GetFieldAsString("Layer");
@@ -117,7 +117,7 @@ std::vector<Line> lines_of(const std::filesystem::path& path, const PlanDrawingO
   }
   if (!file)
     throw UserError(path.string() + " is no readable DXF drawing. Export the plan as DXF in text form");
-  for (const std::string& name : names_in(options.layers))
+  for (const std::string& name : chosen)
     if (layers.count(name) == 0)
       throw UserError(
           path.string() + ": prior.layers names the layer " + name +

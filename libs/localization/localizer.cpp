@@ -7,7 +7,7 @@
 #include "frames/pose_operations.h"
 #include "localization/global_search.h"
 #include "localization/localizer_options.h"
-#include "psi_slam/pose_graph.h"
+#include "localization/place_consensus.h"
 
 namespace psi_slam {
 namespace {
@@ -26,9 +26,7 @@ struct Localizer::Members {
         global_search(std::move(map), given.search),
         matcher(given.search.match),
         front_end(given.front_end),
-        consensus(given.consensus) {
-    map_frame.add_node({0, 0, 0});
-  }
+        consensus(given.consensus) {}
 
   void track(const FrontEndStep& motion, LocalizationStep& step) {
     step.state = LocalizationStep::State::kTracking;
@@ -89,9 +87,7 @@ struct Localizer::Members {
     const FoundPlace& place =
         step.search.emplace(global_search.find(node, keyframes, {options.seed, frame, 0}));
     if (!place.believed()) return;
-    const LoopConsensus::Vote vote{node, here.travelled_m,  here.local_T_robot,
-                                   0,    place.map_T_robot, place.ambiguity};
-    if (consensus.add(vote, map_frame).empty()) return;
+    if (!consensus.add(node, keyframes, place)) return;
     map_T_local = place.map_T_robot + inverse(here.local_T_robot);
     misfit_m = 0;
     fitted_us = now_us;
@@ -110,7 +106,7 @@ struct Localizer::Members {
     front_end.emplace(options.front_end);
     last_local_T_robot = {0, 0, 0};
     keyframes = {};
-    consensus = LoopConsensus(options.consensus);
+    consensus = PlaceConsensus(options.consensus);
   }
 
   LocalizerOptions options;
@@ -126,8 +122,7 @@ struct Localizer::Members {
 
   // State while lost.
   KeyframeStore keyframes;  ///< nodes since the robot was lost
-  LoopConsensus consensus;
-  PoseGraph map_frame;  ///< has one node, the origin of the map, as anchor of the places found
+  PlaceConsensus consensus;
 };
 
 Localizer::Localizer(const mrpt::maps::COccupancyGridMap2D& map, const LocalizerOptions& options)

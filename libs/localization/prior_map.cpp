@@ -10,6 +10,7 @@
 
 #include "base/number_text.h"
 #include "frames/pose_operations.h"
+#include "localization/place_consensus.h"
 
 namespace psi_slam {
 namespace {
@@ -154,9 +155,7 @@ bool PriorMap::shows(std::size_t node, const KeyframeStore& keyframes, const TPo
 // Finds the first place. Returns why there is none, a clause; empty if there is one.
 std::string PriorMap::find(Path& path) const {
   const std::vector<NodeScan>& nodes = path.keyframes.nodes;
-  LoopConsensus consensus(options_.consensus);
-  PoseGraph map_frame;
-  map_frame.add_node({0, 0, 0});
+  PlaceConsensus consensus(options_.consensus);
   std::string why_not = "the run has no scan with points";
   std::optional<double> searched_m;
   int searches = 0;
@@ -172,9 +171,7 @@ std::string PriorMap::find(Path& path) const {
       continue;
     }
     why_not = "too few scans agree about the place";
-    const LoopConsensus::Vote vote{node, nodes[node].travelled_m, nodes[node].local_T_robot,
-                                   0,    place.map_T_robot,       place.ambiguity};
-    if (consensus.add(vote, map_frame).empty()) continue;
+    if (!consensus.add(node, path.keyframes, place)) continue;
     path.begin_at({node, place.map_T_robot});
     return {};
   }

@@ -86,11 +86,7 @@ std::optional<MeasuredPose> InitialMap::follow(const Mapper& mapper) {
   } else {
     const FoundPlace place = map_.place_anywhere(node, keyframes);
     if (!place.believed()) return std::nullopt;
-    PoseGraph origin;
-    origin.add_node({0, 0, 0});
-    const LoopConsensus::Vote vote{node, travelled_m,       keyframes.nodes[node].local_T_robot,
-                                   0,    place.map_T_robot, place.ambiguity};
-    if (consensus_.add(vote, origin).empty()) return std::nullopt;
+    if (!consensus_.add(node, keyframes, place)) return std::nullopt;
     start_ = PriorStart{node, place.map_T_robot};
     constexpr double kFoundSigma_m = 0.05;
     initial_T_run_ = MeasuredPose{{}, kFoundSigma_m, kFoundSigma_m / 5};

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "localization/place_consensus.h"
 #include "localization/prior_map.h"
-#include "loop_closure/loop_consensus.h"
 #include "psi_slam/fixed_knowledge.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/log_options.h"
@@ -45,7 +45,7 @@ class InitialMap {
   mrpt::maps::CSimpleMap frames_;
   mrpt::maps::COccupancyGridMap2D grid_;
   PriorMap map_;
-  LoopConsensus consensus_;
+  PlaceConsensus consensus_;
   std::optional<MeasuredPose> initial_T_run_;
   std::optional<PriorStart> start_;   ///< last node that was found
   std::optional<double> searched_m_;  ///< path length at the last search

@@ -13,10 +13,22 @@ LiveMapping::LiveMapping(MappingSession& session, const std::filesystem::path& f
 
 bool LiveMapping::step() {
   if (!session_.step()) return false;
-  map_.update(session_.mapper(), [&] { return session_.scan_waits(); });
+  draw();
   if (const auto news = journal_notice_.news(session_.journal_failure())) notify_(*news);
   if (const auto news = map_notice_.news(map_.failure())) notify_(*news);
   return true;
+}
+
+/// Updates the map, or postpones that while scans wait: after a pause some robots deliver many at once.
+void LiveMapping::draw() {
+  constexpr int kMostPostponed = 16;
+  const auto scan_waits = [&] { return session_.scan_waits(); };
+  if (postponed_ < kMostPostponed && scan_waits()) {
+    ++postponed_;
+    return;
+  }
+  postponed_ = 0;
+  map_.update(session_.mapper(), scan_waits);
 }
 
 void LiveMapping::catch_up() {

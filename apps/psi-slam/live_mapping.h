@@ -37,9 +37,12 @@ class LiveMapping {
   void catch_up();
 
  private:
+  void draw();
+
   MappingSession& session_;
   Notify notify_;
   LiveMapWriter map_;
+  int postponed_ = 0;  ///< number of scans since the last update of the map
   FailureNotice journal_notice_{"the journal"};
   FailureNotice map_notice_{"the map"};
 };

@@ -19,6 +19,7 @@
 
 #include "local_maps/scan_filter.h"
 #include "view/palette.h"
+#include "view/raster_levels.h"
 
 namespace psi_slam {
 namespace {
@@ -50,8 +51,11 @@ CSetOfLines::Ptr lines_of(const mrpt::img::TColor& colour, float width) {
 }
 
 /// Returns a plane at height 0 that shows the raster in its own colours, without light, and transparent where
-/// the raster is transparent.
-mrpt::opengl::CTexturedPlane::Ptr textured_plane(const MapRaster& raster) {
+/// the raster is transparent. Halves the raster `level` times before.
+mrpt::opengl::CTexturedPlane::Ptr textured_plane(const MapRaster& whole, int level) {
+  MapRaster reduced;
+  for (int i = 0; i < level; ++i) reduced = half_raster(i == 0 ? whole : reduced);
+  const MapRaster& raster = level > 0 ? reduced : whole;
   const auto width = static_cast<unsigned>(raster.width_px);
   const auto height = static_cast<unsigned>(raster.height_px);
   mrpt::img::CImage colour(width, height, mrpt::img::CH_RGB);
@@ -190,14 +194,14 @@ void add_loop_window(CSetOfLines& lines, const ReplaySnapshot& snapshot, const L
 
 }  // namespace
 
-void draw_grid(SceneLayer& layer, const DrawnMap& map) {
+void draw_grid(SceneLayer& layer, const DrawnMap& map, int level) {
   if (map.raster.width_px == 0 || map.raster.height_px == 0) return;
-  const auto plane = textured_plane(map.raster);
+  const auto plane = textured_plane(map.raster, level);
   plane->setLocalRepresentativePoint({0, 0, kFarBelow_m});
   layer.insert(plane);
 }
 
-void draw_zones(SceneLayer& layer, const DrawnMap& map) {
+void draw_zones(SceneLayer& layer, const DrawnMap& map, int level) {
   for (const DrawnZones& zones : map.zones) {
     const mrpt::img::TColor colour = map_edit_colour(zones.kind);
     MapRaster tinted = zones.raster;
@@ -208,17 +212,18 @@ void draw_zones(SceneLayer& layer, const DrawnMap& map) {
       tinted.pixels[i + 2] = colour.R;
       tinted.pixels[i + 3] = kZoneOpacity;
     }
-    const auto plane = textured_plane(tinted);
+    const auto plane = textured_plane(tinted, level);
     const double z_m = zones.kind == MapEdit::Kind::kKeepOut ? height_m::kKeepOutZones : 0;
     plane->setPose(mrpt::math::TPose3D(0, 0, z_m, 0, 0, 0));
     layer.insert(plane);
   }
 }
 
-void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot) {
+void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot, int level) {
   for (std::size_t i = 0; i < snapshot.active_local_maps.size(); ++i)
     layer.insert(textured_plane(tinted_raster(*snapshot.active_local_maps[i].occupancy,
-                                              i == 0 ? palette::kOlderMap : palette::kNewerMap)));
+                                              i == 0 ? palette::kOlderMap : palette::kNewerMap),
+                                level));
 }
 
 void place_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot) {

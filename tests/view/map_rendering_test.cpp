@@ -136,5 +136,39 @@ TEST_F(MapRenderingTest, nodes_are_drawn_over_lines) {
   EXPECT_EQ(share_seen(palette::kNode), 1);
 }
 
+/// A map of free space that a slanting wall of one cell crosses from top to bottom.
+std::shared_ptr<const DrawnMap> map_with_slanting_wall() {
+  auto map = std::make_shared<DrawnMap>();
+  MapRaster& raster = map->raster;
+  raster.width_px = 4000;
+  raster.height_px = 1900;
+  raster.resolution_m = 0.05;
+  raster.pixels.assign(std::size_t{4} * 4000 * 1900, 255);
+  for (std::size_t row = 0; row < 1900; ++row) {
+    const std::size_t column = 500 + row / 7;
+    std::fill_n(raster.pixels.begin() + static_cast<std::ptrdiff_t>(4 * (row * 4000 + column)), 3, 20);
+  }
+  return map;
+}
+
+TEST_F(MapRenderingTest, walls_of_one_cell_stay_solid_lines_when_zoomed_out) {
+  drawn_ = map_with_slanting_wall();
+  camera_ = camera_above(drawn_->raster.rectangle(), kPictureSize);
+  const auto rows_with_wall = [&] {
+    const std::vector<std::uint8_t> all = greens();
+    const auto width = static_cast<std::ptrdiff_t>(kPictureSize.x);
+    int rows = 0;
+    for (std::ptrdiff_t y = 40; y < kPictureSize.y - 40; ++y)
+      rows += *std::min_element(all.begin() + y * width, all.begin() + (y + 1) * width) < 60 ? 1 : 0;
+    return rows;
+  };
+  draw({});
+  EXPECT_LT(rows_with_wall(), (kPictureSize.y - 80) / 2)
+      << "every cell is drawn, so that many fall between pixels";
+  scene_->set_ground_pixel(ground_pixel_m(camera_, kPictureSize));
+  draw({});
+  EXPECT_EQ(rows_with_wall(), kPictureSize.y - 80);
+}
+
 }  // namespace
 }  // namespace psi_slam

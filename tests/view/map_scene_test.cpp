@@ -223,6 +223,33 @@ TEST_F(MapSceneTest, redraws_nothing_without_a_change) {
   EXPECT_FALSE(scene_.show(finished_, map_, 10));
 }
 
+TEST_F(MapSceneTest, reduces_maps_that_are_larger_than_the_screen) {
+  const auto width_px = [&] {
+    return first<mrpt::opengl::CTexturedPlane>(MapLayer::kGrid)->getTextureImage().getWidth();
+  };
+  const auto whole_px = static_cast<std::size_t>(map_->raster.width_px);
+  scene_.show(finished_, map_);
+  EXPECT_EQ(width_px(), whole_px);
+  scene_.set_ground_pixel(3 * map_->raster.resolution_m);
+  EXPECT_TRUE(scene_.show(finished_, map_));
+  EXPECT_EQ(width_px(), (whole_px + 3) / 4);
+  scene_.set_ground_pixel(3.5 * map_->raster.resolution_m);
+  EXPECT_FALSE(scene_.show(finished_, map_)) << "the level is the same";
+  scene_.set_ground_pixel(0.5 * map_->raster.resolution_m);
+  EXPECT_TRUE(scene_.show(finished_, map_));
+  EXPECT_EQ(width_px(), whole_px);
+
+  scene_.set_visible(MapLayer::kLocalMaps, true);
+  scene_.show(paused_, nullptr);
+  const auto local_width_px = [&] {
+    return first<mrpt::opengl::CTexturedPlane>(MapLayer::kLocalMaps)->getTextureImage().getWidth();
+  };
+  const std::size_t whole_local_px = local_width_px();
+  scene_.set_ground_pixel(1);
+  EXPECT_TRUE(scene_.show(paused_, nullptr));
+  EXPECT_LT(local_width_px(), whole_local_px);
+}
+
 TEST_F(MapSceneTest, shows_and_hides_layers) {
   for (std::size_t i = 0; i < kMapLayers; ++i) {
     const auto layer = static_cast<MapLayer>(i);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "local_maps/scan_filter.h"
+#include "report/drawn_loops.h"
 #include "view/palette.h"
 #include "view/raster_levels.h"
 
@@ -155,10 +156,6 @@ constexpr std::uint8_t kFaint = 45;
 constexpr double kClear = 140;
 constexpr double kPalest = 50;
 constexpr double kClearLoops = 100;  // up to this many loops keep the full opacity
-
-// Largest number of loops of the final loop search that are drawn. More lines would hide the map and slow
-// down the window.
-constexpr std::size_t kMostLoopsOfFinalSearch = 3000;
 
 constexpr double kBetweenEllipses_m = 1;
 constexpr int kEllipseSides = 24;
@@ -351,18 +348,15 @@ std::string hot_spot_hint(const HotSpot& spot) {
 void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style) {
   using Key = std::tuple<bool, std::uint8_t, std::uint8_t, std::uint8_t>;
   std::map<Key, CSetOfLines::Ptr> by_colour;
-  const auto count = [&](const auto& condition) {
-    return static_cast<std::size_t>(std::count_if(snapshot.loops->begin(), snapshot.loops->end(), condition));
-  };
-  const std::size_t of_mapping = count(
-      [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted && !loop.in_final_search; });
+  const std::vector<std::size_t> drawn = drawn_loops(*snapshot.loops);
+  const auto of_mapping = std::count_if(drawn.begin(), drawn.end(), [&](std::size_t i) {
+    const LoopRecord& loop = (*snapshot.loops)[i];
+    return loop.verdict == LoopVerdict::kAccepted && !loop.in_final_search;
+  });
   const double crowd = std::max(1.0, static_cast<double>(of_mapping) / kClearLoops);
   const auto clear = static_cast<std::uint8_t>(std::max(kPalest, kClear / std::sqrt(crowd)));
-  const std::size_t stride =
-      count([](const LoopRecord& loop) { return loop.in_final_search; }) / kMostLoopsOfFinalSearch + 1;
-  std::size_t of_final_search = 0;
-  for (const LoopRecord& loop : *snapshot.loops) {
-    if (loop.in_final_search && !loop.by_hand && of_final_search++ % stride != 0) continue;
+  for (const std::size_t index : drawn) {
+    const LoopRecord& loop = (*snapshot.loops)[index];
     if (loop.verdict == LoopVerdict::kNotFound) continue;
     if (was_no_loop(loop.verdict) && !style.refused) continue;
     mrpt::img::TColor colour = loop_colour(loop, snapshot, style);

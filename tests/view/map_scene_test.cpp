@@ -190,6 +190,17 @@ TEST_F(MapSceneTest, draws_accepted_loops_and_refused_ones_on_request) {
       << "loops without a match have no line";
 }
 
+TEST_F(MapSceneTest, draws_as_many_loops_as_the_report) {
+  auto snapshot = std::make_shared<ReplaySnapshot>(*finished_);
+  LoopRecord loop = finished_->loops->front();
+  loop.verdict = LoopVerdict::kAccepted;
+  std::vector<LoopRecord> many(1200, loop);
+  many[7].by_hand = true;
+  snapshot->loops = std::make_shared<std::vector<LoopRecord>>(many);
+  scene_.show(snapshot, map_);
+  EXPECT_EQ(loop_lines(), 501U) << "500 loops, and the one that a person edited";
+}
+
 TEST_F(MapSceneTest, colours_loops_by_matcher_or_residual) {
   scene_.show(finished_, map_);
   const auto colour = [&] { return first<mrpt::opengl::CSetOfLines>(MapLayer::kLoops)->getColor_u8(); };

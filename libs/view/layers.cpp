@@ -12,6 +12,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "report/drawn_loops.h"
 #include "view/palette.h"
 #include "view/raster_levels.h"
+#include "view/wide_lines.h"
 
 namespace psi_slam {
 namespace {
@@ -45,7 +47,7 @@ mrpt::opengl::CPointCloud::Ptr dots_of(const std::vector<TPoint3D>& points, cons
 
 /// Returns an empty set of lines of one colour and width.
 CSetOfLines::Ptr lines_of(const mrpt::img::TColor& colour, float width) {
-  auto lines = CSetOfLines::Create();
+  auto lines = std::make_shared<WideLines>();
   lines->setColor_u8(colour);
   lines->setLineWidth(width);
   return lines;

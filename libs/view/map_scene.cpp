@@ -83,6 +83,7 @@ void MapScene::set_pixel_scale(float scale) {
   if (scale == pixel_scale_) return;
   pixel_scale_ = scale;
   shown_ = {};
+  draw_hand_lines();
 }
 
 void MapScene::set_legend(mrpt::img::CImage picture, int margin_px) {
@@ -121,13 +122,21 @@ void MapScene::set_visible(MapLayer layer, bool visible) {
 }
 
 void MapScene::set_measure(const std::optional<Measure>& measure) {
-  fill(*measure_layer_, [&](SceneLayer& layer) {
-    if (measure) draw_measure(layer, *measure);
-  });
+  measure_ = measure;
+  draw_hand_lines();
 }
 
 void MapScene::set_draft(const MapDraft& draft) {
-  fill(*draft_layer_, [&](SceneLayer& layer) { draw_draft(layer, draft); });
+  draft_ = draft;
+  draw_hand_lines();
+}
+
+/// Draws the lines that a person is drawing: the measure and the draft.
+void MapScene::draw_hand_lines() {
+  fill(*measure_layer_, [&](SceneLayer& layer) {
+    if (measure_) draw_measure(layer, *measure_);
+  });
+  fill(*draft_layer_, [&](SceneLayer& layer) { draw_draft(layer, draft_); });
 }
 
 bool MapScene::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,

@@ -97,7 +97,8 @@ class MapScene {
   /// Shows a draft; nothing if it has no points.
   void set_draft(const MapDraft& draft);
 
-  /// Multiplies the sizes of lines and points by a factor, for desktops that are scaled.
+  /// Multiplies the sizes of lines and points by a factor, for desktops that are scaled. Draws the measure
+  /// and the draft again at once, and the layers at the next show().
   void set_pixel_scale(float scale);
   /// Shows an image in the lower left corner at its own size; shows nothing if the image is empty.
   void set_legend(mrpt::img::CImage picture, int margin_px);
@@ -122,6 +123,7 @@ class MapScene {
   void fill(mrpt::opengl::CSetOfObjects& layer, const Draw& draw) const;
   template <class Draw, class... Matter>
   void redraw(MapLayer layer, const Draw& draw, const Matter&... matter);
+  void draw_hand_lines();
   bool show_maps(const std::shared_ptr<const DrawnMap>& map);
   bool show_local_maps(const ReplaySnapshot& snapshot, bool poses_changed);
   bool show_graph(const ReplaySnapshot& snapshot, bool poses_changed);
@@ -132,6 +134,8 @@ class MapScene {
   mrpt::opengl::CSetOfObjects::Ptr chosen_layer_ = mrpt::opengl::CSetOfObjects::Create();
   mrpt::opengl::CSetOfObjects::Ptr measure_layer_ = mrpt::opengl::CSetOfObjects::Create();
   mrpt::opengl::CSetOfObjects::Ptr draft_layer_ = mrpt::opengl::CSetOfObjects::Create();
+  std::optional<Measure> measure_;
+  MapDraft draft_;
   LoopStyle loop_style_;
   std::optional<std::size_t> chosen_loop_;
   float pixel_scale_ = 1;

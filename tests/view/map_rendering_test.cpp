@@ -151,6 +151,43 @@ std::shared_ptr<const DrawnMap> map_with_slanting_wall() {
   return map;
 }
 
+TEST_F(MapRenderingTest, lines_are_twice_as_wide_on_a_desktop_scaled_by_200_percent) {
+  // A level line across the middle of the free map, which a person measures, and one that is a draft.
+  const auto add_lines = [&] {
+    const double x_m = camera_.target.x;
+    const double y_m = camera_.target.y;
+    scene_->set_measure(Measure{{x_m - 2, y_m + 0.5}, {x_m + 2, y_m + 0.5}});
+    scene_->set_draft({{{x_m - 2, y_m - 0.5}, {x_m + 2, y_m - 0.5}}, false, palette::kMeasure});
+  };
+  const auto changed_rows = [&](const std::vector<std::uint8_t>& with,
+                                const std::vector<std::uint8_t>& without, double offset_m) {
+    const int width = kPictureSize.x;
+    const int middle =
+        kPictureSize.y / 2 - static_cast<int>(offset_m / ground_pixel_m(camera_, kPictureSize));
+    int rows = 0;
+    for (int y = middle - 12; y <= middle + 12; ++y) {
+      const auto at = static_cast<std::size_t>(y * width + width / 2 + 5);
+      rows += with[at] != without[at] ? 1 : 0;
+    }
+    return rows;
+  };
+  drawn_ = map_with_slanting_wall();  // free space where the lines are
+  camera_ = camera_above({0, 12, -6, 0}, kPictureSize);
+  draw({});
+  const std::vector<std::uint8_t> without = greens();
+  add_lines();
+  draw({});
+  const std::vector<std::uint8_t> single = greens();
+  scene_->set_pixel_scale(2);
+  draw({});
+  const std::vector<std::uint8_t> twice = greens();
+  for (const double offset_m : {0.5, -0.5}) {
+    const int width_px = changed_rows(single, without, offset_m);
+    EXPECT_GE(width_px, 2) << offset_m;
+    EXPECT_NEAR(changed_rows(twice, without, offset_m), 2 * width_px, 1) << offset_m;
+  }
+}
+
 TEST_F(MapRenderingTest, walls_of_one_cell_stay_solid_lines_when_zoomed_out) {
   drawn_ = map_with_slanting_wall();
   camera_ = camera_above(drawn_->raster.rectangle(), kPictureSize);

@@ -93,7 +93,7 @@ AskForPort ask_port_in_dialog(wxWindow& parent) {
 MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "psi-slam"), recent_(9), timer_(this) {
   SetIcon(program_icon().GetIcon(wxSize(64, 64)));
   SetMinSize(FromDIP(wxSize(720, 480)));
-  SetSize(FromDIP(wxSize(1500, 960)));
+  set_first_size(*this);
   build();
   bind_commands();
   enable_commands();

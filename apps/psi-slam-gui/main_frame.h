@@ -166,6 +166,7 @@ class MainFrame : public wxFrame {
   void attempt(const std::function<void()>& action);
   /// Sets the check marks of the menus to the visible layers, loops and panes.
   void check_choices();
+  void show_layers();
   void play_or_pause();
   void finish();
   void restart();

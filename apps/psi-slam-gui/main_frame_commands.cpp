@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Actions of the window's menus and keys, except the Edit menu.
+#include <wx/config.h>
 #include <wx/log.h>
 #include <wx/simplebook.h>
 #include <wx/textentry.h>
@@ -19,6 +20,7 @@
 #include "session/recorded_settings.h"
 #include "session/session_file.h"
 #include "settings_panel.h"
+#include "window_layout.h"
 #include "wx_text.h"
 
 namespace psi_slam {
@@ -148,7 +150,7 @@ void MainFrame::bind_view_commands() {
     on(kLayer + static_cast<int>(i), [this, i] {
       const auto layer = static_cast<MapLayer>(i);
       canvas_->map_scene().set_visible(layer, GetMenuBar()->IsChecked(kLayer + static_cast<int>(i)));
-      canvas_->restyle();
+      show_layers();
     });
   for (const int command : {kRefusedLoops, kLoopsByMatcher, kLoopsByResidual})
     on(command, [this] {
@@ -156,7 +158,7 @@ void MainFrame::bind_view_commands() {
       style.refused = GetMenuBar()->IsChecked(kRefusedLoops);
       if (GetMenuBar()->IsChecked(kLoopsByResidual)) style.colour = LoopStyle::Colour::kResidual;
       canvas_->map_scene().set_loop_style(style);
-      canvas_->restyle();
+      show_layers();
     });
   for (const auto& [pane, command] : optional_panes())
     on(command, [this, window = pane, id = command] {
@@ -171,6 +173,12 @@ void MainFrame::bind_view_commands() {
     for (const auto& [pane, command] : optional_panes())
       if (event.GetPane()->window == pane) GetMenuBar()->Check(command, false);
   });
+}
+
+/// Draws the map again after a change of its layers, and remembers them even if the program is killed.
+void MainFrame::show_layers() {
+  canvas_->restyle();
+  save_layers(*wxConfigBase::Get(), canvas_->map_scene());
 }
 
 std::array<std::pair<wxWindow*, int>, 3> MainFrame::optional_panes() const {

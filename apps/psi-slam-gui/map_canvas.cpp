@@ -106,6 +106,7 @@ void MapCanvas::bind_mouse() {
 void MapCanvas::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
                      const std::shared_ptr<const DrawnMap>& map, std::optional<std::size_t> frame) {
   map_scene_.set_pixel_scale(static_cast<float>(GetContentScaleFactor()));
+  map_scene_.set_ground_pixel(ground_pixel_m(camera(), picture_size()));
   const bool changed = map_scene_.show(snapshot, map, frame);
   snapshot_ = snapshot;
   if (!changed) return;

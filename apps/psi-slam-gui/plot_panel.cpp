@@ -7,7 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
 
+#include "report/decade_axis.h"
 #include "view/palette.h"
 #include "wx_text.h"
 
@@ -15,6 +19,7 @@ namespace psi_slam {
 namespace {
 
 constexpr int kStrips = 4;
+constexpr int kPsi = 0;       // index of the plot with a logarithmic axis
 constexpr int kResponse = 1;  // index of the plot with unmatched scans
 const wxColour kFrontEnd(31, 97, 171);
 const wxColour kLoops(0, 145, 90);
@@ -63,26 +68,44 @@ struct PlotPainter {
   wxRect area;
   const std::vector<PlotColumn>& columns;
   std::size_t frames;
-  double top = 1;  ///< upper end of the axis
+  double top = 1;                       ///< upper end of a linear axis, which starts at 0
+  std::optional<DecadeAxis> decades{};  ///< the axis if it is logarithmic
 
   double x_of(std::size_t frame) const {
     return area.x +
            area.width * static_cast<double>(frame) / std::max<double>(1, static_cast<double>(frames - 1));
   }
 
-  /// Draws axes and curves. The axis reaches at least up to `least_top`.
-  void draw(const Plot& plot, double least_top) {
-    top = std::max(plot.least_top, least_top);
+  /// Draws axes and curves. The axis is linear and reaches at least up to the plot's least top.
+  void draw(const Plot& plot) {
+    top = round_up(std::max(plot.least_top, most(plot)));
+    draw_with_axes(plot, {{0, number(0)}, {top / 2, number(top / 2)}, {top, number(top)}});
+  }
+
+  /// Draws a logarithmic axis, as in the report, the curve of Psi, and the positive thresholds.
+  void draw_psi(const Plot& plot, const PsiThresholds& thresholds) {
+    decades = psi_axis(most(plot), thresholds);
+    draw_with_axes(plot, psi_ticks(*decades));
+    for (const double threshold : {thresholds.psi_1, thresholds.psi_2})
+      if (threshold > 0) draw_line_at(threshold);
+  }
+
+  double most(const Plot& plot) const {
+    double most = 0;
     for (std::size_t curve = 0; curve < plot.curves.size(); ++curve)
-      for (const PlotColumn& column : columns) top = std::max(top, plot.value(curve, column));
-    top = round_up(top);
-    draw_axes(plot.title);
+      for (const PlotColumn& column : columns) most = std::max(most, plot.value(curve, column));
+    return most;
+  }
+
+  static std::string number(double value) { return wxString::Format("%g", value).utf8_string(); }
+
+  void draw_with_axes(const Plot& plot, const std::vector<AxisTick>& ticks) {
+    draw_axes(plot.title, ticks);
     for (std::size_t i = 0; i < plot.curves.size(); ++i)
       draw_curve(plot, plot.stacked ? plot.curves.size() - 1 - i : i);
   }
 
   void draw_line_at(double value) {
-    if (value < 0 || value > top) return;
     context.SetPen(wxPen(kThreshold, window.FromDIP(1), wxPENSTYLE_SHORT_DASH));
     context.StrokeLine(area.x, y_of(value), area.x + area.width, y_of(value));
   }
@@ -108,7 +131,7 @@ struct PlotPainter {
       const double x = x_of(columns[i].first_frame);
       const double end = i + 1 < columns.size() ? x_of(columns[i + 1].first_frame) : area.x + area.width;
       context.SetBrush(wxBrush(colour_of(matcher_colour(*columns[i].matcher))));
-      context.DrawRectangle(x, y_of(0) - height, std::max(1.0, end - x), height);
+      context.DrawRectangle(x, area.y + area.height - height, std::max(1.0, end - x), height);
     }
   }
 
@@ -131,22 +154,28 @@ struct PlotPainter {
     }
   }
 
-  double y_of(double value) const { return area.y + area.height * (1 - value / top); }
+  double y_of(double value) const {
+    return area.y + area.height * (1 - (decades ? decades->share(value) : value / top));
+  }
 
-  void draw_axes(const wxString& title) {
+  /// Draws a line at each tick, and its label where the labels do not overlap.
+  void draw_axes(const wxString& title, const std::vector<AxisTick>& ticks) {
     const wxColour faint = wxSystemSettings::GetColour(wxSYS_COLOUR_GRAYTEXT);
     context.SetFont(window.GetFont().Bold(), wxSystemSettings::GetColour(wxSYS_COLOUR_WINDOWTEXT));
     context.DrawText(title, area.x, area.y - window.FromDIP(19));
     context.SetFont(window.GetFont().Smaller(), faint);
     context.SetPen(wxPen(wxColour(faint.Red(), faint.Green(), faint.Blue(), 70)));
-    for (const double value : {0.0, top / 2, top}) {
-      const double y = y_of(value);
+    double free_above = std::numeric_limits<double>::infinity();
+    for (const AxisTick& tick : ticks) {
+      const double y = y_of(tick.value);
       context.StrokeLine(area.x, y, area.x + area.width, y);
-      const wxString label = wxString::Format("%g", value);
+      const wxString label = text_of(tick.label);
       double width = 0;
       double height = 0;
       context.GetTextExtent(label, &width, &height);
+      if (y + height / 2 > free_above) continue;
       context.DrawText(label, area.x - width - window.FromDIP(5), y - height / 2);
+      free_above = y - height / 2;
     }
   }
 
@@ -260,20 +289,18 @@ void PlotPanel::paint() {
     painters.push_back({*context, *this, strip(i), columns, snapshot_->frames.size()});
     const Plot& plot = kPlots[static_cast<std::size_t>(i)];
     if (i == kResponse) painters.back().draw_unmatched();
-    painters.back().draw(plot, i == 0 ? snapshot_->psi.psi_2 : 0);
+    i == kPsi ? painters.back().draw_psi(plot, snapshot_->psi) : painters.back().draw(plot);
     std::vector<Curve> curves = plot.curves;
     if (i == kResponse && snapshot_->unmatched->count > 0) curves.push_back({"not matched", kUnmatched});
-    if (i > 0) painters.back().draw_legend(curves);
+    if (i != kPsi) painters.back().draw_legend(curves);
   }
-  for (const double threshold : {snapshot_->psi.psi_1, snapshot_->psi.psi_2})
-    painters[0].draw_line_at(threshold);
-  painters[0].draw_matchers();
+  painters[kPsi].draw_matchers();
   std::vector<Curve> legend{{"thresholds", kThreshold}};
   for (const MatcherKind matcher : kMatcherKinds)
     if (std::any_of(columns.begin(), columns.end(),
                     [&](const PlotColumn& column) { return column.matcher == matcher; }))
       legend.push_back({name(matcher), colour_of(matcher_colour(matcher))});
-  painters[0].draw_legend(legend);
+  painters[kPsi].draw_legend(legend);
   if (!frame_) return;
   const double x = painters[0].x_of(*frame_);
   context->SetPen(wxPen(colour_of(palette::kChosen), FromDIP(1)));

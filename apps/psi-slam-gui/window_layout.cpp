@@ -57,17 +57,20 @@ bool on_a_screen(const wxRect& window) {
   return false;
 }
 
+/// Reduces the size of a window to the space that the desktop's panels leave on a screen.
+wxSize fitted(wxSize size, const wxFrame& frame, int screen) {
+  size.DecTo(wxDisplay(static_cast<unsigned>(std::max(0, screen))).GetClientArea().GetSize());
+  size.IncTo(frame.GetMinSize());
+  return size;
+}
+
 void restore_window(const wxConfigBase& config, wxFrame& frame) {
   const auto read = [&](const char* name) { return static_cast<int>(config.ReadLong(name, 0)); };
-  wxSize size = frame.FromDIP(wxSize(read("width"), read("height")));
+  const wxSize size = frame.FromDIP(wxSize(read("width"), read("height")));
   const wxPoint corner(read("x"), read("y"));
   if (size.x > 0 && size.y > 0) {
     const bool there = on_a_screen(wxRect(corner, size));
-    const int screen = there ? wxDisplay::GetFromPoint(corner) : 0;
-    const wxRect room = wxDisplay(static_cast<unsigned>(std::max(0, screen))).GetClientArea();
-    size.DecTo(room.GetSize());
-    size.IncTo(frame.GetMinSize());
-    frame.SetSize(size);
+    frame.SetSize(fitted(size, frame, there ? wxDisplay::GetFromPoint(corner) : 0));
     if (there) frame.SetPosition(corner);
   }
   if (config.ReadBool("maximized", false)) frame.Maximize();
@@ -89,9 +92,22 @@ void restore_panes(const wxString& saved, const wxFrame& frame, wxAuiManager& pa
 
 }  // namespace
 
-void save_layout(wxConfigBase& config, const wxFrame& frame, wxAuiManager& panes, const MapScene& scene) {
+void set_first_size(wxFrame& frame) {
+  frame.SetSize(fitted(frame.FromDIP(wxSize(1500, 960)), frame, wxDisplay::GetFromWindow(&frame)));
+}
+
+void save_layers(wxConfigBase& config, const MapScene& scene) {
   const wxConfigPathChanger section(&config, kSection);
   config.Write("version", kVersion);
+  for (std::size_t i = 0; i < kMapLayers; ++i)
+    config.Write(key_of(static_cast<MapLayer>(i)), scene.visible(static_cast<MapLayer>(i)));
+  config.Write("layers/refused", scene.loop_style().refused);
+  config.Write("layers/residual", scene.loop_style().colour == LoopStyle::Colour::kResidual);
+  config.Flush();
+}
+
+void save_layout(wxConfigBase& config, const wxFrame& frame, wxAuiManager& panes, const MapScene& scene) {
+  const wxConfigPathChanger section(&config, kSection);
   config.Write("maximized", frame.IsMaximized());
   if (!frame.IsMaximized() && !frame.IsIconized()) {
     const wxRect window(frame.GetPosition(), frame.ToDIP(frame.GetSize()));
@@ -101,11 +117,7 @@ void save_layout(wxConfigBase& config, const wxFrame& frame, wxAuiManager& panes
     config.Write("height", window.height);
   }
   config.Write("panes", panes.SavePerspective());
-  for (std::size_t i = 0; i < kMapLayers; ++i)
-    config.Write(key_of(static_cast<MapLayer>(i)), scene.visible(static_cast<MapLayer>(i)));
-  config.Write("layers/refused", scene.loop_style().refused);
-  config.Write("layers/residual", scene.loop_style().colour == LoopStyle::Colour::kResidual);
-  config.Flush();
+  save_layers(config, scene);
 }
 
 void restore_layout(wxConfigBase& config, wxFrame& frame, wxAuiManager& panes, MapScene& scene) {

@@ -8,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "rendering/map_image.h"
+#include "report/drawn_loops.h"
 #include "report/html_text.h"
 #include "report/report_sections.h"
 
@@ -20,7 +21,6 @@ using Path = std::vector<Pixel>;
 using Paths = std::vector<Path>;  // one path for each run
 
 constexpr int kImageSide_px = 2000;
-constexpr std::size_t kMaxLoopsDrawn = 500;  // of each verdict, so that the map stays visible
 
 Pixel pixel_of(const TPose2D& map_T_robot, const MapPicture& picture) {
   return {(map_T_robot.x - picture.x_min_m) / picture.resolution_m,
@@ -159,21 +159,17 @@ std::size_t count_of(const MappingResult& result, LoopVerdict verdict) {
                     [&](const LoopRecord& loop) { return loop.verdict == verdict; }));
 }
 
-/// Draws the loops of one verdict, evenly sampled if there are too many.
-std::string loop_layer(const std::string& name, const MappingResult& result, LoopVerdict verdict,
+/// Draws the loops of one verdict among `drawn`, which are indices into the result's loops.
+std::string loop_layer(const std::string& name, const MappingResult& result,
+                       const std::vector<std::size_t>& drawn, LoopVerdict verdict,
                        const MapPicture& picture) {
   const auto place = [&](std::size_t node) {
     return text(pixel_of(result.frames.at(result.node_frames.at(node)).map_T_robot, picture));
   };
-  const std::size_t count = count_of(result, verdict);
-  const std::size_t drawn = std::min(count, kMaxLoopsDrawn);
   std::string svg;
-  std::size_t seen = 0;
-  for (const LoopRecord& loop : result.loops) {
+  for (const std::size_t index : drawn) {
+    const LoopRecord& loop = result.loops[index];
     if (loop.verdict != verdict) continue;
-    const bool chosen = seen * drawn / count != (seen + 1) * drawn / count;
-    ++seen;
-    if (!chosen) continue;
     svg += "<path d=\"M" + place(loop.anchor) + 'L' + place(loop.node) + "\"><title>" +
            escape_html(loop_title(loop)) + "</title></path>\n";
   }
@@ -233,13 +229,14 @@ std::string report_map(const MappingResult& result, const RunSummary& summary,
   const std::string height = std::to_string(picture.height_px);
 
   std::string toggles;
+  const std::vector<std::size_t> drawn = drawn_loops(result.loops);
   std::string loops;  // accepted loops come last and lie on top
   bool sampled = false;
   const auto add_loops = [&](const char* name, const char* label, LoopVerdict verdict) {
     const std::size_t count = count_of(result, verdict);
     sampled = sampled || count > kMaxLoopsDrawn;
     toggles += toggle(name, label + (" (" + grouped(count) + ')'), verdict == LoopVerdict::kAccepted);
-    loops = loop_layer(name, result, verdict, picture) + loops;
+    loops = loop_layer(name, result, drawn, verdict, picture) + loops;
   };
   toggles += toggle("grid", "map", true) + toggle("trajectory", "trajectory", true);
   if (unmatched.count > 0)
@@ -262,7 +259,9 @@ std::string report_map(const MappingResult& result, const RunSummary& summary,
          hot_spot_layer(spots, picture) + scale_bar(picture) +
          "</svg>\n</div>\n<p class=\"legend\"><span class=\"ramp\"></span> trajectory from <b>start</b> to "
          "<b>end</b>. " +
-         (sampled ? "Shows at most " + std::to_string(kMaxLoopsDrawn) + " loops of each kind. " : "") +
+         (sampled ? "Shows at most " + std::to_string(kMaxLoopsDrawn) +
+                        " loops of each kind, and all that a person edited. "
+                  : "") +
          "<span class=\"hint\">Zoom with the wheel, drag to move, double-click to show "
          "everything.</span></p>\n"
          "</div>\n";

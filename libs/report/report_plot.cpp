@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "report/decade_axis.h"
 #include "report/html_text.h"
 #include "report/report_sections.h"
 
@@ -54,11 +55,6 @@ struct Series {
   }
 };
 
-struct Tick {
-  double value = 0;
-  std::string label;
-};
-
 /// Converts times and values to the coordinates of the plot, y downwards.
 struct Axes {
   double last_s = 1;
@@ -68,40 +64,24 @@ struct Axes {
 
   double x(double time_s) const { return kLeft + time_s / last_s * (kWidth - kLeft - kRight); }
   double y(double value) const {
-    const double share = logarithmic ? std::log(std::max(value, low) / low) / std::log(high / low)
-                                     : (value - low) / (high - low);
+    const double share = logarithmic ? DecadeAxis{low, high}.share(value) : (value - low) / (high - low);
     return kHeight - kBottom - std::clamp(share, 0.0, 1.0) * (kHeight - kTop - kBottom);
   }
 };
 
-/// Returns a logarithmic axis of whole decades that include all values from least to most.
-Axes decades_around(double least, double most, double last_s) {
-  Axes axes{last_s, std::pow(10, std::floor(std::log10(least))), std::pow(10, std::ceil(std::log10(most))),
-            true};
-  if (axes.high <= axes.low) axes.high = 10 * axes.low;
-  return axes;
+/// Returns a logarithmic axis over a time from 0 to last_s.
+Axes axes_of(const DecadeAxis& decades, double last_s) {
+  return {last_s, decades.low, decades.high, true};
 }
 
-/// Returns a power of ten with as many decimals as it needs.
-std::string power_text(double value) {
-  return fixed_text(value, std::max(0, -static_cast<int>(std::lround(std::log10(value)))));
-}
-
-std::vector<Tick> decade_ticks(const Axes& axes, const std::function<std::string(double)>& label) {
-  std::vector<Tick> ticks;
-  for (double value = axes.low; value <= axes.high * 1.001; value *= 10)
-    ticks.push_back({value, label(value)});
-  return ticks;
-}
-
-std::vector<Tick> time_ticks(double last_s) {
+std::vector<AxisTick> time_ticks(double last_s) {
   constexpr std::array kSteps_s{0.1,  0.2,  0.5,  1.,    2.,    5.,    10.,   20.,    30.,    60.,
                                 120., 300., 600., 1200., 1800., 3600., 7200., 18000., 36000., 86400.};
   double step = *std::find_if(kSteps_s.begin(), kSteps_s.end() - 1,
                               [&](double step_s) { return last_s / step_s <= 10; });
   constexpr double kMostTicks = 100;
   while (last_s / step > kMostTicks) step *= 10;  // time stamps may be absurd
-  std::vector<Tick> ticks;
+  std::vector<AxisTick> ticks;
   for (int i = 0; i * step <= last_s * (1 + 1e-9); ++i) {
     const double time_s = i * step;
     ticks.push_back({time_s, step >= 60  ? fixed_text(time_s / 60, 0) + " min"
@@ -172,11 +152,11 @@ std::string level(const Axes& axes, double value, const std::string& line_class,
 }
 
 /// Draws the grid, the labels of both axes, and the series.
-std::string plot_of(const Series& series, const Axes& axes, const std::vector<Tick>& value_ticks) {
+std::string plot_of(const Series& series, const Axes& axes, const std::vector<AxisTick>& value_ticks) {
   std::string svg;
-  for (const Tick& tick : value_ticks)
+  for (const AxisTick& tick : value_ticks)
     svg += level(axes, tick.value, "rule", tick.label, "value", kLeft - 8, 4);
-  for (const Tick& tick : time_ticks(axes.last_s))
+  for (const AxisTick& tick : time_ticks(axes.last_s))
     svg += "<text class=\"time\" x=\"" + fixed_text(axes.x(tick.value), 1) + "\" y=\"" +
            fixed_text(kHeight - 10, 0) + "\">" + escape_html(tick.label) + "</text>\n";
   return svg + band_and_mean(series, axes);
@@ -193,9 +173,10 @@ std::string duration_plot(const std::string& label, const Series& series, double
   constexpr double kLeast_ms = 1e-3;
   double least_ms = std::numeric_limits<double>::infinity();
   for (const Sample& sample : series.samples) least_ms = std::min(least_ms, sample.value);
-  const Axes axes = decades_around(std::max(least_ms, kLeast_ms), series.most(std::max(limit_ms, kLeast_ms)),
-                                   series.length_s);
-  const auto ticks = decade_ticks(axes, [](double value) {
+  const DecadeAxis decades =
+      decades_around(std::max(least_ms, kLeast_ms), series.most(std::max(limit_ms, kLeast_ms)));
+  const Axes axes = axes_of(decades, series.length_s);
+  const auto ticks = decade_ticks(decades, [](double value) {
     return value >= 999 ? fixed_text(value / 1000, 0) + " s" : power_text(value) + " ms";
   });
   return figure(
@@ -276,21 +257,14 @@ std::string response_plot(const MappingResult& result, const UnmatchedScans& unm
 
 std::string psi_plot(const MappingResult& result) {
   const Series series(result.frames, [](const FrameRecord& frame) { return std::optional(frame.psi); });
-  const double most = series.most(std::max(1.0, result.psi.psi_2));
-  // Psi is 0 if no loop was closed recently, and is then drawn on the lowest line. Thresholds of 0 or less
-  // are not drawn.
-  double least = 0.1;
-  for (const double threshold : {result.psi.psi_1, result.psi.psi_2})
-    if (threshold > 0) least = std::min(least, threshold / 10);
-  const Axes axes = decades_around(std::max(least, 1e-6 * most), most, series.length_s);
-  std::vector<Tick> ticks = decade_ticks(axes, power_text);
-  ticks.front().label = "≤ " + ticks.front().label;
-  std::string svg = plot_of(series, axes, ticks);
+  const DecadeAxis decades = psi_axis(series.most(0), result.psi);
+  const Axes axes = axes_of(decades, series.length_s);
+  std::string svg = plot_of(series, axes, psi_ticks(decades));
   std::vector<std::pair<std::string, double>> thresholds = {{"Ψ₁ = ", result.psi.psi_1},
                                                             {"Ψ₂ = ", result.psi.psi_2}};
   if (result.psi.psi_1 == result.psi.psi_2) thresholds = {{"Ψ₁ = Ψ₂ = ", result.psi.psi_1}};
   for (const auto& [name, threshold] : thresholds)
-    if (threshold > 0)
+    if (threshold > 0)  // other thresholds have no place on the axis
       svg += level(axes, threshold, "limit", name + trimmed_text(threshold, 2), "limit early", kLeft + 4, -5);
   return figure("The factor Ψ over time", svg + search_strip(result.frames, series, axes));
 }

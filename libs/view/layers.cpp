@@ -12,13 +12,17 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "local_maps/scan_filter.h"
+#include "report/drawn_loops.h"
 #include "view/palette.h"
+#include "view/raster_levels.h"
+#include "view/wide_lines.h"
 
 namespace psi_slam {
 namespace {
@@ -43,15 +47,18 @@ mrpt::opengl::CPointCloud::Ptr dots_of(const std::vector<TPoint3D>& points, cons
 
 /// Returns an empty set of lines of one colour and width.
 CSetOfLines::Ptr lines_of(const mrpt::img::TColor& colour, float width) {
-  auto lines = CSetOfLines::Create();
+  auto lines = std::make_shared<WideLines>();
   lines->setColor_u8(colour);
   lines->setLineWidth(width);
   return lines;
 }
 
 /// Returns a plane at height 0 that shows the raster in its own colours, without light, and transparent where
-/// the raster is transparent.
-mrpt::opengl::CTexturedPlane::Ptr textured_plane(const MapRaster& raster) {
+/// the raster is transparent. Halves the raster `level` times before.
+mrpt::opengl::CTexturedPlane::Ptr textured_plane(const MapRaster& whole, int level) {
+  MapRaster reduced;
+  for (int i = 0; i < level; ++i) reduced = half_raster(i == 0 ? whole : reduced);
+  const MapRaster& raster = level > 0 ? reduced : whole;
   const auto width = static_cast<unsigned>(raster.width_px);
   const auto height = static_cast<unsigned>(raster.height_px);
   mrpt::img::CImage colour(width, height, mrpt::img::CH_RGB);
@@ -152,10 +159,6 @@ constexpr double kClear = 140;
 constexpr double kPalest = 50;
 constexpr double kClearLoops = 100;  // up to this many loops keep the full opacity
 
-// Largest number of loops of the final loop search that are drawn. More lines would hide the map and slow
-// down the window.
-constexpr std::size_t kMostLoopsOfFinalSearch = 3000;
-
 constexpr double kBetweenEllipses_m = 1;
 constexpr int kEllipseSides = 24;
 constexpr double kRing_m = 0.75;  // radius of the ring around a hot spot
@@ -190,14 +193,14 @@ void add_loop_window(CSetOfLines& lines, const ReplaySnapshot& snapshot, const L
 
 }  // namespace
 
-void draw_grid(SceneLayer& layer, const DrawnMap& map) {
+void draw_grid(SceneLayer& layer, const DrawnMap& map, int level) {
   if (map.raster.width_px == 0 || map.raster.height_px == 0) return;
-  const auto plane = textured_plane(map.raster);
+  const auto plane = textured_plane(map.raster, level);
   plane->setLocalRepresentativePoint({0, 0, kFarBelow_m});
   layer.insert(plane);
 }
 
-void draw_zones(SceneLayer& layer, const DrawnMap& map) {
+void draw_zones(SceneLayer& layer, const DrawnMap& map, int level) {
   for (const DrawnZones& zones : map.zones) {
     const mrpt::img::TColor colour = map_edit_colour(zones.kind);
     MapRaster tinted = zones.raster;
@@ -208,17 +211,18 @@ void draw_zones(SceneLayer& layer, const DrawnMap& map) {
       tinted.pixels[i + 2] = colour.R;
       tinted.pixels[i + 3] = kZoneOpacity;
     }
-    const auto plane = textured_plane(tinted);
+    const auto plane = textured_plane(tinted, level);
     const double z_m = zones.kind == MapEdit::Kind::kKeepOut ? height_m::kKeepOutZones : 0;
     plane->setPose(mrpt::math::TPose3D(0, 0, z_m, 0, 0, 0));
     layer.insert(plane);
   }
 }
 
-void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot) {
+void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot, int level) {
   for (std::size_t i = 0; i < snapshot.active_local_maps.size(); ++i)
     layer.insert(textured_plane(tinted_raster(*snapshot.active_local_maps[i].occupancy,
-                                              i == 0 ? palette::kOlderMap : palette::kNewerMap)));
+                                              i == 0 ? palette::kOlderMap : palette::kNewerMap),
+                                level));
 }
 
 void place_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot) {
@@ -346,18 +350,15 @@ std::string hot_spot_hint(const HotSpot& spot) {
 void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style) {
   using Key = std::tuple<bool, std::uint8_t, std::uint8_t, std::uint8_t>;
   std::map<Key, CSetOfLines::Ptr> by_colour;
-  const auto count = [&](const auto& condition) {
-    return static_cast<std::size_t>(std::count_if(snapshot.loops->begin(), snapshot.loops->end(), condition));
-  };
-  const std::size_t of_mapping = count(
-      [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted && !loop.in_final_search; });
+  const std::vector<std::size_t> drawn = drawn_loops(*snapshot.loops);
+  const auto of_mapping = std::count_if(drawn.begin(), drawn.end(), [&](std::size_t i) {
+    const LoopRecord& loop = (*snapshot.loops)[i];
+    return loop.verdict == LoopVerdict::kAccepted && !loop.in_final_search;
+  });
   const double crowd = std::max(1.0, static_cast<double>(of_mapping) / kClearLoops);
   const auto clear = static_cast<std::uint8_t>(std::max(kPalest, kClear / std::sqrt(crowd)));
-  const std::size_t stride =
-      count([](const LoopRecord& loop) { return loop.in_final_search; }) / kMostLoopsOfFinalSearch + 1;
-  std::size_t of_final_search = 0;
-  for (const LoopRecord& loop : *snapshot.loops) {
-    if (loop.in_final_search && !loop.by_hand && of_final_search++ % stride != 0) continue;
+  for (const std::size_t index : drawn) {
+    const LoopRecord& loop = (*snapshot.loops)[index];
     if (loop.verdict == LoopVerdict::kNotFound) continue;
     if (was_no_loop(loop.verdict) && !style.refused) continue;
     mrpt::img::TColor colour = loop_colour(loop, snapshot, style);

@@ -37,14 +37,14 @@ inline constexpr double kMeasure = 0.055;
 inline constexpr double kDraft = 0.06;
 }  // namespace height_m
 
-/// Draws the grid map as a textured plane.
-void draw_grid(SceneLayer& layer, const DrawnMap& map);
+/// Draws the grid map as a textured plane. Halves its raster `level` times, see raster_levels.h.
+void draw_grid(SceneLayer& layer, const DrawnMap& map, int level);
 
-/// Draws the zones of the grid map, in the colour of their kind.
-void draw_zones(SceneLayer& layer, const DrawnMap& map);
+/// Draws the zones of the grid map, in the colour of their kind. Halves their rasters `level` times.
+void draw_zones(SceneLayer& layer, const DrawnMap& map, int level);
 
-/// Draws the active local maps, each in its own tint, at the origin.
-void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
+/// Draws the active local maps, each in its own tint, at the origin. Halves their rasters `level` times.
+void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot, int level);
 /// Moves the active local maps that draw_local_maps() drew to their current poses.
 void place_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
 
@@ -68,6 +68,7 @@ const HotSpot* hot_spot_at(const ReplaySnapshot& snapshot, const mrpt::math::TPo
 /// Returns what the verdict says about a hot spot and what would help, as two sentences.
 std::string hot_spot_hint(const HotSpot& spot);
 
+/// Draws the loops that drawn_loops() chooses: at most 500 of each verdict, as in the report.
 void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style);
 /// Draws the selected loop and the window in which it was searched.
 void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop);

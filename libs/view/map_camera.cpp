@@ -37,6 +37,12 @@ std::optional<mrpt::math::TPoint2D> ground_at(const MapCamera& camera, const mrp
                               camera.target.y + camera.distance_m * to_eye.y() + length * direction.y());
 }
 
+double ground_pixel_m(const MapCamera& camera, const mrpt::img::TImageSize& size) {
+  constexpr double kLeastSine = 0.1;  // a camera at the horizon sees without end
+  const double across_m = 2 * camera.distance_m * half_tangent(camera) / std::max(1, size.y);
+  return across_m / std::max(kLeastSine, std::sin(camera.elevation_deg * M_PI / 180));
+}
+
 MapCamera camera_above(const MapRectangle& rectangle, const mrpt::img::TImageSize& size) {
   MapCamera camera;
   camera.target = {(rectangle.x_min_m + rectangle.x_max_m) / 2, (rectangle.y_min_m + rectangle.y_max_m) / 2};

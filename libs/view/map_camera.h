@@ -25,6 +25,10 @@ struct MapCamera {
 std::optional<mrpt::math::TPoint2D> ground_at(const MapCamera& camera, const mrpt::img::TImageSize& size,
                                               double x_px, double y_px);
 
+/// Width of the ground that a pixel in the middle of an image of `size` pixels shows, in metres. A tilted
+/// camera sees more ground along its direction; returns the larger width.
+double ground_pixel_m(const MapCamera& camera, const mrpt::img::TImageSize& size);
+
 /// Camera that looks straight down on the whole rectangle with a small margin, at azimuth -90.
 MapCamera camera_above(const MapRectangle& rectangle, const mrpt::img::TImageSize& size);
 

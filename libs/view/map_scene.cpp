@@ -9,6 +9,7 @@
 #include "frames/discarded_ranges.h"
 #include "view/layers.h"
 #include "view/palette.h"
+#include "view/raster_levels.h"
 
 namespace psi_slam {
 namespace {
@@ -82,6 +83,7 @@ void MapScene::set_pixel_scale(float scale) {
   if (scale == pixel_scale_) return;
   pixel_scale_ = scale;
   shown_ = {};
+  draw_hand_lines();
 }
 
 void MapScene::set_legend(mrpt::img::CImage picture, int margin_px) {
@@ -120,27 +122,27 @@ void MapScene::set_visible(MapLayer layer, bool visible) {
 }
 
 void MapScene::set_measure(const std::optional<Measure>& measure) {
-  fill(*measure_layer_, [&](SceneLayer& layer) {
-    if (measure) draw_measure(layer, *measure);
-  });
+  measure_ = measure;
+  draw_hand_lines();
 }
 
 void MapScene::set_draft(const MapDraft& draft) {
-  fill(*draft_layer_, [&](SceneLayer& layer) { draw_draft(layer, draft); });
+  draft_ = draft;
+  draw_hand_lines();
+}
+
+/// Draws the lines that a person is drawing: the measure and the draft.
+void MapScene::draw_hand_lines() {
+  fill(*measure_layer_, [&](SceneLayer& layer) {
+    if (measure_) draw_measure(layer, *measure_);
+  });
+  fill(*draft_layer_, [&](SceneLayer& layer) { draw_draft(layer, draft_); });
 }
 
 bool MapScene::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
                     const std::shared_ptr<const DrawnMap>& map, std::optional<std::size_t> frame) {
   const bool first = shown_.snapshot == nullptr;
-  const bool map_changed = map != shown_.map;
-  if (map_changed) {
-    fill(of(MapLayer::kGrid), [&](SceneLayer& layer) {
-      if (map) draw_grid(layer, *map);
-    });
-    fill(of(MapLayer::kZones), [&](SceneLayer& layer) {
-      if (map) draw_zones(layer, *map);
-    });
-  }
+  const bool map_changed = show_maps(map);
   const bool poses_changed = first || snapshot->map_T_node != shown_.snapshot->map_T_node;
   const bool frames_changed = first || snapshot->frames.size() != shown_.snapshot->frames.size() ||
                               snapshot->phase != shown_.snapshot->phase;
@@ -149,15 +151,45 @@ bool MapScene::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
   const bool graph_changed = show_graph(*snapshot, poses_changed);
   const bool robot_changed = poses_changed || frames_changed || frame != shown_.frame;
   if (robot_changed) show_robot(*snapshot, frame);
-  shown_ = {snapshot, map, frame, loop_style_, chosen_loop_};
+  shown_.snapshot = snapshot;
+  shown_.frame = frame;
+  shown_.loop_style = loop_style_;
+  shown_.chosen_loop = chosen_loop_;
   return map_changed || graph_changed || robot_changed;
 }
 
-bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
-  const bool maps_changed = shown_.snapshot == nullptr || active_maps_differ(*shown_.snapshot, snapshot);
-  if (maps_changed) redraw(MapLayer::kLocalMaps, draw_local_maps, snapshot);
-  if ((maps_changed || poses_changed) && visible(MapLayer::kLocalMaps))
+/// Draws the grid map and its zones if the map or the level of its raster has changed.
+bool MapScene::show_maps(const std::shared_ptr<const DrawnMap>& map) {
+  const int level = map ? raster_level(map->raster.resolution_m, ground_pixel_m_) : 0;
+  if (map == shown_.map && level == shown_.grid_level) return false;
+  fill(of(MapLayer::kGrid), [&](SceneLayer& layer) {
+    if (map) draw_grid(layer, *map, level);
+  });
+  fill(of(MapLayer::kZones), [&](SceneLayer& layer) {
+    if (map) draw_zones(layer, *map, level);
+  });
+  shown_.map = map;
+  shown_.grid_level = level;
+  return true;
+}
+
+/// Draws the active local maps if they or the level of their rasters have changed, and moves them.
+bool MapScene::show_local_maps(const ReplaySnapshot& snapshot, bool poses_changed) {
+  const auto& maps = snapshot.active_local_maps;
+  const int level = maps.empty() ? 0
+                                 : raster_level(static_cast<double>(maps.front().occupancy->getResolution()),
+                                                ground_pixel_m_);
+  const bool changed = shown_.snapshot == nullptr || level != shown_.local_map_level ||
+                       active_maps_differ(*shown_.snapshot, snapshot);
+  if (changed) redraw(MapLayer::kLocalMaps, draw_local_maps, snapshot, level);
+  if ((changed || poses_changed) && visible(MapLayer::kLocalMaps))
     place_local_maps(of(MapLayer::kLocalMaps), snapshot);
+  shown_.local_map_level = level;
+  return changed;
+}
+
+bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
+  const bool maps_changed = show_local_maps(snapshot, poses_changed);
   if (poses_changed) {
     redraw(MapLayer::kNodes, draw_nodes, snapshot);
     redraw(MapLayer::kConstraints, draw_constraints, snapshot);

@@ -78,6 +78,9 @@ class MapScene {
   const mrpt::opengl::COpenGLScene::Ptr& scene() const { return scene_; }
   /// Sets the range of distances from the eye, in metres, within which objects are drawn.
   void set_clip_distances(double nearest_m, double farthest_m);
+  /// Sets the width of the ground that a pixel of the screen shows, in metres. The next show() draws maps
+  /// with pixels of at least this width, so that thin walls stay solid lines. By default, shows every cell.
+  void set_ground_pixel(double pixel_m) { ground_pixel_m_ = pixel_m; }
 
   /// Brings all visible layers up to date. Shows the scan `frame`, or the newest scan if `frame` is empty.
   /// Returns true if anything has changed.
@@ -94,7 +97,8 @@ class MapScene {
   /// Shows a draft; nothing if it has no points.
   void set_draft(const MapDraft& draft);
 
-  /// Multiplies the sizes of lines and points by a factor, for desktops that are scaled.
+  /// Multiplies the sizes of lines and points by a factor, for desktops that are scaled. Draws the measure
+  /// and the draft again at once, and the layers at the next show().
   void set_pixel_scale(float scale);
   /// Shows an image in the lower left corner at its own size; shows nothing if the image is empty.
   void set_legend(mrpt::img::CImage picture, int margin_px);
@@ -111,12 +115,17 @@ class MapScene {
     std::optional<std::size_t> frame;
     LoopStyle loop_style;
     std::optional<std::size_t> chosen_loop;
+    int grid_level = 0;
+    int local_map_level = 0;
   };
   mrpt::opengl::CSetOfObjects& of(MapLayer layer) { return *layers_[static_cast<std::size_t>(layer)]; }
   template <class Draw>
   void fill(mrpt::opengl::CSetOfObjects& layer, const Draw& draw) const;
   template <class Draw, class... Matter>
   void redraw(MapLayer layer, const Draw& draw, const Matter&... matter);
+  void draw_hand_lines();
+  bool show_maps(const std::shared_ptr<const DrawnMap>& map);
+  bool show_local_maps(const ReplaySnapshot& snapshot, bool poses_changed);
   bool show_graph(const ReplaySnapshot& snapshot, bool poses_changed);
   void show_robot(const ReplaySnapshot& snapshot, std::optional<std::size_t> frame);
 
@@ -125,9 +134,12 @@ class MapScene {
   mrpt::opengl::CSetOfObjects::Ptr chosen_layer_ = mrpt::opengl::CSetOfObjects::Create();
   mrpt::opengl::CSetOfObjects::Ptr measure_layer_ = mrpt::opengl::CSetOfObjects::Create();
   mrpt::opengl::CSetOfObjects::Ptr draft_layer_ = mrpt::opengl::CSetOfObjects::Create();
+  std::optional<Measure> measure_;
+  MapDraft draft_;
   LoopStyle loop_style_;
   std::optional<std::size_t> chosen_loop_;
   float pixel_scale_ = 1;
+  double ground_pixel_m_ = 0;
   Shown shown_;
 };
 

@@ -28,7 +28,7 @@ runtime=(
 )
 # shellcheck disable=SC2034
 test=(
-  libgtest-dev libgmock-dev libx11-dev xauth xvfb python3 doxygen dpkg-dev
+  libgtest-dev libgmock-dev libx11-dev xauth xvfb openbox python3 doxygen dpkg-dev
   libopenmpi-dev openmpi-bin
   pybind11-dev python3-dev python3-numpy python3-pytest python3-matplotlib python3-pandas mypy
   gdal-bin python3-gdal python3-ezdxf python3-pil librsvg2-bin man-db groff-base

@@ -3,6 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "../session/room_log.h"
+#include "gui_run.h"
+#include "report/decade_axis.h"
+
 namespace psi_slam {
 namespace {
 
@@ -47,6 +54,47 @@ TEST(PlotColumns, combines_scans_if_there_is_no_room) {
 
 TEST(PlotColumns, is_empty_without_scans) {
   EXPECT_TRUE(plot_columns({}, 100).empty());
+}
+
+/// The row of the picture with the most pixels of the colour of thresholds.
+int row_of_threshold(const wxImage& picture) {
+  int best_row = -1;
+  int most = 0;
+  for (int y = 0; y < picture.GetHeight(); ++y) {
+    int count = 0;
+    for (int x = 0; x < picture.GetWidth(); ++x)
+      count += picture.GetRed(x, y) > 180 && picture.GetGreen(x, y) < 120 && picture.GetBlue(x, y) < 120;
+    if (count <= most) continue;
+    most = count;
+    best_row = y;
+  }
+  return best_row;
+}
+
+TEST(PlotPanel, draws_psi_on_the_logarithmic_axis_of_the_report) {
+  if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run from Debian's package xvfb";
+  GuiRun gui;
+  const std::string log = write_lines(gui.folder() / "room.log", room_log_lines()).string();
+  gui.when_phase(ReplayPhase::kPaused)
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .screenshot("plots")
+      .then([](MainFrame& frame) {
+        const ReplaySnapshot& run = *frame.replay()->snapshot();
+        double most = 0;
+        for (std::size_t i = 0; i < run.frames.size(); ++i) most = std::max(most, run.frames[i].psi);
+        ASSERT_EQ(run.psi.psi_1, run.psi.psi_2) << "there is one line to look for";
+        const wxWindow* const plots = wxWindow::FindWindowByName("plots", &frame);
+        const wxRect panel = plots->GetScreenRect();
+        const double strip = panel.height / 4;
+        const wxImage picture =
+            screen_image(panel.GetPosition(), wxSize(panel.width, static_cast<int>(strip)));
+        const double top = plots->FromDIP(20);
+        const double height = strip - top - plots->FromDIP(6);
+        const double share = psi_axis(most, run.psi).share(run.psi.psi_1);
+        EXPECT_NEAR(row_of_threshold(picture), top + height * (1 - share), 2);
+      });
+  EXPECT_EQ(gui.run({log}), 0);
 }
 
 TEST(RoundUp, returns_the_next_1_2_or_5_times_a_power_of_ten) {

@@ -74,6 +74,27 @@ TEST_F(WindowLayoutTest, is_kept_for_the_next_window) {
   EXPECT_EQ(gui_.run({}), 0);
 }
 
+TEST_F(WindowLayoutTest, keeps_the_layer_of_loops_without_closing_the_window) {
+  const int loops = kLayer + static_cast<int>(MapLayer::kLoops);
+  const auto saved = [&] { return read_file(gui_.folder() / "config" / "psi-slam-gui.conf"); };
+  MainFrame* next = nullptr;
+  gui_.command(loops)
+      .then([&](MainFrame&) { EXPECT_THAT(saved(), testing::HasSubstr("Loops=0")); })
+      .command(kLoopsByResidual)
+      .then([&](MainFrame&) {
+        EXPECT_THAT(saved(), testing::HasSubstr("residual=1"));
+        next = new MainFrame();
+        EXPECT_FALSE(next->map().map_scene().visible(MapLayer::kLoops));
+        EXPECT_TRUE(next->map().map_scene().visible(MapLayer::kTrajectory));
+        EXPECT_FALSE(next->GetMenuBar()->IsChecked(loops));
+        EXPECT_TRUE(next->GetMenuBar()->IsChecked(kLoopsByResidual));
+        next->Close(true);
+      })
+      .command(loops)
+      .then([&](MainFrame&) { EXPECT_THAT(saved(), testing::HasSubstr("Loops=1")); });
+  EXPECT_EQ(gui_.run({}), 0);
+}
+
 TEST_F(WindowLayoutTest, of_another_screen_keeps_the_window_visible) {
   write_choices(
       "[window]\nversion=1\nx=99999\ny=-5000\nwidth=20000\nheight=9000\n"

@@ -36,6 +36,19 @@ TEST(MapCamera, when_tilted_the_upper_edge_is_farther_away_and_the_sky_shows_no_
   EXPECT_FALSE(ground_at(camera, kSize, 400, 0).has_value());
 }
 
+TEST(MapCamera, a_pixel_shows_the_ground_between_its_neighbours) {
+  MapCamera camera;
+  const auto left = ground_at(camera, kSize, 399.5, 200);
+  const auto right = ground_at(camera, kSize, 400.5, 200);
+  ASSERT_TRUE(left && right);
+  EXPECT_NEAR(ground_pixel_m(camera, kSize), right->x - left->x, 1e-9);
+  camera.elevation_deg = 30;
+  const auto above = ground_at(camera, kSize, 400, 199.5);
+  const auto below = ground_at(camera, kSize, 400, 200.5);
+  ASSERT_TRUE(above && below);
+  EXPECT_NEAR(ground_pixel_m(camera, kSize), above->y - below->y, 1e-4) << "a tilted camera sees farther";
+}
+
 TEST(MapCamera, looking_straight_down_sees_the_whole_rectangle) {
   for (const MapRectangle& rectangle :
        {MapRectangle{-10, 50, 0, 5}, MapRectangle{0, 4, -30, 30}, MapRectangle{1, 1, 1, 1}}) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <vector>
 
 #include "replayed_room.h"
 #include "view/map_camera.h"
@@ -134,6 +135,77 @@ TEST_F(MapRenderingTest, zones_tint_the_map_and_keep_out_zones_cover_slow_ones) 
 TEST_F(MapRenderingTest, nodes_are_drawn_over_lines) {
   draw({MapLayer::kLoops, MapLayer::kConstraints, MapLayer::kNodes});
   EXPECT_EQ(share_seen(palette::kNode), 1);
+}
+
+/// A map of free space that a slanting wall of one cell crosses from top to bottom.
+std::shared_ptr<const DrawnMap> map_with_slanting_wall() {
+  auto map = std::make_shared<DrawnMap>();
+  MapRaster& raster = map->raster;
+  raster.width_px = 4000;
+  raster.height_px = 1900;
+  raster.resolution_m = 0.05;
+  raster.pixels.assign(std::size_t{4} * 4000 * 1900, 255);
+  for (std::size_t row = 0; row < 1900; ++row) {
+    const std::size_t column = 500 + row / 7;
+    std::fill_n(raster.pixels.begin() + static_cast<std::ptrdiff_t>(4 * (row * 4000 + column)), 3, 20);
+  }
+  return map;
+}
+
+TEST_F(MapRenderingTest, lines_are_twice_as_wide_on_a_desktop_scaled_by_200_percent) {
+  // A level line across the middle of the free map, which a person measures, and one that is a draft.
+  const auto add_lines = [&] {
+    const double x_m = camera_.target.x;
+    const double y_m = camera_.target.y;
+    scene_->set_measure(Measure{{x_m - 2, y_m + 0.5}, {x_m + 2, y_m + 0.5}});
+    scene_->set_draft({{{x_m - 2, y_m - 0.5}, {x_m + 2, y_m - 0.5}}, false, palette::kMeasure});
+  };
+  const auto changed_rows = [&](const std::vector<std::uint8_t>& with,
+                                const std::vector<std::uint8_t>& without, double offset_m) {
+    const int width = kPictureSize.x;
+    const int middle =
+        kPictureSize.y / 2 - static_cast<int>(offset_m / ground_pixel_m(camera_, kPictureSize));
+    int rows = 0;
+    for (int y = middle - 12; y <= middle + 12; ++y) {
+      const auto at = static_cast<std::size_t>(y * width + width / 2 + 5);
+      rows += with[at] != without[at] ? 1 : 0;
+    }
+    return rows;
+  };
+  drawn_ = map_with_slanting_wall();  // free space where the lines are
+  camera_ = camera_above({0, 12, -6, 0}, kPictureSize);
+  draw({});
+  const std::vector<std::uint8_t> without = greens();
+  add_lines();
+  draw({});
+  const std::vector<std::uint8_t> single = greens();
+  scene_->set_pixel_scale(2);
+  draw({});
+  const std::vector<std::uint8_t> twice = greens();
+  for (const double offset_m : {0.5, -0.5}) {
+    const int width_px = changed_rows(single, without, offset_m);
+    EXPECT_GE(width_px, 2) << offset_m;
+    EXPECT_NEAR(changed_rows(twice, without, offset_m), 2 * width_px, 1) << offset_m;
+  }
+}
+
+TEST_F(MapRenderingTest, walls_of_one_cell_stay_solid_lines_when_zoomed_out) {
+  drawn_ = map_with_slanting_wall();
+  camera_ = camera_above(drawn_->raster.rectangle(), kPictureSize);
+  const auto rows_with_wall = [&] {
+    const std::vector<std::uint8_t> all = greens();
+    const auto width = static_cast<std::ptrdiff_t>(kPictureSize.x);
+    int rows = 0;
+    for (std::ptrdiff_t y = 40; y < kPictureSize.y - 40; ++y)
+      rows += *std::min_element(all.begin() + y * width, all.begin() + (y + 1) * width) < 60 ? 1 : 0;
+    return rows;
+  };
+  draw({});
+  EXPECT_LT(rows_with_wall(), (kPictureSize.y - 80) / 2)
+      << "every cell is drawn, so that many fall between pixels";
+  scene_->set_ground_pixel(ground_pixel_m(camera_, kPictureSize));
+  draw({});
+  EXPECT_EQ(rows_with_wall(), kPictureSize.y - 80);
 }
 
 }  // namespace

@@ -190,6 +190,17 @@ TEST_F(MapSceneTest, draws_accepted_loops_and_refused_ones_on_request) {
       << "loops without a match have no line";
 }
 
+TEST_F(MapSceneTest, draws_as_many_loops_as_the_report) {
+  auto snapshot = std::make_shared<ReplaySnapshot>(*finished_);
+  LoopRecord loop = finished_->loops->front();
+  loop.verdict = LoopVerdict::kAccepted;
+  std::vector<LoopRecord> many(1200, loop);
+  many[7].by_hand = true;
+  snapshot->loops = std::make_shared<std::vector<LoopRecord>>(many);
+  scene_.show(snapshot, map_);
+  EXPECT_EQ(loop_lines(), 501U) << "500 loops, and the one that a person edited";
+}
+
 TEST_F(MapSceneTest, colours_loops_by_matcher_or_residual) {
   scene_.show(finished_, map_);
   const auto colour = [&] { return first<mrpt::opengl::CSetOfLines>(MapLayer::kLoops)->getColor_u8(); };
@@ -221,6 +232,33 @@ TEST_F(MapSceneTest, redraws_nothing_without_a_change) {
   EXPECT_EQ(*scene_.layer(MapLayer::kGrid).begin(), grid);
   EXPECT_TRUE(scene_.show(finished_, map_, 10)) << "another scan is shown";
   EXPECT_FALSE(scene_.show(finished_, map_, 10));
+}
+
+TEST_F(MapSceneTest, reduces_maps_that_are_larger_than_the_screen) {
+  const auto width_px = [&] {
+    return first<mrpt::opengl::CTexturedPlane>(MapLayer::kGrid)->getTextureImage().getWidth();
+  };
+  const auto whole_px = static_cast<std::size_t>(map_->raster.width_px);
+  scene_.show(finished_, map_);
+  EXPECT_EQ(width_px(), whole_px);
+  scene_.set_ground_pixel(3 * map_->raster.resolution_m);
+  EXPECT_TRUE(scene_.show(finished_, map_));
+  EXPECT_EQ(width_px(), (whole_px + 3) / 4);
+  scene_.set_ground_pixel(3.5 * map_->raster.resolution_m);
+  EXPECT_FALSE(scene_.show(finished_, map_)) << "the level is the same";
+  scene_.set_ground_pixel(0.5 * map_->raster.resolution_m);
+  EXPECT_TRUE(scene_.show(finished_, map_));
+  EXPECT_EQ(width_px(), whole_px);
+
+  scene_.set_visible(MapLayer::kLocalMaps, true);
+  scene_.show(paused_, nullptr);
+  const auto local_width_px = [&] {
+    return first<mrpt::opengl::CTexturedPlane>(MapLayer::kLocalMaps)->getTextureImage().getWidth();
+  };
+  const std::size_t whole_local_px = local_width_px();
+  scene_.set_ground_pixel(1);
+  EXPECT_TRUE(scene_.show(paused_, nullptr));
+  EXPECT_LT(local_width_px(), whole_local_px);
 }
 
 TEST_F(MapSceneTest, shows_and_hides_layers) {

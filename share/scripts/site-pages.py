@@ -87,7 +87,7 @@ class Site:
         if level == 1 and not seen:
             seen[""] = 0
             return f"# {words} {{#{'mainpage' if name == 'index' else name}}}"
-        anchor = anchor_of(words)
+        anchor, words = anchor_of(words), words.replace("`", "")  # Doxygen 1.9.4 shows the tags of code in headings
         repeated = seen.get(anchor, 0)
         seen[anchor] = repeated + 1
         return f"{'#' * level} {words} {{#{name}-{anchor}{f'-{repeated}' if repeated else ''}}}"

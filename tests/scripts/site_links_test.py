@@ -47,6 +47,8 @@ def main():
                 wrong.append(f"{name} links to {link}, but {path} has no such anchor")
         if "](" in page.text and not name.endswith("_source.html") and "_cpp" not in name and "_py" not in name:
             wrong.append(f"{name} shows the Markdown of a link")
+        if "<tt>" in page.text and "_cpp" not in name:
+            wrong.append(f"{name} shows a tag of HTML as text")
 
     reached, waiting = set(), ["index.html"]
     while waiting:

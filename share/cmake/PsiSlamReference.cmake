@@ -1,25 +1,45 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The target `docs`: the API reference of the public headers, made by Doxygen in BUILD/reference/html. It fails if a
-# public symbol is undocumented.
-find_package(Doxygen QUIET)
-if(NOT DOXYGEN_FOUND)
-  message(STATUS "Doxygen was not found: the target docs is left out. Install Debian's package doxygen to make it")
+# The target `docs`: one static site with the README, all pages of share/doc and the API reference of the public headers, made
+# by Doxygen in BUILD/site. It fails if a public symbol is undocumented.
+find_package(Doxygen 1.9.4 QUIET)
+find_package(Python3 QUIET COMPONENTS Interpreter)
+if(NOT DOXYGEN_FOUND OR NOT Python3_Interpreter_FOUND)
+  message(STATUS "Doxygen or Python was not found: the target docs is left out. "
+    "Install them with share/scripts/install-dependencies.sh documentation")
   return()
 endif()
-set(DOXYGEN_OUTPUT_DIRECTORY reference)
+set(pages ${PROJECT_BINARY_DIR}/site-pages)
+set(site ${PROJECT_BINARY_DIR}/site)
+add_custom_target(psi_slam_site_pages
+  COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/share/scripts/site-pages.py ${PROJECT_SOURCE_DIR} ${pages} ${site}
+  COMMENT "Preparing the pages of the site" VERBATIM)
+
+set(DOXYGEN_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+set(DOXYGEN_HTML_OUTPUT site)
+set(DOXYGEN_LAYOUT_FILE ${pages}/layout.xml)
+set(DOXYGEN_HTML_EXTRA_STYLESHEET ${PROJECT_SOURCE_DIR}/share/cmake/site.css)
+set(DOXYGEN_HTML_COLORSTYLE LIGHT)
+set(DOXYGEN_GENERATE_TREEVIEW YES)
+set(DOXYGEN_DISABLE_INDEX YES)
+set(DOXYGEN_FULL_SIDEBAR NO)
+set(DOXYGEN_TREEVIEW_WIDTH 280)
+set(DOXYGEN_HTML_TIMESTAMP NO)
+set(DOXYGEN_TIMESTAMP NO)
+set(DOXYGEN_TOC_INCLUDE_HEADINGS 3)
 set(DOXYGEN_PROJECT_BRIEF "${PROJECT_DESCRIPTION}")
 set(DOXYGEN_STRIP_FROM_PATH ${PROJECT_SOURCE_DIR}/libs/include ${PROJECT_BINARY_DIR}/include)
 set(DOXYGEN_STRIP_FROM_INC_PATH ${DOXYGEN_STRIP_FROM_PATH})
 set(DOXYGEN_INCLUDE_PATH ${DOXYGEN_STRIP_FROM_PATH})
-set(DOXYGEN_FILE_PATTERNS *.h)
+set(DOXYGEN_FILE_PATTERNS *.h *.md)
 set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
 set(DOXYGEN_HAVE_DOT NO)
 set(DOXYGEN_GENERATE_LATEX NO)
 set(DOXYGEN_QUIET YES)
 set(DOXYGEN_WARN_IF_UNDOCUMENTED YES)
 set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
-set(DOXYGEN_EXAMPLE_PATH ${PROJECT_SOURCE_DIR}/share/examples)
+set(DOXYGEN_EXAMPLE_PATH ${PROJECT_SOURCE_DIR})
 set(DOXYGEN_PREDEFINED "MRPT_VERSION=0x258")
 set(DOXYGEN_MACRO_EXPANSION YES)
-doxygen_add_docs(docs ${PROJECT_SOURCE_DIR}/libs/include/psi_slam ${PROJECT_BINARY_DIR}/include/psi_slam
-  COMMENT "Making the API reference: reference/html/index.html")
+doxygen_add_docs(docs ${pages}/pages ${PROJECT_SOURCE_DIR}/libs/include/psi_slam ${PROJECT_BINARY_DIR}/include/psi_slam
+  COMMENT "Making the site: site/index.html")
+add_dependencies(docs psi_slam_site_pages)

@@ -7,6 +7,7 @@
 #     build      compiles the programs and the library
 #     runtime    runs the compiled programs
 #     test       runs the tests, and compiles the programs for clusters and the Python module: needed beside build and runtime
+#     documentation   makes the site of all pages and of the C++ reference; part of the list test
 #
 # --print prints the packages and installs nothing. Names of libraries differ between releases, so the lists contain them
 # as extended regular expressions.
@@ -28,11 +29,15 @@ runtime=(
 )
 # shellcheck disable=SC2034
 test=(
-  libgtest-dev libgmock-dev libx11-dev xauth xvfb openbox python3 doxygen dpkg-dev
+  libgtest-dev libgmock-dev libx11-dev xauth xvfb openbox dpkg-dev
   libopenmpi-dev openmpi-bin
   pybind11-dev python3-dev python3-numpy python3-pytest python3-matplotlib python3-pandas mypy
   gdal-bin python3-gdal python3-ezdxf python3-pil librsvg2-bin man-db groff-base
 )
+
+# shellcheck disable=SC2034
+documentation=(doxygen python3)
+test+=("${documentation[@]}")
 
 # Part of the list `test`. Tests that need a package of these are skipped where the release has none.
 optional=(python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs)
@@ -104,12 +109,12 @@ if [ $# -eq 0 ]; then set -- build runtime; fi
 wanted=()
 for list in "$@"; do
   case "$list" in
-    build | runtime | test)
+    build | runtime | test | documentation)
       declare -n packages=$list
       wanted+=("${packages[@]}")
       ;;
     *)
-      say "there is no list $list. Name one or more of build, runtime and test"
+      say "there is no list $list. Name one or more of build, runtime, test and documentation"
       exit 2
       ;;
   esac

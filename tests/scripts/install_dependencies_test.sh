@@ -79,6 +79,6 @@ PATH=$scratch/bin:$PATH "$install" runtime 2>/dev/null || fail "the list runtime
 status=0
 "$install" tests 2>"$scratch/words" || status=$?
 [ "$status" -eq 2 ] || fail "an unknown list ends with $status"
-grep -q "no list tests. Name one or more of build, runtime and test" "$scratch/words" ||
+grep -q "no list tests. Name one or more of build, runtime, test and documentation" "$scratch/words" ||
   fail "an unknown list gives $(cat "$scratch/words")"
 echo "all lists are right"

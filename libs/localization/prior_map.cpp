@@ -23,6 +23,7 @@ constexpr double kMostPlaces = 300;
 // Least path length between searches of the whole map, and their largest number.
 constexpr double kSearchSpacing_m = 2;
 constexpr int kMostSearches = 100;
+constexpr double kShareOfSearches = 0.5;  // of the work, if all searches fail
 
 // A place matches the scans of this path. Few points keep the information of the match low: neighbouring
 // points share the errors of the walls.
@@ -82,6 +83,29 @@ std::vector<std::size_t> spaced_nodes(const KeyframeStore& keyframes) {
 
 }  // namespace
 
+/// Reports the progress of a search. Nothing more is searched once it is stopped.
+class PriorMap::Progress {
+ public:
+  explicit Progress(const std::function<bool(double)>& report) : report_(report) {}
+
+  /// Reports a completed share of the current part of the work, in [0, 1]. Returns whether the work
+  /// continues.
+  bool at(double share) {
+    share_ = begin_ + share * (1 - begin_);
+    stopped_ = stopped_ || (report_ && !report_(share_));
+    return !stopped_;
+  }
+  /// The rest of the work becomes the current part.
+  void begin_rest() { begin_ = share_; }
+  bool stopped() const { return stopped_; }
+
+ private:
+  const std::function<bool(double)>& report_;
+  double begin_ = 0;
+  double share_ = 0;
+  bool stopped_ = false;
+};
+
 /// Nodes of a run that get a place, and the places found.
 struct PriorMap::Path {
   const KeyframeStore& keyframes;
@@ -107,6 +131,10 @@ PriorMap::PriorMap(const mrpt::maps::COccupancyGridMap2D& map, PriorMapOptions o
 
 FoundPlace PriorMap::place_anywhere(std::size_t node, const KeyframeStore& keyframes) const {
   return search_.find(node, keyframes, {options_.seed, keyframes.nodes[node].frame, 0});
+}
+
+MeasuredPose PriorMap::with_errors_of_walls(const TPose2D& prior_T_robot) const {
+  return {prior_T_robot, options_.sigma_m, options_.sigma_m / kHeadingArm_m};
 }
 
 std::optional<MeasuredPose> PriorMap::place_near(std::size_t node, const KeyframeStore& keyframes,
@@ -139,7 +167,7 @@ std::optional<MeasuredPose> PriorMap::place_near(std::size_t node, const Keyfram
   if (static_cast<double>(agreement.observed) < kMinObserved * points || agreement.share() < kMinAgree ||
       clear_beams(map.scores(), *keyframes.nodes[node].points, matched).share() < kMinClear)
     return std::nullopt;
-  MeasuredPose place{matched, options_.sigma_m, options_.sigma_m / kHeadingArm_m};
+  MeasuredPose place = with_errors_of_walls(matched);
   place.further = covariance;
   return place;
 }
@@ -152,9 +180,12 @@ bool PriorMap::shows(std::size_t node, const KeyframeStore& keyframes, const TPo
          kMinObserved * static_cast<double>(std::max<std::size_t>(scan.points.size(), 1));
 }
 
-// Finds the first place. Returns why there is none, a clause; empty if there is one.
-std::string PriorMap::find(Path& path) const {
+// Finds the first place. Returns why there is none, a clause; empty if there is one, or if the search was
+// stopped.
+std::string PriorMap::find(Path& path, Progress& progress) const {
   const std::vector<NodeScan>& nodes = path.keyframes.nodes;
+  const double most_searches =
+      std::min<double>(kMostSearches, nodes.back().travelled_m / kSearchSpacing_m + 1);
   PlaceConsensus consensus(options_.consensus);
   std::string why_not = "the run has no scan with points";
   std::optional<double> searched_m;
@@ -163,6 +194,7 @@ std::string PriorMap::find(Path& path) const {
     const bool is_due =
         !searched_m || nodes[node].travelled_m - *searched_m >= kSearchSpacing_m || node + 1 == nodes.size();
     if (!is_due || is_unplaced(node, path.keyframes)) continue;
+    if (!progress.at(kShareOfSearches * std::min(1.0, searches / most_searches))) return {};
     searched_m = nodes[node].travelled_m;
     ++searches;
     const FoundPlace place = place_anywhere(node, path.keyframes);
@@ -179,20 +211,24 @@ std::string PriorMap::find(Path& path) const {
 }
 
 // Matches the scans along the path near their predicted places, forwards and backwards from the first place.
-void PriorMap::follow(Path& path) const {
+void PriorMap::follow(Path& path, Progress& progress) const {
+  std::size_t done = 0;
   const auto step = [&](std::size_t i, TPose2D& prior_T_map, double& firm_m) {
+    if (!progress.at(static_cast<double>(done++) / static_cast<double>(path.nodes.size()))) return;
     const std::size_t node = path.nodes[i];
     const double travelled_m = path.keyframes.nodes[node].travelled_m;
     const double half_m = std::min(kWindow_m + kWindowGrowth * std::abs(travelled_m - firm_m), kMostWindow_m);
     const TPose2D predicted = prior_T_map + path.map_T_node[node];
-    path.places[i] = place_near(node, path.keyframes, predicted, {half_m, half_m, kWindow_rad});
-    if (!path.places[i]) {
+    const std::optional<MeasuredPose> place =
+        place_near(node, path.keyframes, predicted, {half_m, half_m, kWindow_rad});
+    if (!place) {
       if (shows(node, path.keyframes, predicted)) ++path.misfits;
       return;
     }
     ++path.fits;
-    prior_T_map = path.places[i]->pose + inverse(path.map_T_node[node]);
-    if (largest_sigma_m(path.places[i]->further) <= kFirm_m) firm_m = travelled_m;
+    path.places[i] = *place;
+    prior_T_map = place->pose + inverse(path.map_T_node[node]);
+    if (largest_sigma_m(place->further) <= kFirm_m) firm_m = travelled_m;
   };
   const double start_m = path.keyframes.nodes[path.nodes[path.first]].travelled_m;
   TPose2D prior_T_map = path.prior_T_map;
@@ -203,8 +239,10 @@ void PriorMap::follow(Path& path) const {
   for (std::size_t i = path.first; i-- > 0;) step(i, prior_T_map, firm_m);
 }
 
-PriorPlaces PriorMap::places(const Mapper& mapper, const std::optional<PriorStart>& start) const {
+PriorPlaces PriorMap::places(const Mapper& mapper, const std::optional<PriorStart>& start,
+                             const std::function<bool(double)>& progress) const {
   PriorPlaces result;
+  Progress steps(progress);
   const KeyframeStore& keyframes = mapper.keyframes();
   if (keyframes.nodes.empty()) {
     result.objection = "the run has no scan with points";
@@ -216,9 +254,12 @@ PriorPlaces PriorMap::places(const Mapper& mapper, const std::optional<PriorStar
   if (start)
     path.begin_at(*start);
   else
-    result.objection = find(path);
+    result.objection = find(path, steps);
   if (!result.objection.empty()) return result;
-  follow(path);
+  steps.begin_rest();
+  if (!steps.stopped()) follow(path, steps);
+  result.is_interrupted = steps.stopped();
+  if (result.is_interrupted) return result;
   if (path.fits < kMinFits * (path.fits + path.misfits)) {
     result.objection = "only " + std::to_string(path.fits) + " of " +
                        std::to_string(path.fits + path.misfits) + " places along the path fit";

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,7 @@ struct PriorMapOptions {
 struct PriorPlaces {
   std::vector<KnownPose> poses;  ///< in the order of the path; empty if the run does not fit
   std::string objection;         ///< why the run does not fit, a clause; empty if it does
+  bool is_interrupted = false;   ///< the search was stopped; `poses` and `objection` are empty
 };
 
 /// Pose of a node in a prior map.
@@ -48,8 +50,10 @@ class PriorMap {
   PriorMap(const mrpt::maps::COccupancyGridMap2D& map, PriorMapOptions options);
 
   /// Finds the places of a run. Deterministic. With `start`, the pose of a node in the prior map, the whole
-  /// map is not searched. The mapper must not have landmarks in its graph.
-  PriorPlaces places(const Mapper& mapper, const std::optional<PriorStart>& start = {}) const;
+  /// map is not searched. `progress` gets the completed share of the work, in [0, 1]. If it returns false,
+  /// the search stops. The mapper must not have landmarks in its graph.
+  PriorPlaces places(const Mapper& mapper, const std::optional<PriorStart>& start = {},
+                     const std::function<bool(double)>& progress = {}) const;
 
   /// Finds the place of a node in a window around a prediction. Empty if the scans do not fit there, and if
   /// the window is wide and another place fits as well.
@@ -57,13 +61,17 @@ class PriorMap {
                                          const mrpt::math::TPose2D& prior_T_predicted,
                                          const SearchExtent& window) const;
 
+  /// Returns a pose in the prior map with the errors of its walls alone.
+  MeasuredPose with_errors_of_walls(const mrpt::math::TPose2D& prior_T_robot) const;
+
   /// Searches the whole prior map for a node. Check FoundPlace::believed().
   FoundPlace place_anywhere(std::size_t node, const KeyframeStore& keyframes) const;
 
  private:
   struct Path;
-  std::string find(Path& path) const;
-  void follow(Path& path) const;
+  class Progress;
+  std::string find(Path& path, Progress& progress) const;
+  void follow(Path& path, Progress& progress) const;
   bool shows(std::size_t node, const KeyframeStore& keyframes,
              const mrpt::math::TPose2D& prior_T_robot) const;
 

@@ -71,6 +71,28 @@ TEST(PriorMap, a_bare_floor_plan_places_a_run_through_furnished_rooms) {
   }
 }
 
+TEST(PriorMap, a_search_stops_when_its_progress_says_so) {
+  const MappedRun run = mapped_run(kBuildingPlan, 101, 30);
+  const PriorMap plan(drawn_floor_plan(kBuildingPlan), {});
+  std::vector<double> shares;
+  const PriorPlaces all = plan.places(run.mapper, {}, [&](double share) {
+    shares.push_back(share);
+    return true;
+  });
+  EXPECT_FALSE(all.is_interrupted);
+  EXPECT_FALSE(all.poses.empty());
+  ASSERT_GT(shares.size(), 2U);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_LT(shares.back(), 1);
+  for (const std::size_t calls : {std::size_t{1}, shares.size()}) {
+    std::size_t called = 0;
+    const PriorPlaces stopped = plan.places(run.mapper, {}, [&](double) { return ++called < calls; });
+    EXPECT_EQ(called, calls);
+    EXPECT_TRUE(stopped.is_interrupted);
+    EXPECT_THAT(stopped.poses, IsEmpty());
+  }
+}
+
 TEST(PriorMap, wrong_places_are_left_out_and_named_in_one_sentence) {
   MappedRun run = mapped_run(kBuildingPlan, 101, 120);
   PriorPlaces places = places_in(drawn_floor_plan(kBuildingPlan), run);

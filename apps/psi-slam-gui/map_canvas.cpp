@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "view/layers.h"
 #include "wx_text.h"
 
@@ -306,7 +307,7 @@ void MapCanvas::zoom_by(double factor) {
 void MapCanvas::zoom(wxMouseEvent& event) {
   const double notches = static_cast<double>(event.GetWheelRotation()) / std::max(1, event.GetWheelDelta());
   const auto before = ground(event);
-  zoom_by(std::pow(kZoomPerNotch, notches));
+  zoom_by(portable::pow(kZoomPerNotch, notches));
   const auto after = ground(event);
   if (!follow_ && before && after) move_target(*before - *after);
 }

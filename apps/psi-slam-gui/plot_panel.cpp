@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "base/portable_math.h"
 #include "report/decade_axis.h"
 #include "view/palette.h"
 #include "wx_text.h"
@@ -233,7 +234,7 @@ std::vector<PlotColumn> plot_columns(const HistoryView<FrameRecord>& frames, std
 
 double round_up(double value) {
   if (!(value > 0)) return 1;
-  const double power = std::pow(10, std::floor(std::log10(value)));
+  const double power = portable::pow(10, std::floor(portable::log10(value)));
   for (const double digit : {1.0, 2.0, 5.0})
     if (value <= digit * power * (1 + 1e-9)) return digit * power;
   return 10 * power;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <ostream>
 
 #include "base/atomic_file.h"
 #include "base/exit_code.h"
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "commands.h"
 #include "comparison/change_picture.h"
 #include "comparison/change_report.h"
@@ -57,8 +57,8 @@ double farthest_m(const Grid& a, const MapAlignment& alignment) {
   double farthest = 0;
   for (const float x : {a.getXMin(), a.getXMax()})
     for (const float y : {a.getYMin(), a.getYMax()})
-      farthest = std::max(farthest, std::hypot(static_cast<double>(x) - alignment.centre.x,
-                                               static_cast<double>(y) - alignment.centre.y));
+      farthest = std::max(farthest, portable::hypot(static_cast<double>(x) - alignment.centre.x,
+                                                    static_cast<double>(y) - alignment.centre.y));
   return farthest;
 }
 

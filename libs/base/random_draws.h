@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/portable_math.h"
+
 namespace psi_slam {
 
 /// One step of SplitMix64 (Steele et al., 2014): maps neighbouring numbers to unrelated ones, for use as
@@ -41,8 +43,8 @@ class RandomDraws {
   }
   /// Normally distributed random number with mean 0 and standard deviation 1, by the Box-Muller transform.
   double normal() {
-    const double radius = std::sqrt(-2 * std::log(1 - share()));
-    return radius * std::cos(2 * M_PI * share());
+    const double radius = std::sqrt(-2 * portable::log(1 - share()));
+    return radius * portable::cos(2 * M_PI * share());
   }
 
  protected:

@@ -10,9 +10,11 @@
 #include <memory>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "base/text_parts.h"
 #include "compression/line_reader.h"
 #include "frames/laser_readings.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -54,7 +56,7 @@ std::string first_of(const std::vector<std::string>& preferred, const Messages& 
 }
 
 bool same_mount(const TPose2D& a, const TPose2D& b) {
-  return std::hypot(a.x - b.x, a.y - b.y) <= kSameMount_m &&
+  return portable::hypot(a.x - b.x, a.y - b.y) <= kSameMount_m &&
          std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= kSameMount_rad;
 }
 
@@ -233,12 +235,12 @@ std::optional<TPose2D> mount_by_robotlaser(const CarmenText& text, std::string_v
     if (fields.message() != message) continue;
     const auto laser = readable_laser(fields);
     if (!laser) continue;
-    const TPose2D robot_T_laser = laser->odom_T_laser - laser->odom_T_robot;
+    const TPose2D robot_T_laser = between(laser->odom_T_robot, laser->odom_T_laser);
     if (!is_possible_mount(robot_T_laser)) return std::nullopt;
     if (mount && !same_mount(*mount, robot_T_laser)) return std::nullopt;
     if (!mount) mount = robot_T_laser;
     if (last_robot) {
-      path_m += std::hypot(laser->odom_T_robot.x - last_robot->x, laser->odom_T_robot.y - last_robot->y);
+      path_m += portable::hypot(laser->odom_T_robot.x - last_robot->x, laser->odom_T_robot.y - last_robot->y);
       turn_rad += std::abs(mrpt::math::wrapToPi(laser->odom_T_robot.phi - last_robot->phi));
     }
     last_robot = laser->odom_T_robot;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "localization/global_search.h"
 #include "localization/reference_map.h"
@@ -72,7 +73,7 @@ Walls walls_of(const std::vector<TPoint2D>& cells, std::size_t most) {
   for (const TPoint2D& point : points) {
     const TPoint2D offset = point - walls.centre;
     walls.points.points.emplace_back(static_cast<float>(offset.x), static_cast<float>(offset.y));
-    walls.points.farthest_m = std::max(walls.points.farthest_m, std::hypot(offset.x, offset.y));
+    walls.points.farthest_m = std::max(walls.points.farthest_m, portable::hypot(offset.x, offset.y));
   }
   return walls;
 }
@@ -101,7 +102,7 @@ class WallMatcher {
 
   /// Finds the pose of the map with the walls in the other map, near `map_T_walls`, the pose of its frame.
   WallMatch near(const TPose2D& map_T_walls, double window_m, double window_rad) const {
-    return refined(map_T_walls + TPose2D(walls_.centre.x, walls_.centre.y, 0), window_m, window_rad);
+    return refined(compose(map_T_walls, TPose2D(walls_.centre.x, walls_.centre.y, 0)), window_m, window_rad);
   }
 
   /// Searches the other map at all headings. Empty if nothing fits.
@@ -113,8 +114,8 @@ class WallMatcher {
         match_whole_map(matcher, {map_.coarse->scores(), few_walls_.points, kCoarseResponse}, options).match;
     if (!coarse.found) return std::nullopt;
     const TPoint2D between = walls_.centre - few_walls_.centre;
-    WallMatch fine = refined(coarse.map_T_robot + TPose2D(between.x, between.y, 0), kFineCells * coarse_m(),
-                             kFineCells * coarse_m() / few_walls_.points.farthest_m);
+    WallMatch fine = refined(compose(coarse.map_T_robot, TPose2D(between.x, between.y, 0)),
+                             kFineCells * coarse_m(), kFineCells * coarse_m() / few_walls_.points.farthest_m);
     fine.match.ambiguity = coarse.ambiguity;
     return fine;
   }
@@ -143,7 +144,8 @@ class WallMatcher {
 
 /// The pose of map B in map A from a match of the walls of A in B (`swapped`) or of B in A.
 MapAlignment alignment_of(const WallMatch& found, const Walls& walls, bool swapped) {
-  const TPose2D large_T_small = found.match.map_T_robot + TPose2D(-walls.centre.x, -walls.centre.y, 0);
+  const TPose2D large_T_small =
+      compose(found.match.map_T_robot, TPose2D(-walls.centre.x, -walls.centre.y, 0));
   MapAlignment alignment;
   alignment.a_T_b = swapped ? inverse(large_T_small) : large_T_small;
   alignment.centre = swapped ? walls.centre : TPoint2D(found.match.map_T_robot.x, found.match.map_T_robot.y);

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "matching/score_grid.h"
 #include "rendering/map_image.h"
@@ -57,7 +58,7 @@ std::optional<ComparedCells> layout_of(const Grid& a, const Grid& b, const TPose
     for (int x = 0; x < static_cast<int>(b.getSizeX()); ++x) {
       if (!is_occupied(row[x]) && !is_free(row[x])) continue;
       const TPoint2D point =
-          a_T_b.composePoint({static_cast<double>(b.idx2x(x)), static_cast<double>(b.idx2y(y))});
+          transform(a_T_b, {static_cast<double>(b.idx2x(x)), static_cast<double>(b.idx2y(y))});
       const int column = floor_to_int((point.x - static_cast<double>(a.getXMin())) / resolution_m);
       const int line = floor_to_int((point.y - static_cast<double>(a.getYMin())) / resolution_m);
       x_begin = std::min(x_begin, column);
@@ -95,7 +96,7 @@ Layer layer_of(const Grid& map, const TPose2D& a_T_map, const ComparedCells& lay
   const auto height = static_cast<int>(map.getSizeY());
   for (int y = 0; y < layout.height; ++y) {
     for (int x = 0; x < layout.width; ++x) {
-      const TPoint2D point = map_T_a.composePoint(centre_of(layout, x, y));
+      const TPoint2D point = transform(map_T_a, centre_of(layout, x, y));
       const int column = map.x2idx(point.x);
       const int row = map.y2idx(point.y);
       if (column < 0 || column >= width || row < 0 || row >= height) continue;
@@ -108,7 +109,7 @@ Layer layer_of(const Grid& map, const TPose2D& a_T_map, const ComparedCells& lay
     for (int column = 0; column < width; ++column) {
       if (!is_occupied(map.getRow(row)[column])) continue;
       const TPoint2D point =
-          a_T_map.composePoint({static_cast<double>(map.idx2x(column)), static_cast<double>(map.idx2y(row))});
+          transform(a_T_map, {static_cast<double>(map.idx2x(column)), static_cast<double>(map.idx2y(row))});
       const int x = static_cast<int>((point.x - layout.x_min_m) / layout.cell_m);
       const int y = static_cast<int>((point.y - layout.y_min_m) / layout.cell_m);
       if (x < 0 || x >= layout.width || y < 0 || y >= layout.height) continue;
@@ -158,7 +159,7 @@ struct Change {
   cv::Point2d from;         ///< ends along the main direction, in cells
   cv::Point2d to;
 
-  double length_cells() const { return std::hypot(to.x - from.x, to.y - from.y) + 1; }
+  double length_cells() const { return portable::hypot(to.x - from.x, to.y - from.y) + 1; }
 };
 
 Change change_of(Cells cells) {
@@ -174,8 +175,8 @@ Change change_of(Cells cells) {
     xy += offset.x * offset.y;
     yy += offset.y * offset.y;
   }
-  const double direction_rad = 0.5 * std::atan2(2 * xy, xx - yy);
-  const cv::Point2d direction(std::cos(direction_rad), std::sin(direction_rad));
+  const double direction_rad = 0.5 * portable::atan2(2 * xy, xx - yy);
+  const cv::Point2d direction(portable::cos(direction_rad), portable::sin(direction_rad));
   double least = 0;
   double most = 0;
   std::set<int> filled;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <numeric>
 
+#include "base/portable_math.h"
 #include "doctor/pair_alignment.h"
 #include "frames/laser_readings.h"
 #include "frames/scan_alignment.h"
@@ -88,7 +89,7 @@ void compare_distances(const std::vector<std::vector<double>>& rows, std::vector
     double squares = 0;
     fits[c].worse_by_m = fits[c].mean_distance_m - fits[best].mean_distance_m;
     for (const std::vector<double>& row : rows)
-      squares += std::pow(row[c] - row[best] - fits[c].worse_by_m, 2);
+      squares += portable::pow(row[c] - row[best] - fits[c].worse_by_m, 2);
     const double error_m = std::sqrt(squares) / count;
     fits[c].significance = error_m > 0 ? fits[c].worse_by_m / error_m : 0;
     fits[c].ruled_out_by_walls = fits[c].worse_by_m > kWorseFraction * fits[best].mean_distance_m &&

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
+
 namespace psi_slam {
 namespace {
 
@@ -18,8 +21,8 @@ constexpr double kMostChange = 2.0;  // of the speed of a moving robot from one 
 
 /// Length of the motion from the frame before, with turns, metres.
 double step_m(const std::vector<FrameMark>& marks, std::size_t frame) {
-  const mrpt::math::TPose2D motion = marks[frame].odom_T_robot - marks[frame - 1].odom_T_robot;
-  return std::hypot(motion.x, motion.y) + kMetresPerRadian * std::abs(mrpt::math::wrapToPi(motion.phi));
+  const mrpt::math::TPose2D motion = between(marks[frame - 1].odom_T_robot, marks[frame].odom_T_robot);
+  return portable::hypot(motion.x, motion.y) + kMetresPerRadian * std::abs(mrpt::math::wrapToPi(motion.phi));
 }
 
 /// Returns whether the robot moved before and after `frame` as far as on the way to it.

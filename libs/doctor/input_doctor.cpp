@@ -8,6 +8,7 @@
 #include "frames/laser_choice.h"
 #include "frames/log_format.h"
 #include "frames/log_reader.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -93,7 +94,8 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
     diagnosis.jumps = confirm_jumps(marks, suspects, library);
     diagnosis.revisits = check_revisits(marks, revisits, library);
     std::optional<double> laser_heading_rad;
-    if (diagnosis.mount) laser_heading_rad = (diagnosis.mount->robot_T_laser - pass.facts.robot_T_laser).phi;
+    if (diagnosis.mount)
+      laser_heading_rad = (between(pass.facts.robot_T_laser, diagnosis.mount->robot_T_laser)).phi;
     if (!pass.facts.contents.states_beam_angles) {
       diagnosis.beam_angles = study_beam_angles(marks, evidence, library, pass.bearings_rad,
                                                 field_of_view_rad(pass, options), laser_heading_rad);

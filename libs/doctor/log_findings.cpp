@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "doctor/clock_jumps.h"
 #include "doctor/input_doctor.h"
 #include "frames/laser_choice.h"
@@ -249,7 +250,7 @@ class Judge {
     const double ratio = odometry.length_ratio;
     if (ratio == 0 || (ratio > 0.6 && ratio < 1.6)) return;
     for (const auto& [per_metre, name] : kUnits) {
-      if (std::abs(std::log(ratio / per_metre)) > std::log(1.3)) continue;
+      if (std::abs(portable::log(ratio / per_metre)) > portable::log(1.3)) continue;
       warn("odometry_unit",
            "odometry moves " + fixed(ratio, ratio < 1 ? 4 : 1) +
                " times as far as the scans: it looks like " + name + ", not metres",
@@ -396,7 +397,7 @@ class Judge {
     const LaserMountEstimate& mount = *diagnosis_.mount;
     const TPose2D& stated = facts_.robot_T_laser;
     const double yaw_rad = laser_yaw_rad(mount);
-    const double off_m = std::hypot(mount.robot_T_laser.x - stated.x, mount.robot_T_laser.y - stated.y);
+    const double off_m = portable::hypot(mount.robot_T_laser.x - stated.x, mount.robot_T_laser.y - stated.y);
     const double off_rad = std::abs(mrpt::math::wrapToPi(yaw_rad - stated.phi));
     if (off_m > std::max(0.03, 4 * mount.deviation_m) ||
         off_rad > std::max(DEG2RAD(0.8), 4 * mount.deviation_rad)) {

@@ -11,6 +11,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "frames/scan_alignment.h"
 
 namespace psi_slam {
@@ -50,8 +52,8 @@ struct Track {
 std::vector<TPose2D> fan_of_guesses(const TPose2D& around) {
   std::vector<TPose2D> guesses;
   for (const double turn_deg : {-40.0, -27.0, -18.0, -9.0, 0.0, 9.0, 18.0, 27.0, 40.0})
-    guesses.push_back(around + TPose2D{0, 0, DEG2RAD(turn_deg)});
-  for (const double ahead_m : {-0.4, 0.4, 0.8}) guesses.push_back(around + TPose2D{ahead_m, 0, 0});
+    guesses.push_back(compose(around, TPose2D{0, 0, DEG2RAD(turn_deg)}));
+  for (const double ahead_m : {-0.4, 0.4, 0.8}) guesses.push_back(compose(around, TPose2D{ahead_m, 0, 0}));
   return guesses;
 }
 
@@ -65,21 +67,21 @@ std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vect
     const AlignableScan scan(library.at(frames[k]));
     const FramePair step{frames[k - 1], frames[k]};
     const TPose2D odometry_step = odometry_between(marks, step);
-    ScanAlignment alignment = align_scans(reference, scan, now + last_step);
+    ScanAlignment alignment = align_scans(reference, scan, compose(now, last_step));
     if (!alignment.is_reliable(kGoodCost_m)) alignment = align_scans(reference, scan, now);
     if (!alignment.is_reliable(kGoodCost_m)) {
       std::vector<TPose2D> guesses = fan_of_guesses(now);
-      guesses.push_back(now + odometry_step);
+      guesses.push_back(compose(now, odometry_step));
       alignment = align_scans(reference, scan, guesses);
     }
     if (!alignment.is_reliable(kGoodCost_m) || alignment.heading_deviation_rad() > kHeadingDeviation_rad)
       break;
-    last_step = alignment.reference_T_scan - now;
+    last_step = between(now, alignment.reference_T_scan);
     now = alignment.reference_T_scan;
     track.by_scans = now;
     track.by_odometry = odometry_between(marks, {frames.front(), frames[k]});
     const double laser_heading_rad = reference.robot_T_laser().phi;  // the covariance is in the laser's frame
-    track.length_deviation_m = alignment.deviation_along_m(std::atan2(now.y, now.x) - laser_heading_rad);
+    track.length_deviation_m = alignment.deviation_along_m(portable::atan2(now.y, now.x) - laser_heading_rad);
     track.steps.push_back({step, last_step.phi, wrapToPi(odometry_step.phi)});
     if (now.norm() > kTrackLength_m || std::abs(now.phi) > kTrackTurn_rad) break;
   }
@@ -106,8 +108,8 @@ void compare_lengths(const std::vector<Track>& tracks, OdometryAgreement& agreem
     if (by_scans_m < kLeastLength_m || track.length_deviation_m > kLengthDeviation_m) continue;
     ratios.push_back(by_odometry_m / by_scans_m);
     if (by_odometry_m == 0) continue;
-    const double odometry_direction = std::atan2(track.by_odometry.y, track.by_odometry.x);
-    const double scan_direction = std::atan2(track.by_scans.y, track.by_scans.x);
+    const double odometry_direction = portable::atan2(track.by_odometry.y, track.by_odometry.x);
+    const double scan_direction = portable::atan2(track.by_scans.y, track.by_scans.x);
     directions += std::polar(1.0, scan_direction - odometry_direction);
     slips_rad.push_back(std::abs(std::remainder(odometry_direction - track.by_odometry.phi / 2, M_PI)));
   }

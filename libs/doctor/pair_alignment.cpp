@@ -10,7 +10,9 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "doctor/estimate_covariance.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -72,7 +74,7 @@ LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const S
     const TPose2D& odometry = pair.by_odometry;
     const double way_m = odometry.norm();
     if (way_m < kLeastMotion_m || way_m > kMaxMotion_m) continue;
-    const double direction = std::atan2(odometry.y, odometry.x);
+    const double direction = portable::atan2(odometry.y, odometry.x);
     // Component of the motion by scans along the motion by odometry, divided by the motion by odometry.
     const auto share_along = [&](const ScanAlignment& alignment) {
       const TPose2D& motion = alignment.reference_T_scan;
@@ -120,22 +122,22 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
     const double off_rad = wrapToPi(scans.reference_T_scan.phi - pair.by_odometry.phi);
     const bool determined = scans.deviation_along_m(0) < 0.01 && scans.deviation_along_m(M_PI / 2) < 0.01;
     if (!scans.is_reliable() || !determined || std::abs(off_rad) > 0.1) continue;
-    const TPose2D laser = (scans.reference_T_scan + stated_mount) - stated_mount;
+    const TPose2D laser = between(stated_mount, compose(scans.reference_T_scan, stated_mount));
     const double turn = laser.phi;
     // An error of odometry's turn rotates odometry's translation by half of the error.
     const double bend = off_rad / 2;
     const TPose2D& odometry = pair.by_odometry;
     Equation equation;
-    equation.value = {-(std::cos(bend) * odometry.x - std::sin(bend) * odometry.y),
-                      -(std::sin(bend) * odometry.x + std::cos(bend) * odometry.y)};
-    equation.row << std::cos(turn) - 1, -std::sin(turn), -laser.x, laser.y,  //
-        std::sin(turn), std::cos(turn) - 1, -laser.y, -laser.x;
+    equation.value = {-(portable::cos(bend) * odometry.x - portable::sin(bend) * odometry.y),
+                      -(portable::sin(bend) * odometry.x + portable::cos(bend) * odometry.y)};
+    equation.row << portable::cos(turn) - 1, -portable::sin(turn), -laser.x, laser.y,  //
+        portable::sin(turn), portable::cos(turn) - 1, -laser.y, -laser.x;
     equations.push_back(equation);
   }
   if (equations.size() < kFewestPairs) return std::nullopt;
   // A weak prior keeps what the motion does not determine near the stated mount.
-  const Eigen::Vector4d prior(stated_mount.x, stated_mount.y, std::cos(stated_mount.phi),
-                              std::sin(stated_mount.phi));
+  const Eigen::Vector4d prior(stated_mount.x, stated_mount.y, portable::cos(stated_mount.phi),
+                              portable::sin(stated_mount.phi));
   const Eigen::Matrix4d prior_hessian = kNoise_m * kNoise_m * Eigen::Matrix4d::Identity();
   Eigen::Vector4d solution = prior;
   Eigen::Matrix4d hessian;
@@ -161,7 +163,7 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
       estimate_covariance<4>(hessian, gradients, kNoise_m * kNoise_m * prior_hessian);
   LaserMountEstimate estimate;
   estimate.pairs = equations.size();
-  estimate.robot_T_laser = {solution[0], solution[1], std::atan2(solution[3], solution[2])};
+  estimate.robot_T_laser = {solution[0], solution[1], portable::atan2(solution[3], solution[2])};
   estimate.odometry_scale = solution.tail<2>().norm();
   estimate.deviation_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
   const Eigen::Vector2d along = solution.tail<2>() / estimate.odometry_scale;
@@ -218,7 +220,7 @@ RevisitAgreement check_revisits(const std::vector<FrameMark>& marks, const std::
   agreement.revisits = pairs.size();
   std::vector<double> offsets_m;
   for (const AlignedPair& pair : align_pairs(marks, pairs, library)) {
-    const TPose2D off = pair.by_scans.reference_T_scan - pair.by_odometry;
+    const TPose2D off = between(pair.by_odometry, pair.by_scans.reference_T_scan);
     if (!pair.by_scans.is_reliable() || off.norm() > kSame_m || std::abs(off.phi) > same_rad) continue;
     offsets_m.push_back(off.norm());
   }

@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <limits>
 
+#include "base/portable_math.h"
 #include "doctor/estimate_covariance.h"
 #include "frames/laser_choice.h"
 #include "frames/odometry_track.h"
@@ -63,7 +64,7 @@ std::optional<double> best_candidate_s(const ShiftedOdometry& odometry, const st
     for (const ScanTurn& turn : turns) {
       const double residual =
           wrapToPi(turn.turn_rad - odometry.turn_rad(turn.frames, kMostScanDelay_s * k / kCandidates));
-      cost += std::log1p(std::pow(residual / kNoise_rad, 2));
+      cost += portable::log1p(portable::pow(residual / kNoise_rad, 2));
     }
     if (cost >= lowest) continue;
     lowest = cost;
@@ -83,9 +84,9 @@ std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks
   if (!candidate_s) return std::nullopt;
   // Gauss-Newton steps for the delay and the ratio of turns, with a weak prior: without turns, both stay.
   const Eigen::Vector2d prior(*candidate_s, 1);
-  const Eigen::Matrix2d prior_hessian =
-      Eigen::Vector2d(std::pow(kNoise_rad / kMostScanDelay_s, 2), std::pow(kNoise_rad / kGainDeviation, 2))
-          .asDiagonal();
+  const Eigen::Matrix2d prior_hessian = Eigen::Vector2d(portable::pow(kNoise_rad / kMostScanDelay_s, 2),
+                                                        portable::pow(kNoise_rad / kGainDeviation, 2))
+                                            .asDiagonal();
   Eigen::Vector2d estimate = prior;
   Eigen::Matrix2d hessian;
   std::vector<Eigen::Vector2d> gradients(turns.size());
@@ -99,7 +100,7 @@ std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks
                                     odometry.turn_rad(frames, estimate[0] - kSlopeStep_s)) /
                            (2 * kSlopeStep_s);
       const double residual = wrapToPi(turns[k].turn_rad - estimate[1] * turn_rad);
-      const double weight = 1 / (1 + std::pow(residual / kNoise_rad, 2));
+      const double weight = 1 / (1 + portable::pow(residual / kNoise_rad, 2));
       const Eigen::Vector2d jacobian(estimate[1] * slope, turn_rad);
       hessian += weight * jacobian * jacobian.transpose();
       gradients[k] = weight * residual * jacobian;

@@ -9,6 +9,8 @@
 #include <optional>
 #include <unordered_map>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/open_log.h"
 
 namespace psi_slam {
@@ -21,7 +23,7 @@ constexpr double kElsewhere_m = 0.05;
 constexpr double kElsewhere_rad = 0.05;
 
 double distance_m(const FrameMark& a, const FrameMark& b) {
-  return std::hypot(b.odom_T_robot.x - a.odom_T_robot.x, b.odom_T_robot.y - a.odom_T_robot.y);
+  return portable::hypot(b.odom_T_robot.x - a.odom_T_robot.x, b.odom_T_robot.y - a.odom_T_robot.y);
 }
 
 template <class Item>
@@ -70,7 +72,7 @@ std::int64_t cell_key(double x, double y, double cell_m) {
 }  // namespace
 
 TPose2D odometry_between(const std::vector<FrameMark>& marks, const FramePair& pair) {
-  return marks[pair.second].odom_T_robot - marks[pair.first].odom_T_robot;
+  return between(marks[pair.first].odom_T_robot, marks[pair.second].odom_T_robot);
 }
 
 std::vector<double> unwrapped_headings(const std::vector<FrameMark>& marks) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "trajectory/trajectory_file.h"
 
@@ -29,8 +30,8 @@ class FrontEndPath {
     for (const FrameRecord& frame : frames) {
       double travelled_m = 0;
       if (!by_frame_.empty()) {
-        const TPose2D motion = frame.front_end_T_robot - by_frame_.back().front_end_T_robot;
-        travelled_m = by_frame_.back().travelled_m + std::hypot(motion.x, motion.y);
+        const TPose2D motion = between(by_frame_.back().front_end_T_robot, frame.front_end_T_robot);
+        travelled_m = by_frame_.back().travelled_m + portable::hypot(motion.x, motion.y);
       }
       by_frame_.push_back({frame.front_end_T_robot, travelled_m});
     }
@@ -48,8 +49,8 @@ class FrontEndPath {
     const auto found = pose_at_time(by_time_, time_us, max_gap_us_);
     if (!found) return std::nullopt;
     const PathPoint& before = by_frame_[frame_by_time_[found->from]];
-    const TPose2D motion = found->pose - before.front_end_T_robot;
-    return PathPoint{found->pose, before.travelled_m + std::hypot(motion.x, motion.y)};
+    const TPose2D motion = between(before.front_end_T_robot, found->pose);
+    return PathPoint{found->pose, before.travelled_m + portable::hypot(motion.x, motion.y)};
   }
 
  private:
@@ -121,15 +122,15 @@ double way_m(const PlacedLoop& loop, const PlacedRelation& relation) {
 /// Returns the relation as predicted by the matched loop and the front end's motion to the ends of the
 /// relation.
 TPose2D predicted(const PlacedLoop& loop, const PlacedRelation& relation) {
-  const TPose2D map_end_T_anchor = loop.anchor.front_end_T_robot - relation.map_end.front_end_T_robot;
-  const TPose2D node_T_node_end = relation.node_end.front_end_T_robot - loop.node.front_end_T_robot;
-  return map_end_T_anchor + loop.anchor_T_node + node_T_node_end;
+  const TPose2D map_end_T_anchor = between(relation.map_end.front_end_T_robot, loop.anchor.front_end_T_robot);
+  const TPose2D node_T_node_end = between(loop.node.front_end_T_robot, relation.node_end.front_end_T_robot);
+  return compose(compose(map_end_T_anchor, loop.anchor_T_node), node_T_node_end);
 }
 
 JudgedLoop judge(const PlacedLoop& loop, const PlacedRelation& relation,
                  const LoopJudgementOptions& options) {
-  const TPose2D error = predicted(loop, relation) - relation.map_end_T_node_end;
-  JudgedLoop judged{loop.loop, relation.relation, std::hypot(error.x, error.y),
+  const TPose2D error = between(relation.map_end_T_node_end, predicted(loop, relation));
+  JudgedLoop judged{loop.loop, relation.relation, portable::hypot(error.x, error.y),
                     std::abs(mrpt::math::wrapToPi(error.phi)), way_m(loop, relation)};
   judged.is_false = judged.error_m > options.max_error_m + options.drift_m_per_metre * judged.way_m ||
                     judged.error_rad > options.max_error_rad + options.drift_rad_per_metre * judged.way_m;
@@ -148,7 +149,8 @@ std::optional<JudgedLoop> judge(const PlacedLoop& loop, const std::vector<Placed
 
 bool joins_two_passes(const PlacedRelation& relation, const LoopJudgementOptions& options) {
   return std::abs(relation.map_end.travelled_m - relation.node_end.travelled_m) >= options.min_travel_m &&
-         std::hypot(relation.map_end_T_node_end.x, relation.map_end_T_node_end.y) <= options.max_distance_m;
+         portable::hypot(relation.map_end_T_node_end.x, relation.map_end_T_node_end.y) <=
+             options.max_distance_m;
 }
 
 std::optional<double> share(std::size_t part, std::size_t whole) {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 #include "trajectory/text_lines.h"
@@ -23,15 +24,15 @@ constexpr std::size_t kRelationWords = 8;
 
 RelationError error_of(const Relation& relation, const PoseAtTime& pose1, const PoseAtTime& pose2) {
   const TPose2D& truth = relation.pose1_T_pose2;
-  const TPose2D estimate = pose2.pose - pose1.pose;
-  const TPose2D error = estimate - truth;                        // truth^-1 * estimate
-  const TPose2D cartographer_error = estimate + inverse(truth);  // estimate * truth^-1
+  const TPose2D estimate = between(pose1.pose, pose2.pose);
+  const TPose2D error = between(truth, estimate);                        // truth^-1 * estimate
+  const TPose2D cartographer_error = compose(estimate, inverse(truth));  // estimate * truth^-1
   RelationError result;
   result.relation = relation;
   result.interpolated = pose1.interpolated || pose2.interpolated;
-  result.translation_m = std::hypot(error.x, error.y);
+  result.translation_m = portable::hypot(error.x, error.y);
   result.rotation_deg = std::abs(mrpt::math::wrapToPi(error.phi)) * (180 / M_PI);
-  result.cartographer_translation_m = std::hypot(cartographer_error.x, cartographer_error.y);
+  result.cartographer_translation_m = portable::hypot(cartographer_error.x, cartographer_error.y);
   return result;
 }
 

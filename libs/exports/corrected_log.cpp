@@ -13,6 +13,7 @@
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -95,8 +96,8 @@ std::string scan_line(const LaserScan& scan, TimeUs time_us, const TPose2D& map_
 std::string scan_lines(const Frame& frame, const TPose2D& map_T_robot) {
   std::string lines = scan_line(frame.scan, frame.time_us, map_T_robot, frame.odom_T_robot);
   for (const CompanionScan& companion : frame.companions)
-    lines += scan_line(companion.scan, companion.time_us, map_T_robot + companion.frame_T_robot,
-                       frame.odom_T_robot + companion.frame_T_robot);
+    lines += scan_line(companion.scan, companion.time_us, compose(map_T_robot, companion.frame_T_robot),
+                       compose(frame.odom_T_robot, companion.frame_T_robot));
   return lines;
 }
 

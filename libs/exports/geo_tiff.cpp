@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "base/portable_math.h"
 #include "exports/map_files.h"
 #include "psi_slam/user_error.h"
 
@@ -70,8 +71,8 @@ double to_tenth_of_a_millimetre(float length_m) {
 
 /// GDAL's affine transform from column and row (from the upper left corner) to easting and northing.
 std::array<double, 6> geo_transform(const COccupancyGridMap2D& grid, const GeoReference& reference) {
-  const double c = std::cos(reference.heading_rad);
-  const double s = std::sin(reference.heading_rad);
+  const double c = portable::cos(reference.heading_rad);
+  const double s = portable::sin(reference.heading_rad);
   const double cell_m = std::round(static_cast<double>(grid.getResolution()) * 1e7) / 1e7;
   const double x = to_tenth_of_a_millimetre(grid.getXMin());
   const double y = to_tenth_of_a_millimetre(grid.getYMin()) + cell_m * static_cast<double>(grid.getSizeY());

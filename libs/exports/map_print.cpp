@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "exports/map_files.h"
 #include "rendering/map_image.h"
 #include "rendering/picture_ink.h"
@@ -37,7 +38,7 @@ std::string with_resolution(std::string png, double pixels_per_metre) {
 /// Returns the pixels per inch of the options, or fewer if the picture would exceed kMaxPixels.
 int dpi_that_fits(const MapRaster& raster, const MapFileOptions& options) {
   const double area_m2 = raster.width_px * raster.resolution_m * raster.height_px * raster.resolution_m;
-  const double inches = area_m2 / std::pow(options.print_scale * kMetresPerInch, 2);
+  const double inches = area_m2 / portable::pow(options.print_scale * kMetresPerInch, 2);
   const double dpi = std::sqrt(kMaxPixels / inches);
   return std::max(1, static_cast<int>(std::min<double>(options.print_dpi, dpi)));
 }
@@ -47,7 +48,7 @@ int dpi_that_fits(const MapRaster& raster, const MapFileOptions& options) {
 void draw_arrow(cv::Mat& image, const cv::Point2d& from, double length, double direction_rad,
                 const std::string& name, double px_per_mm) {
   const cv::Scalar ink = kWallInk;
-  const cv::Point2d direction(std::cos(direction_rad), -std::sin(direction_rad));
+  const cv::Point2d direction(portable::cos(direction_rad), -portable::sin(direction_rad));
   const cv::Point2d tip = from + length * direction;
   const int thick = std::max(1, static_cast<int>(std::lround(0.3 * px_per_mm)));
   cv::arrowedLine(image, from, tip, ink, thick, cv::LINE_AA, 0, 0.25);
@@ -73,7 +74,7 @@ void add_footer(cv::Mat& image, const MapFileOptions& options, double pixels_a_m
   if (options.earth.epsg == 0) return;
   const double north_rad = M_PI / 2 - options.earth.heading_rad;
   const double length = 5 * px_per_mm;
-  const cv::Point2d half(std::cos(north_rad) * length / 2, -std::sin(north_rad) * length / 2);
+  const cv::Point2d half(portable::cos(north_rad) * length / 2, -portable::sin(north_rad) * length / 2);
   const cv::Point2d centre(image.cols - 24 * px_per_mm, top + 7 * px_per_mm);
   draw_arrow(image, centre - half, length, north_rad, "N", px_per_mm);
 }

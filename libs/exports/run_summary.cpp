@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "exports/mapped_trajectory.h"
 
 namespace psi_slam {
@@ -98,7 +99,7 @@ MapExtent map_extent(const mrpt::maps::COccupancyGridMap2D& grid, double asked_r
 /// Rounds a value for JSON to `decimals` decimals. Null if the value is not finite.
 Json number(double value, int decimals = 6) {
   if (!std::isfinite(value)) return nullptr;
-  const double scale = std::pow(10.0, decimals);
+  const double scale = portable::pow(10.0, decimals);
   const double rounded = std::round(value * scale) / scale;
   return std::isfinite(rounded) ? rounded : value;
 }
@@ -277,7 +278,7 @@ double path_length_m(const std::vector<TPose2D>& poses) {
   if (poses.empty()) return 0;
   double length = 0;
   TPose2D from = poses.front();
-  const auto distance = [&](const TPose2D& to) { return std::hypot(to.x - from.x, to.y - from.y); };
+  const auto distance = [&](const TPose2D& to) { return portable::hypot(to.x - from.x, to.y - from.y); };
   for (const TPose2D& pose : poses) {
     if (distance(pose) < kStep_m) continue;
     length += distance(pose);

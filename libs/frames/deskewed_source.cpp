@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "frames/sweep_motion.h"
 #include "psi_slam/user_error.h"
@@ -32,15 +33,15 @@ LaserScan deskewed(const LaserScan& scan, const TPose2D& motion) {
     if (measured_before == 0) continue;
     const TPose2D moved =
         interpolate({0, 0, 0}, motion, static_cast<double>(measured_before) / static_cast<double>(last));
-    const TPose2D first_T_laser = laser_T_robot + moved + scan.robot_T_laser;
+    const TPose2D first_T_laser = compose(compose(laser_T_robot, moved), scan.robot_T_laser);
     const auto bearing = static_cast<double>(bearings[i]);
     double turned = first_T_laser.phi;
     if (const auto range = static_cast<double>(scan.ranges_m[i]); std::isfinite(range)) {
-      const double x = first_T_laser.x + range * std::cos(bearing + first_T_laser.phi);
-      const double y = first_T_laser.y + range * std::sin(bearing + first_T_laser.phi);
-      still.ranges_m[i] = static_cast<float>(std::hypot(x, y));
+      const double x = first_T_laser.x + range * portable::cos(bearing + first_T_laser.phi);
+      const double y = first_T_laser.y + range * portable::sin(bearing + first_T_laser.phi);
+      still.ranges_m[i] = static_cast<float>(portable::hypot(x, y));
       // Wraps only the turn: bearings may exceed pi.
-      turned = mrpt::math::wrapToPi(std::atan2(y, x) - bearing);
+      turned = mrpt::math::wrapToPi(portable::atan2(y, x) - bearing);
     }
     bearings[i] = static_cast<float>(bearing + turned);
   }
@@ -74,14 +75,15 @@ std::vector<std::string> DeskewedSource::assumptions() const {
 
 std::optional<TPose2D> DeskewedSource::motion_between(const Mark& from, const Mark& to, double time_s) {
   if (!from.has_odometry || !to.has_odometry) return std::nullopt;
-  return motion_during_sweep(to.odom_T_robot - from.odom_T_robot, seconds(to.time_us - from.time_us), time_s);
+  return motion_during_sweep(between(from.odom_T_robot, to.odom_T_robot), seconds(to.time_us - from.time_us),
+                             time_s);
 }
 
 DeskewedSource::Marks DeskewedSource::marks_of(const Frame& frame) {
   Marks marks{{frame.scan.laser, frame.time_us, frame.odom_T_robot, frame.has_odometry}};
   for (const CompanionScan& companion : frame.companions)
-    marks.push_back({companion.scan.laser, companion.time_us, frame.odom_T_robot + companion.frame_T_robot,
-                     frame.has_odometry});
+    marks.push_back({companion.scan.laser, companion.time_us,
+                     compose(frame.odom_T_robot, companion.frame_T_robot), frame.has_odometry});
   return marks;
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "base/text_parts.h"
 #include "frames/laser_readings.h"
 #include "psi_slam/user_error.h"
@@ -50,7 +51,7 @@ LaserScan scan_of_slice(const std::vector<mrpt::math::TPoint3Df>& points,
   const mrpt::poses::CPose3D upside_down(0, 0, 0, 0, 0, M_PI);
   const mrpt::poses::CPose3D mount = options.mirrored ? robot_T_sensor + upside_down : robot_T_sensor;
   const mrpt::math::CMatrixDouble33 rotation = mount.getRotationMatrix();
-  const double yaw_rad = std::atan2(rotation(1, 0), rotation(0, 0));
+  const double yaw_rad = portable::atan2(rotation(1, 0), rotation(0, 0));
   LaserScan scan;
   scan.robot_T_laser = options.robot_T_laser.value_or(mrpt::math::TPose2D(mount.x(), mount.y(), yaw_rad));
   scan.ranges_m.assign(kBeams, std::numeric_limits<float>::quiet_NaN());
@@ -63,12 +64,12 @@ LaserScan scan_of_slice(const std::vector<mrpt::math::TPoint3Df>& points,
                  rotation(i, 1) * static_cast<double>(point.y) +
                  rotation(i, 2) * static_cast<double>(point.z);
     const double height_m = mount.z() + ahead[2];
-    const auto range_m = static_cast<float>(std::hypot(ahead[0], ahead[1]));
+    const auto range_m = static_cast<float>(portable::hypot(ahead[0], ahead[1]));
     const bool is_in_slice = height_m >= slice.low_m && height_m <= slice.high_m;
     const bool is_in_range =
         range_m > 0 && static_cast<double>(range_m) >= options.min_range_m && range_m < scan.max_range_m;
     if (!is_in_slice || !is_in_range) continue;
-    const double bearing_rad = mrpt::math::wrapToPi(std::atan2(ahead[1], ahead[0]) - yaw_rad);
+    const double bearing_rad = mrpt::math::wrapToPi(portable::atan2(ahead[1], ahead[0]) - yaw_rad);
     const std::size_t beam = sector_of(bearing_rad);
     if (scan.ranges_m[beam] <= range_m) continue;
     scan.ranges_m[beam] = range_m;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "base/portable_math.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -24,7 +25,7 @@ constexpr double kLargestRange_m = 1000;  // no 2D laser sees farther
 
 /// Angle between the laser's plane and the floor, in [0, pi/2].
 double tilt_rad(const mrpt::math::CMatrixDouble33& rotation) {
-  return std::acos(std::min(1.0, std::abs(rotation(2, 2))));
+  return portable::acos(std::min(1.0, std::abs(rotation(2, 2))));
 }
 
 }  // namespace
@@ -105,7 +106,7 @@ bool is_possible_mount(const TPose2D& robot_T_laser) {
 
 FloorMount floor_mount(const mrpt::poses::CPose3D& robot_T_laser, const std::string& place) {
   const mrpt::math::CMatrixDouble33 rotation = robot_T_laser.getRotationMatrix();
-  const TPose2D mount{robot_T_laser.x(), robot_T_laser.y(), std::atan2(rotation(1, 0), rotation(0, 0))};
+  const TPose2D mount{robot_T_laser.x(), robot_T_laser.y(), portable::atan2(rotation(1, 0), rotation(0, 0))};
   if (!is_possible_mount(mount) || !std::isfinite(rotation(2, 2)))
     throw UserError(place + ": the pose of the laser on the robot is " + mount.asString() +
                     ", expected finite numbers and at most 100 m. Select another laser with log.laser");

@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "frames/look_over.h"
+#include "frames/pose_operations.h"
 #include "frames/scan_neighbours.h"
 #include "psi_slam/user_error.h"
 
@@ -212,8 +214,8 @@ void OwnBodyFinder::take_key_scan(Laser& laser, const Motion& motion, std::vecto
       ++laser.counts[bin * kCells + static_cast<std::size_t>(cell)];
   }
   if (laser.key_scans > 0) {
-    const mrpt::math::TPose2D step = motion.odom_T_robot - laser.key.odom_T_robot;
-    laser.travelled_m += std::hypot(step.x, step.y);
+    const mrpt::math::TPose2D step = between(laser.key.odom_T_robot, motion.odom_T_robot);
+    laser.travelled_m += portable::hypot(step.x, step.y);
     laser.knows_travel = laser.knows_travel && motion.has_odometry && laser.key.has_odometry;
     laser.knows_headings = laser.knows_headings && turn_rad(laser.key, motion).has_value();
   }

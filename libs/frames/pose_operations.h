@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Operations on SE(2) poses that MRPT's TPose2D lacks.
+// Operations on SE(2) poses with the same results on every processor.
 #pragma once
 
+#include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <cmath>
+
+#include "base/portable_math.h"
 
 namespace psi_slam {
 
@@ -17,9 +20,32 @@ inline bool is_possible_odometry(const mrpt::math::TPose2D& odom_T_robot) {
          std::isfinite(odom_T_robot.phi);
 }
 
+/// Returns the pose a_T_c = a_T_b ⊕ b_T_c: c in the frame a. Its yaw is in (-π, π]. Unlike MRPT's operator,
+/// which calls the C library, it gives the same bits on every processor.
+inline mrpt::math::TPose2D compose(const mrpt::math::TPose2D& a_T_b, const mrpt::math::TPose2D& b_T_c) {
+  const auto [sin, cos] = portable::sin_cos(a_T_b.phi);
+  return {a_T_b.x + b_T_c.x * cos - b_T_c.y * sin, a_T_b.y + b_T_c.x * sin + b_T_c.y * cos,
+          mrpt::math::wrapToPi(a_T_b.phi + b_T_c.phi)};
+}
+
+/// Returns the pose b_T_c = ⊖a_T_b ⊕ a_T_c: c in the frame b, from both poses in the frame a. Its yaw is in
+/// (-π, π].
+inline mrpt::math::TPose2D between(const mrpt::math::TPose2D& a_T_b, const mrpt::math::TPose2D& a_T_c) {
+  const auto [sin, cos] = portable::sin_cos(a_T_b.phi);
+  const double x = a_T_c.x - a_T_b.x;
+  const double y = a_T_c.y - a_T_b.y;
+  return {x * cos + y * sin, y * cos - x * sin, mrpt::math::wrapToPi(a_T_c.phi - a_T_b.phi)};
+}
+
 /// Returns the inverse b_T_a of the pose a_T_b.
 inline mrpt::math::TPose2D inverse(const mrpt::math::TPose2D& a_T_b) {
-  return mrpt::math::TPose2D(0, 0, 0) - a_T_b;
+  return between(a_T_b, {0, 0, 0});
+}
+
+/// Returns the coordinates in the frame a of the point whose coordinates in the frame b are `point`.
+inline mrpt::math::TPoint2D transform(const mrpt::math::TPose2D& a_T_b, const mrpt::math::TPoint2D& point) {
+  const auto [sin, cos] = portable::sin_cos(a_T_b.phi);
+  return {a_T_b.x + point.x * cos - point.y * sin, a_T_b.y + point.x * sin + point.y * cos};
 }
 
 /// Returns the pose at `fraction` of the way from one pose to another. Position and yaw change linearly; yaw

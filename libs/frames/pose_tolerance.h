@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "base/portable_math.h"
+
 namespace psi_slam {
 
 /// Largest differences of two poses at one place.
@@ -17,7 +19,7 @@ struct PoseTolerance {
 /// Returns whether distance and turn between two poses are within the tolerance.
 inline bool is_same_place(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b,
                           const PoseTolerance& tolerance) {
-  return std::hypot(a.x - b.x, a.y - b.y) <= tolerance.metres &&
+  return portable::hypot(a.x - b.x, a.y - b.y) <= tolerance.metres &&
          std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= tolerance.radians;
 }
 

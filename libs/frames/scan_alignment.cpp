@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "frames/scan_neighbours.h"
 
@@ -53,8 +54,8 @@ Eigen::Vector2d normal_at(const std::vector<Point>& points, std::size_t i, bool 
     xy += d.x() * d.y();
     yy += d.y() * d.y();
   }
-  const double along = 0.5 * std::atan2(2 * xy, xx - yy);  // direction in which the points spread most
-  return {-std::sin(along), std::cos(along)};
+  const double along = 0.5 * portable::atan2(2 * xy, xx - yy);  // direction in which the points spread most
+  return {-portable::sin(along), portable::cos(along)};
 }
 
 struct Match {
@@ -72,7 +73,7 @@ const Point* nearest_wall(const AlignableScan& reference, const Eigen::Vector2d&
   const double range = p.norm();
   const double bearing = reference.bearing_rad(p);
   const auto reach = [&](double distance_m) {
-    return distance_m < range ? std::asin(distance_m / range) : M_PI;
+    return distance_m < range ? portable::asin(distance_m / range) : M_PI;
   };
   const auto comes_before = [](const Point& point, double value) { return point.bearing_rad < value; };
   const auto start = std::lower_bound(walls.begin(), walls.end(), bearing, comes_before) - walls.begin();
@@ -108,8 +109,8 @@ Matching match_points(const AlignableScan& reference, const AlignableScan& scan,
   Matching matching;
   const std::vector<Point>& walls = reference.points();
   if (walls.empty()) return matching;
-  const double c = std::cos(reference_T_scan.phi);
-  const double s = std::sin(reference_T_scan.phi);
+  const double c = portable::cos(reference_T_scan.phi);
+  const double s = portable::sin(reference_T_scan.phi);
   matching.matches.reserve(scan.points().size());
   for (const Point& point : scan.points()) {
     const Eigen::Vector2d p{reference_T_scan.x + c * point.position_m.x() - s * point.position_m.y(),
@@ -177,8 +178,8 @@ AlignableScan::AlignableScan(const LaserScan& scan, double max_range_m, std::siz
     const auto range = static_cast<double>(scan.ranges_m[i]);
     const double bearing = near_middle(static_cast<double>(bearings_rad[i]));
     if (!(range <= max_range_m)) continue;  // also skips beams without return
-    points_.push_back(
-        {range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)), Eigen::Vector2d::Zero(), bearing});
+    points_.push_back({range * Eigen::Vector2d(portable::cos(bearing), portable::sin(bearing)),
+                       Eigen::Vector2d::Zero(), bearing});
   }
   std::sort(points_.begin(), points_.end(),
             [](const Point& a, const Point& b) { return a.bearing_rad < b.bearing_rad; });
@@ -193,11 +194,11 @@ double AlignableScan::near_middle(double bearing_rad) const {
 }
 
 double AlignableScan::bearing_rad(const Eigen::Vector2d& position_m) const {
-  return near_middle(std::atan2(position_m.y(), position_m.x()));
+  return near_middle(portable::atan2(position_m.y(), position_m.x()));
 }
 
 double ScanAlignment::deviation_along_m(double heading_rad) const {
-  const Eigen::Vector2d direction{std::cos(heading_rad), std::sin(heading_rad)};
+  const Eigen::Vector2d direction{portable::cos(heading_rad), portable::sin(heading_rad)};
   return std::sqrt(direction.dot(covariance.topLeftCorner<2, 2>() * direction));
 }
 
@@ -208,7 +209,7 @@ double ScanAlignment::heading_deviation_rad() const {
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
                           const mrpt::math::TPose2D& guess) {
   // Pose of the scan's laser relative to the reference's laser; converted to a pose of the robot at the end.
-  mrpt::math::TPose2D pose = (guess + scan.robot_T_laser()) - reference.robot_T_laser();
+  mrpt::math::TPose2D pose = between(reference.robot_T_laser(), compose(guess, scan.robot_T_laser()));
   double radius_m = kFirstRadius_m;
   for (int i = 0; i < kIterations; ++i) {
     const Matching matching = match_points(reference, scan, pose, radius_m);
@@ -227,7 +228,7 @@ ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& s
   ScanAlignment result;
   rate(match_points(reference, scan, pose, kLastRadius_m), kLastRadius_m, pose, result);
   const mrpt::math::TPose2D laser_T_robot = inverse(scan.robot_T_laser());
-  result.reference_T_scan = reference.robot_T_laser() + pose + laser_T_robot;
+  result.reference_T_scan = compose(compose(reference.robot_T_laser(), pose), laser_T_robot);
   return result;
 }
 

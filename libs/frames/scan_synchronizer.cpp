@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -34,7 +36,7 @@ std::pair<TimeUs, std::size_t> distance(const Scan& a, const Scan& b) {
 
 /// Returns whether a robot can have moved so far between two scans of a frame. Otherwise odometry jumped.
 bool is_plausible(const mrpt::math::TPose2D& motion) {
-  return std::hypot(motion.x, motion.y) <= ScanSynchronizer::kMaxMotion_m &&
+  return portable::hypot(motion.x, motion.y) <= ScanSynchronizer::kMaxMotion_m &&
          std::abs(motion.phi) <= ScanSynchronizer::kMaxTurn_rad;
 }
 
@@ -125,7 +127,7 @@ std::optional<Frame> ScanSynchronizer::take() {
     const Frame& chosen = choose(scans, *opener, used).frame;
     CompanionScan companion{chosen.scan, chosen.time_us, {}};
     if (frame.has_odometry && chosen.has_odometry)
-      companion.frame_T_robot = chosen.odom_T_robot - frame.odom_T_robot;
+      companion.frame_T_robot = between(frame.odom_T_robot, chosen.odom_T_robot);
     else if (frame.imu_heading_rad && chosen.imu_heading_rad)
       companion.frame_T_robot.phi = mrpt::math::wrapToPi(*chosen.imu_heading_rad - *frame.imu_heading_rad);
     if (is_plausible(companion.frame_T_robot)) frame.companions.push_back(std::move(companion));

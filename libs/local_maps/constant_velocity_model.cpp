@@ -4,7 +4,9 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
-#include <cmath>
+
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -21,8 +23,8 @@ constexpr double kGapSteps = 10;  // smallest gap, as a multiple of the usual ti
 /// Rotates the translation of a motion by an angle. Rotation by minus half the turn of an arc makes its chord
 /// point straight ahead.
 TPose2D turned(const TPose2D& motion, double angle_rad) {
-  const double c = std::cos(angle_rad);
-  const double s = std::sin(angle_rad);
+  const double c = portable::cos(angle_rad);
+  const double s = portable::sin(angle_rad);
   return {c * motion.x - s * motion.y, s * motion.x + c * motion.y, motion.phi};
 }
 
@@ -72,7 +74,7 @@ void ConstantVelocityModel::moved(TimeUs time_us, const TPose2D& local_T_robot, 
   if (here.matched) {
     if (last_matched_ && last_matched_->in_mid_sweep == in_mid_sweep) {
       const double matched_s = clock_s_ - last_matched_->clock_s;
-      TPose2D motion = local_T_robot - last_matched_->local_T_robot;
+      TPose2D motion = between(last_matched_->local_T_robot, local_T_robot);
       motion.phi = mrpt::math::wrapToPi(motion.phi);
       const TPose2D straight = turned(motion, -motion.phi / 2);
       if (matched_s >= kShortest_s)

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "local_maps/correction_support.h"
 
-#include <cmath>
 #include <vector>
+
+#include "base/portable_math.h"
 
 namespace psi_slam {
 namespace {
 
 std::vector<double> scores_at(const ScoreGrid& grid, const ScanPoints& scan,
                               const mrpt::math::TPose2D& pose) {
-  const double c = std::cos(pose.phi);
-  const double s = std::sin(pose.phi);
+  const double c = portable::cos(pose.phi);
+  const double s = portable::sin(pose.phi);
   std::vector<double> scores;
   scores.reserve(scan.points.size());
   for (const auto& point : scan.points) {

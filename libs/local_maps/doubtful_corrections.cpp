@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/portable_math.h"
+
 namespace psi_slam {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr double kLargestSquare = 9;  // squared ratios count as at most this mu
 }  // namespace
 
 void DoubtfulCorrections::moved(double length_m, std::optional<double> sigma_m) {
-  sum_m_ *= std::exp(-length_m / options_.travel_m);
+  sum_m_ *= portable::exp(-length_m / options_.travel_m);
   step_sigma_m_ = sigma_m.value_or(0);
   variance_m2_ += sigma_m ? *sigma_m * *sigma_m : std::numeric_limits<double>::infinity();
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "frames/discarded_ranges.h"
 #include "frames/odometry_track.h"
 #include "frames/pose_operations.h"
@@ -21,7 +22,7 @@ namespace {
 using mrpt::math::TPose2D;
 
 double length_m(const TPose2D& motion) {
-  return std::hypot(motion.x, motion.y);
+  return portable::hypot(motion.x, motion.y);
 }
 
 MatcherOptions matcher_options(const FrontEndOptions& options) {
@@ -90,7 +91,7 @@ FrontEndStep FrontEnd::track(const Frame& frame, bool may_be_lost) {
       matching_points(step.straightened ? *step.straightened : frame, options_.scan));
   const Motion motion = motion_to(frame);
   doubtful_corrections_.moved(motion.length_m, motion.correction_sigma_m);
-  step.local_T_robot = last_local_T_robot_ + motion.predicted;
+  step.local_T_robot = compose(last_local_T_robot_, motion.predicted);
   step.window = search_extent(motion);
   // Without a point farther than one cell from the robot, make_search_window() may throw.
   const bool blind =
@@ -101,7 +102,7 @@ FrontEndStep FrontEnd::track(const Frame& frame, bool may_be_lost) {
     step.lost = may_be_lost && is_lost(step, motion, frame.time_us, expected_response);
     if (step.lost) return step;
   }
-  const TPose2D local_T_middle = step.local_T_robot + interpolate({0, 0, 0}, during_sweep, 0.5);
+  const TPose2D local_T_middle = compose(step.local_T_robot, interpolate({0, 0, 0}, during_sweep, 0.5));
   if (step.matched && misses_ == 0) straighten_by_match(frame, local_T_middle, step);
   const double travel_m = motion.measured ? motion.length_m : std::max(motion.length_m, motion.sigma_m);
   unmatched_travel_m_ = step.matched ? 0 : unmatched_travel_m_ + travel_m;
@@ -113,7 +114,7 @@ FrontEndStep FrontEnd::track(const Frame& frame, bool may_be_lost) {
   const bool in_mid_sweep = !frame.has_odometry && frame.scan.sweep_time_s != 0;
   constant_velocity_.moved(frame.time_us, local_T_middle, step.matched, frame.imu_heading_rad, in_mid_sweep);
   last_local_T_middle_ = local_T_middle;
-  last_motion_ = step.local_T_robot - last_local_T_robot_;
+  last_motion_ = between(last_local_T_robot_, step.local_T_robot);
   last_predicted_motion_ = motion.predicted;
   last_local_T_robot_ = step.local_T_robot;
   misses_ = step.matched ? 0 : misses_ + 1;
@@ -150,10 +151,10 @@ std::optional<FrontEndStep> FrontEnd::step_of_standing_robot(const Frame& frame)
 bool FrontEnd::fits_standstill(const ScanPoints& scan) {
   if (scan.points.empty()) return false;
   const PlacedLocalMap& older = active_.front();
-  const PosePrior here = prior(standstill_.place() - older.local_T_map, {});
+  const PosePrior here = prior(between(older.local_T_map, standstill_.place()), {});
   const RefinedPose refined = refine(older.map->scores(), scan, here.map_T_robot, options_.refinement, here);
   return refined.mean_score >= options_.min_response_share * expected_response_ &&
-         standstill_.confirm(older.local_T_map + refined.map_T_robot);
+         standstill_.confirm(compose(older.local_T_map, refined.map_T_robot));
 }
 
 TPose2D FrontEnd::straighten_by_prediction(const Frame& frame, FrontEndStep& step) const {
@@ -168,12 +169,12 @@ TPose2D FrontEnd::straighten_by_prediction(const Frame& frame, FrontEndStep& ste
 void FrontEnd::straighten_by_match(const Frame& frame, const TPose2D& local_T_middle,
                                    FrontEndStep& step) const {
   if (frame.has_odometry || !last_ || last_->has_odometry) return;
-  const TPose2D motion = local_T_middle - last_local_T_middle_;
+  const TPose2D motion = between(last_local_T_middle_, local_T_middle);
   const double duration_s = constant_velocity_.predict(frame.time_us).duration_s;
   Frame still = frame;
   if (!straighten(still, motion, duration_s)) return;
   const TPose2D during_sweep = motion_of_first_scan(frame, motion, duration_s);
-  step.local_T_robot = local_T_middle + inverse(interpolate({0, 0, 0}, during_sweep, 0.5));
+  step.local_T_robot = compose(local_T_middle, inverse(interpolate({0, 0, 0}, during_sweep, 0.5)));
   step.points = std::make_shared<const ScanPoints>(matching_points(still, options_.scan));
   step.straightened = std::move(still);
 }
@@ -187,8 +188,8 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
     motion.was_restarted = true;
     return motion;
   }
-  motion.predicted = frame.odom_T_robot - last_->odom_T_robot;
-  motion.length_m = std::hypot(motion.predicted.x, motion.predicted.y);
+  motion.predicted = between(last_->odom_T_robot, frame.odom_T_robot);
+  motion.length_m = portable::hypot(motion.predicted.x, motion.predicted.y);
   motion.turn_rad = std::abs(mrpt::math::wrapToPi(motion.predicted.phi));
   const double passed_s = std::max(0.0, seconds(frame.time_us - last_->time_us));
   // The variances of independent errors add up, so the sum does not depend on the rate of scans.
@@ -203,14 +204,14 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   const double elapsed = passed_s / kHalfWeight_s;
   const double weight = 1 / (1 + elapsed * elapsed);
   motion.disagreement_m =
-      weight * std::hypot(motion.predicted.x - last_motion_.x, motion.predicted.y - last_motion_.y);
+      weight * portable::hypot(motion.predicted.x - last_motion_.x, motion.predicted.y - last_motion_.y);
   motion.disagreement_rad = weight * std::abs(mrpt::math::wrapToPi(motion.predicted.phi - last_motion_.phi));
   motion.wide_disagreement_rad = motion.disagreement_rad;
   // Compared with odometry only: a wrong match must not make the next wrong correction plausible.
-  const double uneven_m = std::hypot(motion.predicted.x - last_predicted_motion_.x,
-                                     motion.predicted.y - last_predicted_motion_.y);
-  motion.correction_sigma_m =
-      std::hypot(motion.sigma_m, options_.prior_per_surprise * std::min(uneven_m, motion.disagreement_m));
+  const double uneven_m = portable::hypot(motion.predicted.x - last_predicted_motion_.x,
+                                          motion.predicted.y - last_predicted_motion_.y);
+  motion.correction_sigma_m = portable::hypot(
+      motion.sigma_m, options_.prior_per_surprise * std::min(uneven_m, motion.disagreement_m));
   motion.after_gap = constant_velocity_.is_gap(frame.time_us);
   return motion;
 }
@@ -220,7 +221,7 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(const Frame& frame) const {
   Motion motion;
   motion.measured = false;
   motion.predicted = predicted.motion;
-  motion.length_m = std::hypot(motion.predicted.x, motion.predicted.y);
+  motion.length_m = portable::hypot(motion.predicted.x, motion.predicted.y);
   motion.turn_rad = std::abs(motion.predicted.phi);
   motion.disagreement_m = predicted.sigma_since_match_m;
   motion.disagreement_rad = predicted.sigma_since_match_rad;
@@ -287,7 +288,7 @@ std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Mot
           std::max(wide.theta_rad, step.window.theta_rad)};
   const PlacedLocalMap& older = active_.front();
   PosePrior unknown;
-  unknown.map_T_robot = last_local_T_robot_ + motion.predicted - older.local_T_map;
+  unknown.map_T_robot = between(older.local_T_map, compose(last_local_T_robot_, motion.predicted));
   const double needed = std::max(
       options_.wide_response_gain * std::max(poor_response, options_.min_response_share * expected_response_),
       motion.after_gap ? kSureShare * expected_response_ : 0.0);
@@ -319,7 +320,7 @@ std::vector<TPose2D> FrontEnd::hypotheses(const Motion& motion) const {
 bool FrontEnd::contradicts(const ScanPoints& scan, const TPose2D& local_T_robot,
                            double least_agreement) const {
   const PlacedLocalMap& older = active_.front();
-  const LocalMap::Agreement agreement = older.map->agreement(scan, local_T_robot - older.local_T_map);
+  const LocalMap::Agreement agreement = older.map->agreement(scan, between(older.local_T_map, local_T_robot));
   return static_cast<double>(agreement.observed) >= kJudgedShare * static_cast<double>(scan.points.size()) &&
          agreement.share() < least_agreement;
 }
@@ -334,7 +335,7 @@ bool FrontEnd::is_lost(const FrontEndStep& step, const Motion& motion, TimeUs ti
     return step.response < options_.poor_response_share * expected_response &&
            contradicts(*step.points, step.local_T_robot, kLeastMatchedAgreement);
   for (const TPose2D& hypothesis : hypotheses(motion))
-    if (!contradicts(*step.points, last_local_T_robot_ + hypothesis, kLeastAgreement)) return false;
+    if (!contradicts(*step.points, compose(last_local_T_robot_, hypothesis), kLeastAgreement)) return false;
   return true;
 }
 
@@ -345,7 +346,8 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   PosePrior best_prior;
   const std::vector<TPose2D> tested = hypotheses(motion);
   for (const TPose2D& hypothesis : tested) {
-    const PosePrior prior = this->prior(last_local_T_robot_ + hypothesis - older.local_T_map, motion);
+    const PosePrior prior =
+        this->prior(between(older.local_T_map, compose(last_local_T_robot_, hypothesis)), motion);
     const bool is_prediction = &hypothesis == &tested.front();
     const double least_share = motion.after_gap && !is_prediction
                                    ? std::max(options_.min_response_share, kSureShare)
@@ -383,7 +385,7 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   step.matched = true;
   step.response = best.response;
   step.information = chosen.information;
-  step.local_T_robot = older.local_T_map + chosen.map_T_robot;
+  step.local_T_robot = compose(older.local_T_map, chosen.map_T_robot);
 }
 
 std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, const ScanPoints& scan,
@@ -421,8 +423,8 @@ std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, con
 // corridor, the covariance grows.
 void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& motion) {
   for (PlacedLocalMap& active : active_) {
-    const TPose2D before = last_local_T_robot_ - active.local_T_map;
-    const TPose2D after = step.local_T_robot - active.local_T_map;
+    const TPose2D before = between(active.local_T_map, last_local_T_robot_);
+    const TPose2D after = between(active.local_T_map, step.local_T_robot);
     Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
     moved(0, 2) = -(after.y - before.y);
     moved(1, 2) = after.x - before.x;
@@ -443,7 +445,7 @@ void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& mot
 }
 
 bool FrontEnd::moved_enough(const TPose2D& local_T_robot) const {
-  const TPose2D motion = local_T_robot - last_node_local_T_robot_;
+  const TPose2D motion = between(last_node_local_T_robot_, local_T_robot);
   return length_m(motion) >= options_.node_distance_m ||
          std::abs(mrpt::math::wrapToPi(motion.phi)) >= options_.node_rotation_rad;
 }
@@ -471,12 +473,12 @@ void FrontEnd::end_local_maps(FrontEndStep& step, std::size_t count) {
 void FrontEnd::draw(FrontEndStep& step, const Frame& frame) {
   if (!step.node) return;
   const std::size_t node = *step.node;
-  const double moved_m = node == 0 ? 0 : length_m(step.local_T_robot - last_node_local_T_robot_);
+  const double moved_m = node == 0 ? 0 : length_m(between(last_node_local_T_robot_, step.local_T_robot));
   last_node_local_T_robot_ = step.local_T_robot;
 
   for (const PlacedLocalMap& active : active_)
     step.memberships.push_back(
-        {active.id, active.anchor, step.local_T_robot - active.local_T_map, active.covariance});
+        {active.id, active.anchor, between(active.local_T_map, step.local_T_robot), active.covariance});
   // A match would have set the travel to 0, so this scan is unmatched.
   const bool strays = unmatched_travel_m_ >= options_.max_unmatched_travel_m && misses_ > 1;
   const bool leaves = unmatched_travel_m_ >= options_.local_map_travel_m;
@@ -498,7 +500,7 @@ void FrontEnd::draw(FrontEndStep& step, const Frame& frame) {
   const DrawingOptions drawing = {options_.scan.min_range_m, options_.local_map.max_insert_range_m,
                                   options_.local_map.smoothing_sigma_m};
   for (PlacedLocalMap& active : active_)
-    active.map->insert(drawing_beams(frame, step.local_T_robot - active.local_T_map, drawing));
+    active.map->insert(drawing_beams(frame, between(active.local_T_map, step.local_T_robot), drawing));
   if (share(active_.front()) >= 1.0 && active_.size() > 1) {
     end_local_maps(step, 1);
     begin_local_map(node, step.local_T_robot);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "local_maps/score_painter.h"
 
 namespace psi_slam {
@@ -238,8 +239,8 @@ LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
   if (packed_) throw std::logic_error("LocalMap::agreement: the local map is packed, call unpack() first");
   Agreement agreement;
   const ScoreLevel& finest = scores_.finest();
-  const double c = std::cos(map_T_robot.phi);
-  const double s = std::sin(map_T_robot.phi);
+  const double c = portable::cos(map_T_robot.phi);
+  const double s = portable::sin(map_T_robot.phi);
   const double cells_per_m = 1 / scores_.resolution_m();
   for (const auto& point : scan.points) {
     const double px = map_T_robot.x + c * static_cast<double>(point.x) - s * static_cast<double>(point.y);

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "base/float_hypot.h"
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "frames/scan_neighbours.h"
 #include "local_maps/seen_surfaces.h"
 
@@ -21,8 +22,8 @@ constexpr float kMaxGapPerMetre = 0.15F;  // the same limit per metre of range; 
 constexpr float kMaxResidual_m = 0.04F;   // largest root mean square distance of points from their line
 
 bool on_one_surface(const Point& a, const Point& b) {
-  const float gap = float_hypot(a.x - b.x, a.y - b.y);
-  return gap <= std::max(kMaxGap_m, kMaxGapPerMetre * float_hypot(a.x, a.y));
+  const float gap = portable::hypot(a.x - b.x, a.y - b.y);
+  return gap <= std::max(kMaxGap_m, kMaxGapPerMetre * portable::hypot(a.x, a.y));
 }
 
 // Returns the unit vector along which points spread least, from the sums over their offsets (x, y) from the
@@ -68,7 +69,7 @@ Point normal_at(const std::vector<Point>& points, std::size_t index, bool is_rin
     yy += dy * dy;
   }
   const float half_difference = 0.5F * (xx - yy);
-  const float root = float_hypot(half_difference, xy);
+  const float root = portable::hypot(half_difference, xy);
   const float smaller = 0.5F * (xx + yy) - root;
   if (smaller > count * kMaxResidual_m * kMaxResidual_m) return {0, 0};
   return direction_of_least_spread(static_cast<double>(half_difference), static_cast<double>(xy));
@@ -88,8 +89,8 @@ ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
     // Also skips beams without a return, whose range is infinite or NaN.
     if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;
     const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + robot_T_laser.phi;
-    const double x = robot_T_laser.x + range * std::cos(bearing);
-    const double y = robot_T_laser.y + range * std::sin(bearing);
+    const double x = robot_T_laser.x + range * portable::cos(bearing);
+    const double y = robot_T_laser.y + range * portable::sin(bearing);
     const double gap_squared = (x - last_x) * (x - last_x) + (y - last_y) * (y - last_y);
     if (!result.points.empty() && gap_squared < spacing_squared) continue;
     last_x = x;
@@ -115,8 +116,8 @@ ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& optio
 ScanPoints matching_points(const Frame& frame, const ScanFilterOptions& options) {
   ScanPoints all = matching_points(frame.scan, options);
   for (const CompanionScan& companion : frame.companions) {
-    const ScanPoints one =
-        points_seen_from(companion.frame_T_robot + companion.scan.robot_T_laser, companion.scan, options);
+    const ScanPoints one = points_seen_from(compose(companion.frame_T_robot, companion.scan.robot_T_laser),
+                                            companion.scan, options);
     all.other_lasers.push_back({all.points.size(), one.origin});
     all.points.insert(all.points.end(), one.points.begin(), one.points.end());
     all.normals.insert(all.normals.end(), one.normals.begin(), one.normals.end());
@@ -127,7 +128,7 @@ ScanPoints matching_points(const Frame& frame, const ScanFilterOptions& options)
 
 Beams drawing_beams(const LaserScan& scan, const TPose2D& map_T_robot, const DrawingOptions& options) {
   Beams beams;
-  const TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
+  const TPose2D map_T_laser = compose(map_T_robot, scan.robot_T_laser);
   beams.origin = {map_T_laser.x, map_T_laser.y};
   const std::vector<bool> joined =
       ends_on_one_surface(scan, options.max_range_m, options.min_surface_spacing_m);
@@ -141,8 +142,8 @@ Beams drawing_beams(const LaserScan& scan, const TPose2D& map_T_robot, const Dra
     if (!drew_last) continue;
     const double drawn = std::min(range, options.max_range_m);
     const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + map_T_laser.phi;
-    beams.ends.emplace_back(map_T_laser.x + drawn * std::cos(bearing),
-                            map_T_laser.y + drawn * std::sin(bearing));
+    beams.ends.emplace_back(map_T_laser.x + drawn * portable::cos(bearing),
+                            map_T_laser.y + drawn * portable::sin(bearing));
     beams.hits.push_back(range <= options.max_range_m);
     beams.joined.push_back(drew_before && joined[i]);
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/portable_math.h"
+
 namespace psi_slam {
 namespace {
 
@@ -30,7 +32,7 @@ bool none_occupied(const Grid::cellType* cells) {
 ScorePainter::ScorePainter(double sigma_m, double resolution_m)
     : reach_(std::max(1, static_cast<int>(std::ceil(2.5 * sigma_m / resolution_m)))) {
   const double sigma_cells = sigma_m / resolution_m;
-  const auto gauss = [&](int d) { return std::exp(-0.5 * d * d / (sigma_cells * sigma_cells)); };
+  const auto gauss = [&](int d) { return portable::exp(-0.5 * d * d / (sigma_cells * sigma_cells)); };
   double line = 0;
   for (int d = -reach_; d <= reach_; ++d) line += gauss(d);
   for (int y = -reach_; y <= reach_; ++y)

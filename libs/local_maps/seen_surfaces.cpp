@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/portable_math.h"
 #include "frames/scan_neighbours.h"
 
 namespace psi_slam {
@@ -22,7 +23,7 @@ constexpr double kMaxOffset_m = 0.06;      // largest distance of a third end fr
 constexpr double kMaxOffsetPerGap = 0.15;  // the same limit as a share of the gap; the larger limit applies
 
 double gap_m(const TPoint2D& a, const TPoint2D& b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
+  return portable::hypot(b.x - a.x, b.y - a.y);
 }
 
 bool in_line(const TPoint2D& a, const TPoint2D& b, const TPoint2D& third) {
@@ -40,7 +41,7 @@ std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m,
   std::vector<TPoint2D> ends;
   ends.reserve(beams);
   for (std::size_t i = 0; i < beams; ++i)
-    ends.emplace_back(range(i) * std::cos(bearing(i)), range(i) * std::sin(bearing(i)));
+    ends.emplace_back(range(i) * portable::cos(bearing(i)), range(i) * portable::sin(bearing(i)));
 
   // Indices of the neighbours of a beam; `beams` for a missing one.
   const bool is_ring = beams > 0 && is_full_circle(*scan.bearings_rad);

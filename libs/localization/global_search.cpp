@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -62,8 +64,8 @@ ClearBeams clear_beams(const ScoreGrid& map, const ScanPoints& scan, const mrpt:
   ClearBeams result;
   const double cells_per_m = 1 / map.resolution_m();
   const double beside = std::max(kBeside_m * cells_per_m, kBesideCells);
-  const double c = std::cos(map_T_robot.phi);
-  const double s = std::sin(map_T_robot.phi);
+  const double c = portable::cos(map_T_robot.phi);
+  const double s = portable::sin(map_T_robot.phi);
   for_each_laser(scan, [&](const mrpt::math::TPoint2Df& origin, std::size_t first, std::size_t last) {
     const auto origin_x = static_cast<double>(origin.x);
     const auto origin_y = static_cast<double>(origin.y);
@@ -72,7 +74,7 @@ ClearBeams clear_beams(const ScoreGrid& map, const ScanPoints& scan, const mrpt:
     for (std::size_t i = first; i < last; ++i) {
       const double bx = static_cast<double>(scan.points[i].x) - origin_x;
       const double by = static_cast<double>(scan.points[i].y) - origin_y;
-      const double range_m = std::hypot(bx, by);
+      const double range_m = portable::hypot(bx, by);
       if (range_m <= 0) continue;
       const double dx = bx / range_m;
       const double dy = by / range_m;
@@ -200,7 +202,7 @@ std::string GlobalSearch::objection(FoundPlace& place, const ScanPoints& context
   for (std::size_t i = node + 1; i-- > 0;) {
     const NodeScan& there = memory.nodes[i];
     if (here.travelled_m - there.travelled_m > options_.context.travel_m) break;
-    const TPose2D map_T_there = place.map_T_robot + (there.local_T_robot - here.local_T_robot);
+    const TPose2D map_T_there = compose(place.map_T_robot, between(here.local_T_robot, there.local_T_robot));
     const LocalMap::Agreement one = map_.fine->agreement(*there.points, map_T_there);
     forward.observed += one.observed;
     forward.hits += one.hits;

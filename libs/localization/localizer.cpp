@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/localizer.h"
 
-#include <cmath>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "localization/global_search.h"
 #include "localization/localizer_options.h"
@@ -30,11 +30,11 @@ struct Localizer::Members {
 
   void track(const FrontEndStep& motion, LocalizationStep& step) {
     step.state = LocalizationStep::State::kTracking;
-    step.map_T_robot = *map_T_local + motion.local_T_robot;
+    step.map_T_robot = compose(*map_T_local, motion.local_T_robot);
     step.fits = match_near(motion, step);
     if (fitted_us == 0) fitted_us = now_us;
     if (step.fits) {
-      map_T_local = step.map_T_robot + inverse(motion.local_T_robot);
+      map_T_local = compose(step.map_T_robot, inverse(motion.local_T_robot));
       is_near_given_start = false;
       misfit_m = 0;
       fitted_us = now_us;
@@ -88,7 +88,7 @@ struct Localizer::Members {
         step.search.emplace(global_search.find(node, keyframes, {options.seed, frame, 0}));
     if (!place.believed()) return;
     if (!consensus.add(node, keyframes, place)) return;
-    map_T_local = place.map_T_robot + inverse(here.local_T_robot);
+    map_T_local = compose(place.map_T_robot, inverse(here.local_T_robot));
     misfit_m = 0;
     fitted_us = now_us;
     step.state = LocalizationStep::State::kTracking;
@@ -148,8 +148,8 @@ LocalizationStep Localizer::add(const Frame& frame) {
   const FrontEndStep motion = m.front_end->add(frame);
   LocalizationStep step;
   step.time_us = m.now_us = frame.time_us;
-  const TPose2D moved = motion.local_T_robot - m.last_local_T_robot;
-  step.moved_m = std::hypot(moved.x, moved.y);
+  const TPose2D moved = between(m.last_local_T_robot, motion.local_T_robot);
+  step.moved_m = portable::hypot(moved.x, moved.y);
   m.last_local_T_robot = motion.local_T_robot;
   if (m.map_T_local) {
     m.track(motion, step);

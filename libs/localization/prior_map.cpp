@@ -118,7 +118,7 @@ struct PriorMap::Path {
   int misfits = 0;
 
   void begin_at(const PriorStart& start) {
-    prior_T_map = start.prior_T_node + inverse(map_T_node[start.node]);
+    prior_T_map = compose(start.prior_T_node, inverse(map_T_node[start.node]));
     const auto after = std::upper_bound(nodes.begin(), nodes.end(), start.node);
     first = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - nodes.begin(), 1)) - 1;
   }
@@ -218,7 +218,7 @@ void PriorMap::follow(Path& path, Progress& progress) const {
     const std::size_t node = path.nodes[i];
     const double travelled_m = path.keyframes.nodes[node].travelled_m;
     const double half_m = std::min(kWindow_m + kWindowGrowth * std::abs(travelled_m - firm_m), kMostWindow_m);
-    const TPose2D predicted = prior_T_map + path.map_T_node[node];
+    const TPose2D predicted = compose(prior_T_map, path.map_T_node[node]);
     const std::optional<MeasuredPose> place =
         place_near(node, path.keyframes, predicted, {half_m, half_m, kWindow_rad});
     if (!place) {
@@ -227,7 +227,7 @@ void PriorMap::follow(Path& path, Progress& progress) const {
     }
     ++path.fits;
     path.places[i] = *place;
-    prior_T_map = place->pose + inverse(path.map_T_node[node]);
+    prior_T_map = compose(place->pose, inverse(path.map_T_node[node]));
     if (largest_sigma_m(place->further) <= kFirm_m) firm_m = travelled_m;
   };
   const double start_m = path.keyframes.nodes[path.nodes[path.first]].travelled_m;

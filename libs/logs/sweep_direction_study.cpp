@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "frames/deskewed_source.h"
 #include "frames/pose_operations.h"
 #include "frames/scan_alignment.h"
@@ -113,7 +114,7 @@ class LaserSamples {
 
  private:
   static bool stands_with_odometry(const Sample& from, const Sample& to) {
-    return from.has_odometry && to.has_odometry && stands(to.guess_T_robot - from.guess_T_robot);
+    return from.has_odometry && to.has_odometry && stands(between(from.guess_T_robot, to.guess_T_robot));
   }
 
   /// Sets the pose of a sample without odometry and the stretch.
@@ -137,7 +138,7 @@ class LaserSamples {
     }
     if (!alignment.is_reliable(kBentCost_m)) return false;
     last_step_ = alignment.reference_T_scan;
-    sample.guess_T_robot = last.guess_T_robot + last_step_;
+    sample.guess_T_robot = compose(last.guess_T_robot, last_step_);
     return true;
   }
 
@@ -147,7 +148,7 @@ class LaserSamples {
 
   /// Returns the motion from the sample before to the sample after, by the guessed poses.
   TPose2D guess_around(std::size_t i) const {
-    return samples_[i + 1].guess_T_robot - samples_[i - 1].guess_T_robot;
+    return between(samples_[i - 1].guess_T_robot, samples_[i + 1].guess_T_robot);
   }
 
   /// Returns the robot's motion during the sweep of a sample. `around` is the motion from the sample before
@@ -193,7 +194,7 @@ std::vector<Candidate> LaserSamples::candidates() const {
     Candidate best{i, i, 0};
     for (std::size_t j = i + 1; j < std::min(i + kLongestPair, samples_.size()); ++j) {
       if (samples_[j].stretch != samples_[i].stretch) break;
-      const TPose2D motion = samples_[j].guess_T_robot - samples_[i].guess_T_robot;
+      const TPose2D motion = between(samples_[i].guess_T_robot, samples_[j].guess_T_robot);
       if (motion.norm() > kPairDistance_m || std::abs(wrapToPi(motion.phi)) > kPairTurn_rad) break;
       if (!bends_rad[j]) continue;
       const double bend_rad = std::abs(*bends_rad[j] - *bends_rad[i]);
@@ -244,7 +245,7 @@ std::optional<Distances> LaserSamples::distances_m(const Candidate& pair, double
     const ScanAlignment alignment =
         align_scans(AlignableScan(deskewed_in_order(first.scan, *first_motion, kOrders[k])),
                     AlignableScan(deskewed_in_order(second.scan, *second_motion, kOrders[k])),
-                    second.guess_T_robot - first.guess_T_robot);
+                    between(first.guess_T_robot, second.guess_T_robot));
     any_reliable = any_reliable || alignment.is_reliable();
     distances[k] = alignment.cost_m;
   }
@@ -271,7 +272,7 @@ void compare_distances(const std::vector<Distances>& rows,
     double mean = 0;
     for (const Distances& row : rows) mean += difference(row) / count;
     double squares = 0;
-    for (const Distances& row : rows) squares += std::pow(difference(row) - mean, 2);
+    for (const Distances& row : rows) squares += portable::pow(difference(row) - mean, 2);
     const double error = std::sqrt(squares) / count;
     fit.significance = error > 0 ? mean / error : 0;
     fit.ruled_out = rows.size() >= kFewestPairs && fit.significance > kWorseErrors &&

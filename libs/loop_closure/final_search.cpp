@@ -2,9 +2,10 @@
 #include "loop_closure/final_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "loop_closure/loop_attempt.h"
 
 namespace psi_slam {
@@ -41,7 +42,7 @@ bool is_near(std::size_t node, const PlacedLocalMap& local_map, const PoseGraph&
   const mrpt::math::TPose2D& here = graph.pose(node);
   for (std::size_t other = local_map.first_node; other <= local_map.last_node; ++other) {
     const mrpt::math::TPose2D& there = graph.pose(other);
-    if (std::hypot(there.x - here.x, there.y - here.y) <= reach_m) return true;
+    if (portable::hypot(there.x - here.x, there.y - here.y) <= reach_m) return true;
   }
   return false;
 }
@@ -68,7 +69,7 @@ std::vector<Pair> pairs_near_each_other(
       Pair pair;
       pair.node = node;
       pair.candidate.local_map = m;
-      pair.candidate.anchor_T_node = graph.pose(node) - graph.pose(local_map.anchor);
+      pair.candidate.anchor_T_node = between(graph.pose(local_map.anchor), graph.pose(node));
       pair.candidate.extent = {options.window_m, options.window_m, options.window_rad};
       pairs.push_back(pair);
     }

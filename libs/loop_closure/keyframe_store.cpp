@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "pose_graph/information_matrix.h"
 
 namespace psi_slam {
@@ -37,8 +39,8 @@ void remember_node(const FrontEndStep& step, std::size_t frame, KeyframeStore& k
   node.local_T_robot = step.local_T_robot;
   node.points = step.points;
   if (!keyframes.nodes.empty()) {
-    const mrpt::math::TPose2D motion = step.local_T_robot - keyframes.nodes.back().local_T_robot;
-    node.travelled_m = keyframes.nodes.back().travelled_m + std::hypot(motion.x, motion.y);
+    const mrpt::math::TPose2D motion = between(keyframes.nodes.back().local_T_robot, step.local_T_robot);
+    node.travelled_m = keyframes.nodes.back().travelled_m + portable::hypot(motion.x, motion.y);
   }
   keyframes.nodes.push_back(std::move(node));
 }

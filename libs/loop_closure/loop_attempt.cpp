@@ -2,8 +2,9 @@
 #include "loop_closure/loop_attempt.h"
 
 #include <chrono>
-#include <cmath>
 #include <utility>
+
+#include "base/portable_math.h"
 
 namespace psi_slam {
 namespace {
@@ -57,8 +58,8 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   loop.covariance = match.covariance;
   loop.response = match.response;
   loop.ambiguity = match.ambiguity.value_or(0);
-  loop.moved_m = std::hypot(match.map_T_robot.x - candidate.anchor_T_node.x,
-                            match.map_T_robot.y - candidate.anchor_T_node.y);
+  loop.moved_m = portable::hypot(match.map_T_robot.x - candidate.anchor_T_node.x,
+                                 match.map_T_robot.y - candidate.anchor_T_node.y);
   verify(loop, scan, keyframes, verification);
   return attempt;
 }

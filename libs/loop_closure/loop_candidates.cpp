@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "frames/pose_operations.h"
+
 namespace psi_slam {
 namespace {
 
@@ -44,7 +46,7 @@ LoopCandidate whole_local_map(std::size_t m, const mrpt::math::TPose2D& map_T_no
   const mrpt::math::TPose2D& map_T_anchor = graph.pose(local_map.anchor);
   double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
   for (std::size_t other = local_map.first_node; other <= local_map.last_node; ++other) {
-    const mrpt::math::TPose2D anchor_T_other = graph.pose(other) - map_T_anchor;
+    const mrpt::math::TPose2D anchor_T_other = between(map_T_anchor, graph.pose(other));
     x_min = std::min(x_min, anchor_T_other.x);
     x_max = std::max(x_max, anchor_T_other.x);
     y_min = std::min(y_min, anchor_T_other.y);
@@ -52,7 +54,8 @@ LoopCandidate whole_local_map(std::size_t m, const mrpt::math::TPose2D& map_T_no
   }
   LoopCandidate candidate;
   candidate.local_map = m;
-  candidate.anchor_T_node = {0.5 * (x_min + x_max), 0.5 * (y_min + y_max), (map_T_node - map_T_anchor).phi};
+  candidate.anchor_T_node = {0.5 * (x_min + x_max), 0.5 * (y_min + y_max),
+                             (between(map_T_anchor, map_T_node)).phi};
   candidate.extent = {0.5 * (x_max - x_min) + options.reach_m, 0.5 * (y_max - y_min) + options.reach_m,
                       options.max_window.theta_rad};
   return candidate;
@@ -74,7 +77,7 @@ std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore
     if (travel_between_m(node, local_map, keyframes) < options.min_travel_m) continue;
     const double distance_m = nearest_node_m(local_map, map_T_node, graph);
     if (distance_m > reach_m) continue;
-    in_reach.push_back({m, map_T_node - graph.pose(local_map.anchor), {}, distance_m});
+    in_reach.push_back({m, between(graph.pose(local_map.anchor), map_T_node), {}, distance_m});
     local_maps.push_back(m);
   }
   if (in_reach.empty()) return {};

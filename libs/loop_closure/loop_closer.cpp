@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "loop_closure/loop_attempt.h"
 
 namespace psi_slam {
@@ -35,7 +37,7 @@ std::vector<RelativeUncertainty> relative_to_anchors(std::size_t node,
 PositionSigma sigma_of(const RelativeUncertainty& uncertainty, double distance_m) {
   if (!uncertainty.reached) return {kUnknown, kUnknown};
   const double heading = std::sqrt(uncertainty.covariance(2, 2));
-  return {std::hypot(uncertainty.position_sigma_m(), heading * distance_m), heading};
+  return {portable::hypot(uncertainty.position_sigma_m(), heading * distance_m), heading};
 }
 
 }  // namespace
@@ -62,8 +64,9 @@ std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const Keyfra
     const auto uncertainties = relative_to_anchors(node, local_maps, keyframes, graph, search_);
     std::vector<PositionSigma> sigmas;
     for (std::size_t i = 0; i < local_maps.size(); ++i) {
-      const auto between = graph.pose(node) - graph.pose(keyframes.local_maps[local_maps[i]].anchor);
-      sigmas.push_back(sigma_of(uncertainties[i], std::hypot(between.x, between.y)));
+      const mrpt::math::TPose2D anchor_T_node =
+          between(graph.pose(keyframes.local_maps[local_maps[i]].anchor), graph.pose(node));
+      sigmas.push_back(sigma_of(uncertainties[i], portable::hypot(anchor_T_node.x, anchor_T_node.y)));
     }
     return sigmas;
   };

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop_closure/loop_closure_factor.h"
 
-#include <cmath>
 #include <numeric>
+
+#include "base/portable_math.h"
 
 namespace psi_slam {
 
 void LoopClosureFactor::move(double odometry_m, const mrpt::math::TPoint2D& robot) {
   if (!start_) start_ = robot;
-  from_start_m_ = std::hypot(robot.x - start_->x, robot.y - start_->y);
+  from_start_m_ = portable::hypot(robot.x - start_->x, robot.y - start_->y);
   path_m_ += odometry_m;
 }
 

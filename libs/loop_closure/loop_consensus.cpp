@@ -5,6 +5,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
+
 namespace psi_slam {
 namespace {
 
@@ -20,9 +23,10 @@ double weight(const LoopConsensus::Vote& vote) {
 // the pose of match `a` to that scan.
 bool LoopConsensus::agree(const Vote& a, const Vote& b, const PoseGraph& graph) const {
   const mrpt::math::TPose2D carried =
-      graph.pose(a.anchor) + a.anchor_T_robot + (b.local_T_robot - a.local_T_robot);
-  const mrpt::math::TPose2D off = graph.pose(b.anchor) + b.anchor_T_robot - carried;
-  return std::hypot(off.x, off.y) <= options_.same_place_m && std::abs(off.phi) <= options_.same_heading_rad;
+      compose(compose(graph.pose(a.anchor), a.anchor_T_robot), between(a.local_T_robot, b.local_T_robot));
+  const mrpt::math::TPose2D off = between(carried, compose(graph.pose(b.anchor), b.anchor_T_robot));
+  return portable::hypot(off.x, off.y) <= options_.same_place_m &&
+         std::abs(off.phi) <= options_.same_heading_rad;
 }
 
 std::vector<std::size_t> LoopConsensus::add(const Vote& vote, const PoseGraph& graph,

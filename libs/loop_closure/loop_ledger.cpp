@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "pose_graph/information_matrix.h"
 
 namespace psi_slam {
@@ -61,8 +63,9 @@ std::optional<double> LoopLedger::accept(std::size_t index, PoseGraph& graph) {
   constraint.information = noisy_information(loop.covariance, noise_.sigma_m, noise_.sigma_rad);
   constraint.kind = Constraint::Kind::kLoop;
   link(index, graph.add_constraint(constraint));
-  const mrpt::math::TPose2D off = loop.anchor_T_node - (graph.pose(loop.node) - graph.pose(loop.anchor));
-  return std::max(std::hypot(off.x, off.y) / noise_.sigma_m, std::abs(off.phi) / noise_.sigma_rad);
+  const mrpt::math::TPose2D off =
+      between(between(graph.pose(loop.anchor), graph.pose(loop.node)), loop.anchor_T_node);
+  return std::max(portable::hypot(off.x, off.y) / noise_.sigma_m, std::abs(off.phi) / noise_.sigma_rad);
 }
 
 void LoopLedger::settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi,

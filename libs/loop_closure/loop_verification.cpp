@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "loop_closure/range_image.h"
 
 namespace psi_slam {
@@ -18,7 +20,7 @@ constexpr double kReportedShare = 0.8;  // of min_response()
 double largest_sigma_m(const Eigen::Matrix3d& covariance) {
   const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
   const double half_difference = 0.5 * (covariance(0, 0) - covariance(1, 1));
-  return std::sqrt(mean + std::hypot(half_difference, covariance(0, 1)));
+  return std::sqrt(mean + portable::hypot(half_difference, covariance(0, 1)));
 }
 
 // Returns the agreement of the neighbouring scans with the local map. The matched pose and the front end's
@@ -30,8 +32,8 @@ LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeS
   LocalMap::Agreement sum;
   const auto add = [&](std::size_t node) {
     const NodeScan& there = keyframes.nodes[node];
-    const LocalMap::Agreement one =
-        map.agreement(*there.points, loop.anchor_T_node + (there.local_T_robot - here.local_T_robot));
+    const LocalMap::Agreement one = map.agreement(
+        *there.points, compose(loop.anchor_T_node, between(here.local_T_robot, there.local_T_robot)));
     sum.observed += one.observed;
     sum.hits += one.hits;
   };
@@ -51,9 +53,9 @@ RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const KeyframeSt
   std::size_t nearest = local_map.first_node;
   double nearest_m = std::numeric_limits<double>::infinity();
   for (std::size_t node = local_map.first_node; node <= local_map.last_node; ++node) {
-    const TPose2D anchor_T_other = keyframes.nodes[node].local_T_robot - local_T_anchor;
+    const TPose2D anchor_T_other = between(local_T_anchor, keyframes.nodes[node].local_T_robot);
     const double distance_m =
-        std::hypot(anchor_T_other.x - loop.anchor_T_node.x, anchor_T_other.y - loop.anchor_T_node.y);
+        portable::hypot(anchor_T_other.x - loop.anchor_T_node.x, anchor_T_other.y - loop.anchor_T_node.y);
     if (distance_m < nearest_m) nearest_m = distance_m, nearest = node;
   }
   const RangeImage image(*keyframes.nodes[loop.node].points);
@@ -61,9 +63,9 @@ RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const KeyframeSt
   const std::size_t first = std::max(local_map.first_node, nearest < 3 ? 0 : nearest - 3);
   const std::size_t last = std::min(local_map.last_node, nearest + 3);
   for (std::size_t node = first; node <= last; ++node) {
-    const TPose2D anchor_T_other = keyframes.nodes[node].local_T_robot - local_T_anchor;
-    const RangeImage::Agreement one = image.compare(*keyframes.nodes[node].points,
-                                                    anchor_T_other - loop.anchor_T_node, kReverseTolerance_m);
+    const TPose2D anchor_T_other = between(local_T_anchor, keyframes.nodes[node].local_T_robot);
+    const RangeImage::Agreement one = image.compare(
+        *keyframes.nodes[node].points, between(loop.anchor_T_node, anchor_T_other), kReverseTolerance_m);
     sum.agree += one.agree;
     sum.contradict += one.contradict;
   }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/float_hypot.h"
+#include "base/portable_math.h"
 
 namespace psi_slam {
 namespace {
@@ -28,8 +28,8 @@ RangeImage::RangeImage(const ScanPoints& scan) {
     for (std::size_t i = first; i < end; ++i) {
       const float dx = scan.points[i].x - origin.x;
       const float dy = scan.points[i].y - origin.y;
-      const std::size_t b = bin(std::atan2(static_cast<double>(dy), static_cast<double>(dx)));
-      const float range = float_hypot(dx, dy);
+      const std::size_t b = bin(portable::atan2(static_cast<double>(dy), static_cast<double>(dx)));
+      const float range = portable::hypot(dx, dy);
       view.nearest_m[b] = std::min(view.nearest_m[b], range);
       view.farthest_m[b] = std::max(view.farthest_m[b], range);
     }
@@ -40,9 +40,9 @@ RangeImage::RangeImage(const ScanPoints& scan) {
 RangeImage::Verdict RangeImage::View::judge(double x, double y, double tolerance_m) const {
   const double dx = x - static_cast<double>(origin.x);
   const double dy = y - static_cast<double>(origin.y);
-  const std::size_t b = bin(std::atan2(dy, dx));
+  const std::size_t b = bin(portable::atan2(dy, dx));
   if (farthest_m[b] <= 0) return Verdict::kNothing;
-  const double range = std::hypot(dx, dy);
+  const double range = portable::hypot(dx, dy);
   if (range > static_cast<double>(farthest_m[b]) + tolerance_m)
     return Verdict::kNothing;  // hidden behind the measured points
   return range < static_cast<double>(nearest_m[b]) - tolerance_m ? Verdict::kContradicts : Verdict::kAgrees;
@@ -51,8 +51,8 @@ RangeImage::Verdict RangeImage::View::judge(double x, double y, double tolerance
 RangeImage::Agreement RangeImage::compare(const ScanPoints& other, const mrpt::math::TPose2D& this_T_other,
                                           double tolerance_m) const {
   Agreement result;
-  const double c = std::cos(this_T_other.phi);
-  const double s = std::sin(this_T_other.phi);
+  const double c = portable::cos(this_T_other.phi);
+  const double s = portable::sin(this_T_other.phi);
   for (const auto& point : other.points) {
     const double x = this_T_other.x + c * static_cast<double>(point.x) - s * static_cast<double>(point.y);
     const double y = this_T_other.y + s * static_cast<double>(point.x) + c * static_cast<double>(point.y);

@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <unordered_set>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
+
 namespace psi_slam {
 namespace {
 
@@ -31,9 +34,9 @@ ScanPoints scan_context(std::size_t node, const KeyframeStore& keyframes, const 
   context.origin = here.points->origin;
   std::unordered_set<std::int64_t> taken;
   const auto add = [&](const NodeScan& there) {
-    const mrpt::math::TPose2D here_T_there = there.local_T_robot - here.local_T_robot;
-    const auto c = static_cast<float>(std::cos(here_T_there.phi));
-    const auto s = static_cast<float>(std::sin(here_T_there.phi));
+    const mrpt::math::TPose2D here_T_there = between(here.local_T_robot, there.local_T_robot);
+    const auto c = static_cast<float>(portable::cos(here_T_there.phi));
+    const auto s = static_cast<float>(portable::sin(here_T_there.phi));
     const auto x0 = static_cast<float>(here_T_there.x);
     const auto y0 = static_cast<float>(here_T_there.y);
     for (std::size_t i = 0; i < there.points->points.size(); ++i) {
@@ -62,7 +65,7 @@ ScanPoints scan_context(std::size_t node, const KeyframeStore& keyframes, const 
     thin(context.normals, most);
   }
   for (const auto& point : context.points)
-    context.farthest_m = std::max(context.farthest_m, std::hypot(double{point.x}, double{point.y}));
+    context.farthest_m = std::max(context.farthest_m, portable::hypot(double{point.x}, double{point.y}));
   return context;
 }
 

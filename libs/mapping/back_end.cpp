@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "frames/pose_operations.h"
+
 namespace psi_slam {
 
 BackEnd::BackEnd(const BackEndOptions& options)
@@ -128,7 +130,7 @@ void BackEnd::refine(RefinedScans& scans, PoseGraph& graph, FinalProgress& progr
     });
     if (graph.root() == 0) {
       const mrpt::math::TPose2D first = scans.map_T_frame[scans.node_frames.front()];
-      for (mrpt::math::TPose2D& pose : scans.map_T_frame) pose = graph.pose(0) + (pose - first);
+      for (mrpt::math::TPose2D& pose : scans.map_T_frame) pose = compose(graph.pose(0), between(first, pose));
     }
     for (std::size_t node = 0; node < scans.node_frames.size(); ++node)
       graph.set_pose(node, scans.map_T_frame[scans.node_frames[node]]);
@@ -147,7 +149,8 @@ bool BackEnd::match_by_hand(const LoopEdit& edit, std::size_t node, const Keyfra
     candidate.anchor_T_node = before->anchor_T_predicted;
     candidate.extent = before->window;
   } else {
-    candidate.anchor_T_node = graph.pose(node) - graph.pose(keyframes.local_maps[edit.local_map].anchor);
+    candidate.anchor_T_node =
+        between(graph.pose(keyframes.local_maps[edit.local_map].anchor), graph.pose(node));
     candidate.extent = options_.loop_closure.candidates.max_window;
   }
   const auto matcher = make_matcher(edit.matcher, options_.loop_matcher, options_.genetic);

@@ -2,9 +2,9 @@
 #include "mapping/graph_builder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "mapping/unplaced_runs.h"
 #include "pose_graph/information_matrix.h"
@@ -32,8 +32,8 @@ double between_runs_m(const BackEndOptions& options) {
 /// Returns the information matrix of node_T_robot. The standard deviations apply to the pose at which the
 /// robot was found, which is known best. An error of the start pose moves it like the end of a rigid arm.
 Eigen::Matrix3d information_of(const RunStart& start) {
-  const double c = std::cos(start.node_T_robot.phi);
-  const double s = std::sin(start.node_T_robot.phi);
+  const double c = portable::cos(start.node_T_robot.phi);
+  const double s = portable::sin(start.node_T_robot.phi);
   const TPose2D& arm = start.robot_T_found;
   Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();  // derivative of the found pose by the start pose
   moved(0, 2) = -(s * arm.x + c * arm.y);
@@ -55,7 +55,7 @@ BackEndStep GraphBuilder::add(const TrackedFrame& tracked) {
   done.frame = tracked.frame;
   done.node = tracked.step.node;
   // The distance of Psi from the start uses the robot's pose as corrected by the loops of earlier frames.
-  const TPose2D map_T_robot = map_T_local_ + tracked.step.local_T_robot;
+  const TPose2D map_T_robot = compose(map_T_local_, tracked.step.local_T_robot);
   back_end_.move(tracked.odometry_m, {map_T_robot.x, map_T_robot.y});
   done.factor = back_end_.factor();
   if (done.node) {
@@ -71,7 +71,7 @@ BackEndStep GraphBuilder::add(const TrackedFrame& tracked) {
 
 void GraphBuilder::add_node(const TrackedFrame& tracked) {
   remember_node(tracked.step, tracked.frame, keyframes_);
-  graph_.add_node(map_T_local_ + tracked.step.local_T_robot);
+  graph_.add_node(compose(map_T_local_, tracked.step.local_T_robot));
   constrain_to_local_maps(tracked.step, {options_.local_map_sigma_m, options_.local_map_sigma_rad}, graph_);
   if (run_start_) join_run();
 }
@@ -124,7 +124,7 @@ void GraphBuilder::begin_run(const RunStart& start) {
 void GraphBuilder::begin_unplaced_run(std::size_t interruption) {
   const std::size_t node = graph_.num_nodes() - 1;
   is_start_provisional_ = true;
-  begin_run({node, provisional_start(graph_) - graph_.pose(node), {0, 0, 0}});
+  begin_run({node, between(graph_.pose(node), provisional_start(graph_)), {0, 0, 0}});
   UnplacedRun run;
   run.begin = graph_.num_nodes();
   run.interruption = interruption;
@@ -133,11 +133,11 @@ void GraphBuilder::begin_unplaced_run(std::size_t interruption) {
 
 void GraphBuilder::follow_graph() {
   if (run_start_) {
-    map_T_local_ = graph_.pose(run_start_->node) + run_start_->node_T_robot;
+    map_T_local_ = compose(graph_.pose(run_start_->node), run_start_->node_T_robot);
     return;
   }
   const std::size_t newest = graph_.num_nodes() - 1;
-  map_T_local_ = graph_.pose(newest) + inverse(keyframes_.nodes[newest].local_T_robot);
+  map_T_local_ = compose(graph_.pose(newest), inverse(keyframes_.nodes[newest].local_T_robot));
 }
 
 /// Empty if the constraints do not determine the pose of the newest node.

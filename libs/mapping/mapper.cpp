@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/portable_math.h"
 #include "mapping/mapper_implementation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -79,7 +79,7 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
 void Mapper::Implementation::add_node(const FrontEndStep& step) {
   odom_T_start_.reset();
   result_.node_frames.push_back(result_.frames.size() - 1);
-  map_T_node_.push_back(map_T_local_ + step.local_T_robot);
+  map_T_node_.push_back(compose(map_T_local_, step.local_T_robot));
 }
 
 // Places the newest frame in the map and tells its pose.
@@ -87,7 +87,7 @@ void Mapper::Implementation::give_pose() {
   take_due_results();
   if (waited_) ++missed_deadlines_;
   FrameRecord& added = result_.frames.back();
-  added.map_T_robot = map_T_local_ + added.front_end_T_robot;
+  added.map_T_robot = compose(map_T_local_, added.front_end_T_robot);
   if (pose_observer_) pose_observer_(added);
 }
 
@@ -155,7 +155,8 @@ void Mapper::Implementation::apply_corrections(std::size_t end_node) {
     if (correction.map_T_node.empty()) continue;
     std::swap(map_T_node_, correction.map_T_node);
     for (std::size_t node = map_T_node_.size(); node < result_.node_frames.size(); ++node)
-      map_T_node_.push_back(map_T_local_ + result_.frames[result_.node_frames[node]].front_end_T_robot);
+      map_T_node_.push_back(
+          compose(map_T_local_, result_.frames[result_.node_frames[node]].front_end_T_robot));
   }
 }
 
@@ -178,7 +179,8 @@ void Mapper::Implementation::straighten_last_scan(const Frame& next, const Front
   const FrameRecord& record = result_.frames.back();
   if (result_.log.back().has_odometry || record.match == ScanMatch::kUnmatched || !step.matched) return;
   Frame last = bent_last_.value_or(result_.log.back());
-  if (straighten(last, step.local_T_robot - record.front_end_T_robot, seconds(next.time_us - last.time_us)))
+  if (straighten(last, between(record.front_end_T_robot, step.local_T_robot),
+                 seconds(next.time_us - last.time_us)))
     result_.log.back() = std::move(last);
 }
 
@@ -196,7 +198,8 @@ void Mapper::Implementation::begin_run(const RunStart& start) {
   builder_.begin_run(start);
   begin_run();
   // Relative to node 0, the first odometry pose of the run equals the pose in the map where the run begins.
-  odom_T_start_ = result_.frames.front().odom_T_robot + (map_T_local_ - builder_.graph().pose(0));
+  odom_T_start_ =
+      compose(result_.frames.front().odom_T_robot, between(builder_.graph().pose(0), map_T_local_));
 }
 
 // Begins a run after an interruption that moved the robot to an unknown place. Its odometry continues from
@@ -238,11 +241,11 @@ void Mapper::Implementation::lay_unjoined_runs_aside() {
 // Transforms odometry of a later run into the odometry frame of the first run. Returns the path length by
 // odometry since the last frame.
 double Mapper::Implementation::follow_odometry(FrameRecord& record) {
-  if (odom_T_start_) odom_T_run_ = *odom_T_start_ + inverse(record.odom_T_robot);
-  if (odom_T_run_) record.odom_T_robot = *odom_T_run_ + record.odom_T_robot;
+  if (odom_T_start_) odom_T_run_ = compose(*odom_T_start_, inverse(record.odom_T_robot));
+  if (odom_T_run_) record.odom_T_robot = compose(*odom_T_run_, record.odom_T_robot);
   if (result_.frames.empty() || odom_T_start_) return 0;
-  const TPose2D motion = record.odom_T_robot - result_.frames.back().odom_T_robot;
-  return std::hypot(motion.x, motion.y);
+  const TPose2D motion = between(result_.frames.back().odom_T_robot, record.odom_T_robot);
+  return portable::hypot(motion.x, motion.y);
 }
 
 void Mapper::Implementation::record_local_map(const PlacedLocalMap& finished) {
@@ -284,7 +287,8 @@ void Mapper::Implementation::refine_poses(FinalProgress& progress) {
     // A scan whose ranges were discarded follows the scan before it, which was refined.
     if (i > 0 && frame.match == ScanMatch::kMatched && !has_ranges(result_.log[i])) {
       const FrameRecord& before = result_.frames[i - 1];
-      frame.map_T_robot = before.map_T_robot + (frame.front_end_T_robot - before.front_end_T_robot);
+      frame.map_T_robot =
+          compose(before.map_T_robot, between(before.front_end_T_robot, frame.front_end_T_robot));
     }
   }
 }
@@ -350,7 +354,8 @@ std::optional<Eigen::Matrix3d> Mapper::Implementation::newest_covariance() const
 }
 
 TPose2D Mapper::Implementation::map_T_robot() const {
-  return result_.frames.empty() ? TPose2D(0, 0, 0) : map_T_local_ + result_.frames.back().front_end_T_robot;
+  return result_.frames.empty() ? TPose2D(0, 0, 0)
+                                : compose(map_T_local_, result_.frames.back().front_end_T_robot);
 }
 
 Mapper::Mapper() : Mapper(MapperOptions()) {}

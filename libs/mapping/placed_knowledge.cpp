@@ -84,7 +84,7 @@ class Moments {
       const auto next_node = std::upper_bound(node_frames_.begin(), node_frames_.end(), frame);
       if (next_node == node_frames_.begin() || *(next_node - 1) < run.begin) continue;
       const auto node = static_cast<std::size_t>(next_node - node_frames_.begin()) - 1;
-      return std::pair(node, local_T_robot - frames_[node_frames_[node]].front_end_T_robot);
+      return std::pair(node, between(frames_[node_frames_[node]].front_end_T_robot, local_T_robot));
     }
     return std::nullopt;
   }
@@ -148,7 +148,7 @@ void PlacedKnowledge::add_tag(const std::string& name, const FixedKnowledge& kno
   for (const auto& [sighting, moment] : sightings) {
     if (sighting.name != name) continue;
     MeasuredPose node_T_tag = sighting.robot_T_tag;
-    node_T_tag.pose = moment.node_T_robot + node_T_tag.pose;
+    node_T_tag.pose = compose(moment.node_T_robot, node_T_tag.pose);
     landmark.sightings.push_back({moment.node, node_T_tag});
     origin.sightings.push_back(sighting);
   }

@@ -47,14 +47,14 @@ std::optional<UnplacedRun> place_joined_run(std::size_t first_constraint, Keyfra
         loop.kind == Constraint::Kind::kLoop && from_unplaced != is_unplaced(loop.to, keyframes);
     if (!joins) continue;
     const std::size_t moved = from_unplaced ? loop.from : loop.to;
-    const TPose2D map_T_moved = from_unplaced ? graph.pose(loop.to) + inverse(loop.from_T_to)
-                                              : graph.pose(loop.from) + loop.from_T_to;
+    const TPose2D map_T_moved = from_unplaced ? compose(graph.pose(loop.to), inverse(loop.from_T_to))
+                                              : compose(graph.pose(loop.from), loop.from_T_to);
     const auto found = std::find_if(keyframes.unplaced.begin(), keyframes.unplaced.end(),
                                     [&](const UnplacedRun& one) { return one.contains(moved); });
     const UnplacedRun run = *found;
-    const TPose2D new_T_old = map_T_moved + inverse(graph.pose(moved));
+    const TPose2D new_T_old = compose(map_T_moved, inverse(graph.pose(moved)));
     for (std::size_t node = run.begin; node < std::min(run.end, graph.num_nodes()); ++node)
-      graph.set_pose(node, new_T_old + graph.pose(node));
+      graph.set_pose(node, compose(new_T_old, graph.pose(node)));
     keyframes.unplaced.erase(found);
     return run;
   }
@@ -94,7 +94,8 @@ void lay_aside(const std::vector<UnplacedRun>& runs, const KeyframeStore& keyfra
     Extent aside;
     for (std::size_t node = run.begin; node < end; ++node) include(node, keyframes, graph, aside);
     const TPose2D moved(map.x_max + kMargin_m - aside.x_min, map.y_min - aside.y_min, 0);
-    for (std::size_t node = run.begin; node < end; ++node) graph.set_pose(node, moved + graph.pose(node));
+    for (std::size_t node = run.begin; node < end; ++node)
+      graph.set_pose(node, compose(moved, graph.pose(node)));
     map.x_max += kMargin_m + aside.x_max - aside.x_min;
   }
 }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/portable_math.h"
 #include "matching/sum_kernel.h"
 
 namespace psi_slam {
@@ -19,7 +20,7 @@ constexpr double kRounding = 1e-6;
 double reach_cells(const SearchLattice& lattice) {
   double reach_m = 0;
   for (const auto& point : lattice.scan().points)
-    reach_m = std::max(reach_m, std::hypot(static_cast<double>(point.x), static_cast<double>(point.y)));
+    reach_m = std::max(reach_m, portable::hypot(static_cast<double>(point.x), static_cast<double>(point.y)));
   return reach_m / lattice.grid().resolution_m();
 }
 
@@ -156,10 +157,10 @@ void BoundLevel::make_offsets(int number, Layer& layer) const {
   const double half_turn_rad = to_middle * window.angular_step_rad;
   const double middle_rad =
       centre.phi + (number * headings_ + to_middle - window.n_theta) * window.angular_step_rad;
-  const double c = std::cos(middle_rad) * cells_per_m;
-  const double s = std::sin(middle_rad) * cells_per_m;
-  const double across = std::sin(std::min(half_turn_rad, M_PI / 2));
-  const double along = 1 - std::cos(std::min(half_turn_rad, M_PI));
+  const double c = portable::cos(middle_rad) * cells_per_m;
+  const double s = portable::sin(middle_rad) * cells_per_m;
+  const double across = portable::sin(std::min(half_turn_rad, M_PI / 2));
+  const double along = 1 - portable::cos(std::min(half_turn_rad, M_PI));
   layer.known = true;
   layer.offsets.reserve(lattice_.points());
   for (const auto& point : lattice_.scan().points) {

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable_math.h"
+
 namespace psi_slam {
 namespace {
 
@@ -36,8 +38,8 @@ void keep_normal_part(ScoreGrid::Sample& sample, const mrpt::math::TPoint2Df& no
 Linearisation linearise(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D& pose,
                         double score_sigma, const PosePrior& prior) {
   Linearisation result;
-  const double c = std::cos(pose.phi);
-  const double s = std::sin(pose.phi);
+  const double c = portable::cos(pose.phi);
+  const double s = portable::sin(pose.phi);
   const bool with_normals = !scan.normals.empty();
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const auto& point = scan.points[i];
@@ -103,14 +105,14 @@ RefinedPose refine(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D&
       pose = next;
       here = there;
       damping *= 0.1;
-      const double moved_m = std::hypot(step.x(), step.y());
+      const double moved_m = portable::hypot(step.x(), step.y());
       if (moved_m < options.converged_step_m && std::abs(step.z()) < 0.1 * options.converged_step_m) break;
     } else {
       if (step.head<2>().norm() < options.converged_step_m) break;
       damping = std::max(damping * 20, 1e-3);
     }
   }
-  if (std::hypot(pose.x - map_T_robot.x, pose.y - map_T_robot.y) > options.max_shift_m) {
+  if (portable::hypot(pose.x - map_T_robot.x, pose.y - map_T_robot.y) > options.max_shift_m) {
     return {map_T_robot, start.mean_score, start.information, iterations};
   }
   return {pose, here.mean_score, here.information, iterations};

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <tuple>
 
+#include "base/portable_math.h"
 #include "matching/sum_kernel.h"
 
 namespace psi_slam {
@@ -75,8 +76,8 @@ void SearchLattice::turn_scan(int theta) const {
   const double x0 = (centre_.x - grid_->origin_x_m()) * cells_per_m;
   const double y0 = (centre_.y - grid_->origin_y_m()) * cells_per_m;
   const double heading = centre_.phi + theta * window_.angular_step_rad;
-  const double c = std::cos(heading) * cells_per_m;
-  const double s = std::sin(heading) * cells_per_m;
+  const double c = portable::cos(heading) * cells_per_m;
+  const double s = portable::sin(heading) * cells_per_m;
   Cell* cell = cells_.get() + turn * points_;
   for (const auto& point : scan_->points) {
     const double x = static_cast<double>(point.x);

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/portable_math.h"
+
 namespace psi_slam {
 namespace {
 
@@ -26,7 +28,7 @@ SearchWindow make_search_window(const SearchExtent& extent, double resolution_m,
   const bool positive = extent.x_m > 0 && extent.y_m > 0 && extent.theta_rad > 0 && resolution_m > 0 &&
                         2 * farthest_point_m > resolution_m;
   const double angular_step_rad =
-      std::acos(1 - resolution_m * resolution_m / (2 * farthest_point_m * farthest_point_m));
+      portable::acos(1 - resolution_m * resolution_m / (2 * farthest_point_m * farthest_point_m));
   const double n_x = covering_steps(extent.x_m, resolution_m);
   const double n_y = covering_steps(extent.y_m, resolution_m);
   const double n_theta = covering_steps(extent.theta_rad, angular_step_rad);

@@ -5,11 +5,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <cmath>
 #include <optional>
 #include <utility>
 
-#include "base/float_hypot.h"
+#include "base/portable_math.h"
 
 namespace psi_slam {
 namespace {
@@ -20,7 +19,7 @@ using Point = mrpt::math::TPoint2Df;
 class Turned {
  public:
   explicit Turned(double phi)
-      : c_(static_cast<float>(std::cos(phi))), s_(static_cast<float>(std::sin(phi))) {}
+      : c_(static_cast<float>(portable::cos(phi))), s_(static_cast<float>(portable::sin(phi))) {}
   Point operator()(const Point& p) const { return {c_ * p.x - s_ * p.y, s_ * p.x + c_ * p.y}; }
 
  private:
@@ -51,7 +50,9 @@ struct Surface {
 class SurfaceSearch {
  public:
   SurfaceSearch(const SurfaceMap& map, const SurfaceAlignmentOptions& options)
-      : map_(map), options_(options), least_cosine_(static_cast<float>(std::cos(options.max_turn_rad))) {}
+      : map_(map),
+        options_(options),
+        least_cosine_(static_cast<float>(portable::cos(options.max_turn_rad))) {}
 
   /// Averages the surface points near `at` whose normals agree with `facing`. Returns nothing if there are
   /// none.
@@ -67,7 +68,7 @@ class SurfaceSearch {
     }
     if (count == 0) return std::nullopt;
     // The sum is not 0, because all normals agree with `facing`.
-    const float length = float_hypot(sum.normal.x, sum.normal.y);
+    const float length = portable::hypot(sum.normal.x, sum.normal.y);
     return Surface{{sum.point.x / count, sum.point.y / count},
                    {sum.normal.x / length, sum.normal.y / length}};
   }

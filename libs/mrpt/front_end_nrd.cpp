@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <iostream>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "local_maps/front_end.h"
 #include "mapping/carried_frames.h"
 #include "mrpt/entry_frames.h"
@@ -87,8 +88,8 @@ bool CPsiFrontEndNRD::add(const Frame& frame) {
   record.response = state_->step.response;
   record.node = state_->step.node;
   if (!state_->frames.empty()) {
-    const TPose2D motion = record.odom_T_robot - state_->frames.back().odom_T_robot;
-    state_->odometry_m += std::hypot(motion.x, motion.y);
+    const TPose2D motion = between(state_->frames.back().odom_T_robot, record.odom_T_robot);
+    state_->odometry_m += portable::hypot(motion.x, motion.y);
   }
   if (has_map && !state_->step.matched) ++state_->unmatched;
   state_->frames.push_back(record);
@@ -101,7 +102,7 @@ bool CPsiFrontEndNRD::checkRegistrationCondition() {
   if (!state_->step.node) {
     if (nodes.empty()) return false;
     m_since_prev_node_PDF.mean =
-        mrpt::poses::CPose2D(state_->step.local_T_robot - nodes.back().local_T_robot);
+        mrpt::poses::CPose2D(between(nodes.back().local_T_robot, state_->step.local_T_robot));
     return false;
   }
   add_node();
@@ -116,8 +117,8 @@ void CPsiFrontEndNRD::add_node() {
   PoseGraph& graph = map_->mirror.graph();
   TPose2D pose(0, 0, 0);
   if (!keyframes.nodes.empty())
-    pose = graph.pose(graph.num_nodes() - 1) +
-           (state_->step.local_T_robot - keyframes.nodes.back().local_T_robot);
+    pose = compose(graph.pose(graph.num_nodes() - 1),
+                   between(keyframes.nodes.back().local_T_robot, state_->step.local_T_robot));
   state_->node_frames.push_back(state_->frames.size() - 1);
   remember_node(state_->step, state_->node_frames.back(), keyframes);
   map_->odometry_m.push_back(state_->odometry_m);

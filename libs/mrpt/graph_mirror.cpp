@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "frames/pose_operations.h"
 #include "pose_graph/information_matrix.h"
 #include "psi_slam/user_error.h"
 
@@ -71,7 +72,7 @@ void GraphMirror::add_nodes_of(const MrptGraph& network) {
     for (const auto& [ends, edge] : network.edges) {
       const bool leads_here = ends.second == id && ends.first < graph_.num_nodes();
       if (!leads_here) continue;
-      pose = graph_.pose(ends.first) + edge.getPoseMean().asTPose();
+      pose = compose(graph_.pose(ends.first), edge.getPoseMean().asTPose());
       break;
     }
     graph_.add_node(pose);

@@ -20,6 +20,7 @@
 #include "base/atomic_file.h"
 #include "exports/mapped_trajectory.h"
 #include "frames/log_reader.h"
+#include "frames/pose_operations.h"
 #include "mrpt/graphslam_settings.h"
 #include "mrpt/log_entries.h"
 #include "observations/mrpt_objects.h"
@@ -242,7 +243,7 @@ class EngineRun : public GraphSlamRun {
     for (const PathPose& pose : path_) {
       const auto node = nodes.find(pose.node);
       const TPose2D map_T_node = node == nodes.end() ? TPose2D(0, 0, 0) : node->second.asTPose();
-      path.push_back({pose.time_us, map_T_node + pose.node_T_robot});
+      path.push_back({pose.time_us, compose(map_T_node, pose.node_T_robot)});
     }
     return path;
   }
@@ -319,7 +320,7 @@ class EngineRun : public GraphSlamRun {
     const auto& nodes = engine_->getGraph().nodes;
     const TNodeID node = nodes.empty() ? 0 : nodes.size() - 1;
     const TPose2D map_T_node = nodes.empty() ? TPose2D(0, 0, 0) : nodes.at(node).asTPose();
-    path_.push_back({*time, node, engine_->getCurrentRobotPosEstimation().asTPose() - map_T_node});
+    path_.push_back({*time, node, between(map_T_node, engine_->getCurrentRobotPosEstimation().asTPose())});
   }
 
   const GraphSlamGeneral general_;

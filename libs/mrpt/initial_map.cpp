@@ -78,7 +78,7 @@ std::optional<MeasuredPose> InitialMap::follow(const Mapper& mapper) {
   searched_m_ = travelled_m;
   const TPose2D& run_T_node = mapper.node_poses()[node];
   if (initial_T_run_) {
-    const auto place = map_.place_near(node, keyframes, initial_T_run_->pose + run_T_node,
+    const auto place = map_.place_near(node, keyframes, compose(initial_T_run_->pose, run_T_node),
                                        start_ ? kFollowWindow : kStartWindow);
     if (!place) return std::nullopt;
     start_ = PriorStart{node, place->pose};
@@ -91,7 +91,7 @@ std::optional<MeasuredPose> InitialMap::follow(const Mapper& mapper) {
     constexpr double kFoundSigma_m = 0.05;
     initial_T_run_ = MeasuredPose{{}, kFoundSigma_m, kFoundSigma_m / 5};
   }
-  initial_T_run_->pose = start_->prior_T_node + inverse(run_T_node);
+  initial_T_run_->pose = compose(start_->prior_T_node, inverse(run_T_node));
   return initial_T_run_;
 }
 

@@ -11,6 +11,7 @@
 
 #include "frames/laser_choice.h"
 #include "frames/log_format.h"
+#include "frames/pose_operations.h"
 #include "observations/mrpt_objects.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
@@ -103,7 +104,7 @@ class FrameEntries : public LogEntries {
     const std::optional<Frame> frame = ahead_ ? std::exchange(ahead_, std::nullopt) : source_->next();
     if (!frame) return std::nullopt;
     mrpt::math::TPose2D motion;
-    if (last_ && frame->has_odometry) motion = frame->odom_T_robot - *last_;
+    if (last_ && frame->has_odometry) motion = between(*last_, frame->odom_T_robot);
     last_ = frame->odom_T_robot;
     LogEntry entry;
     entry.action = CActionCollection::Create(robot_action(motion, frame->time_us));

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "frames/pose_operations.h"
 #include "mapping/mapper_options.h"
 #include "mrpt/entry_frames.h"
 #include "mrpt/initial_map.h"
@@ -190,7 +191,8 @@ struct CMetricMapBuilderPsi::Implementation {
   // Returns the robot's pose at each scan in the result of finish().
   std::vector<TPose2D> final_poses() const {
     std::vector<TPose2D> poses;
-    for (const FrameRecord& frame : frames_) poses.push_back(start_.mean.asTPose() + frame.map_T_robot);
+    for (const FrameRecord& frame : frames_)
+      poses.push_back(compose(start_.mean.asTPose(), frame.map_T_robot));
     return poses;
   }
 
@@ -212,7 +214,7 @@ struct CMetricMapBuilderPsi::Implementation {
     const std::size_t work = live_map_->work();
     live_poses_.take(frames());
     const auto pose = [&](std::size_t i) {
-      return start_.mean.asTPose() + live_poses_.map_T_robot(i, frames(), graph().poses());
+      return compose(start_.mean.asTPose(), live_poses_.map_T_robot(i, frames(), graph().poses()));
     };
     do live_map_->update(log(), pose);
     while (!live_map_->is_complete());
@@ -333,7 +335,7 @@ void CMetricMapBuilderPsi::getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& out_map)
   out_map.clear();
   if (m.shows_initial_map()) out_map = m.initial_->frames();
   for (std::size_t node = 0; node < m.node_observations_.size(); ++node) {
-    const CPosePDFGaussian pose(CPose2D(m.start_.mean.asTPose() + m.graph().pose(node)), covariance);
+    const CPosePDFGaussian pose(CPose2D(compose(m.start_.mean.asTPose(), m.graph().pose(node))), covariance);
     out_map.insert(std::make_shared<mrpt::poses::CPose3DPDFGaussian>(pose), m.node_observations_[node]);
   }
 }

@@ -13,6 +13,8 @@
 #include <string>
 #include <type_traits>
 
+#include "frames/pose_operations.h"
+
 namespace psi_slam {
 namespace {
 
@@ -72,8 +74,8 @@ CObservation2DRangeScan::Ptr observation_of(const LaserScan& scan, TimeUs time_u
     observation->rightToLeft = bearings.back() >= bearings.front();
     middle = (bearings.front() + bearings.back()) / 2;
   }
-  observation->sensorPose = mrpt::poses::CPose3D(
-      robot_T_laser + mrpt::math::TPose2D(0, 0, std::abs(middle) < 1e-6F ? 0 : static_cast<double>(middle)));
+  observation->sensorPose = mrpt::poses::CPose3D(compose(
+      robot_T_laser, mrpt::math::TPose2D(0, 0, std::abs(middle) < 1e-6F ? 0 : static_cast<double>(middle))));
   for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
     const float range_m = scan.ranges_m[beam];
     if (std::isnan(range_m)) continue;
@@ -125,7 +127,7 @@ std::vector<CObservation2DRangeScan::Ptr> range_observations(const Frame& frame)
   std::vector<CObservation2DRangeScan::Ptr> observations{range_observation(frame)};
   for (const CompanionScan& companion : frame.companions)
     observations.push_back(observation_of(companion.scan, companion.time_us,
-                                          companion.frame_T_robot + companion.scan.robot_T_laser));
+                                          compose(companion.frame_T_robot, companion.scan.robot_T_laser)));
   return observations;
 }
 

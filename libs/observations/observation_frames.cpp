@@ -115,7 +115,7 @@ void ObservationFrames::take(const mrpt::obs::CActionCollection& action, const s
   }
   if (!motion || odometry_ != Odometry::kActions) return;
   if (is_possible_odometry(*motion)) {
-    odom_T_robot_ = odom_T_robot_ + *motion;
+    odom_T_robot_ = compose(odom_T_robot_, *motion);
   } else {
     is_motion_unknown_ = true;
     skip(place);

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/portable_math.h"
+
 namespace psi_slam {
 
 /// Returns the angle wrapped to (-pi, pi], in radians. Does not change an angle in this range;
@@ -26,7 +28,11 @@ struct RotatedPose {
 
   RotatedPose() = default;
   explicit RotatedPose(const mrpt::math::TPose2D& pose)
-      : x(pose.x), y(pose.y), theta(pose.phi), cosine(std::cos(pose.phi)), sine(std::sin(pose.phi)) {}
+      : x(pose.x),
+        y(pose.y),
+        theta(pose.phi),
+        cosine(portable::cos(pose.phi)),
+        sine(portable::sin(pose.phi)) {}
 };
 
 inline std::vector<RotatedPose> rotated(const std::vector<mrpt::math::TPose2D>& poses) {

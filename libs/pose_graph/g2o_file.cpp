@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "compression/line_reader.h"
 #include "pose_graph/information_matrix.h"
 #include "pose_graph/spanning_tree.h"
@@ -41,7 +41,8 @@ struct Edge {
 // beginning.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& information, double theta) {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  rotation.topLeftCorner<2, 2>() << std::cos(theta), -std::sin(theta), std::sin(theta), std::cos(theta);
+  rotation.topLeftCorner<2, 2>() << portable::cos(theta), -portable::sin(theta), portable::sin(theta),
+      portable::cos(theta);
   const Eigen::Matrix3d product = rotation * information * rotation.transpose();
   return 0.5 * (product + product.transpose());
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "pose_graph/constraint_error.h"
 #include "pose_graph/information_matrix.h"
@@ -103,11 +104,11 @@ Vector3d difference(const TPose2D& a, const TPose2D& b) {
 // Difference between the relative pose of two marks by the graph and by their places. Only the first
 // dimensions(comparison) entries count.
 Vector3d disagreement(const Poses& poses, Comparison comparison) {
-  const TPose2D by_graph = inverse(pose_at(poses, 1)) + (pose_at(poses, 0) + pose_at(poses, 2));
-  const TPose2D by_site = pose_at(poses, 4) - pose_at(poses, 3);
+  const TPose2D by_graph = compose(inverse(pose_at(poses, 1)), compose(pose_at(poses, 0), pose_at(poses, 2)));
+  const TPose2D by_site = between(pose_at(poses, 3), pose_at(poses, 4));
   if (comparison == Comparison::kPositionFromB) return difference(inverse(by_graph), inverse(by_site));
   if (comparison == Comparison::kDistance)
-    return {std::hypot(by_graph.x, by_graph.y) - std::hypot(by_site.x, by_site.y), 0, 0};
+    return {portable::hypot(by_graph.x, by_graph.y) - portable::hypot(by_site.x, by_site.y), 0, 0};
   return difference(by_graph, by_site);
 }
 
@@ -164,7 +165,7 @@ Disagreement disagreement_of(const SeenMark& a, const SeenMark& b, const TPose2D
 // distribution, from 1 to `most`.
 double explaining_drift(const Disagreement& disagreement, double most) {
   const auto dimension = static_cast<double>(disagreement.error.size());
-  const double median = dimension * std::pow(1 - 2 / (9 * dimension), 3);  // of chi-square
+  const double median = dimension * portable::pow(1 - 2 / (9 * dimension), 3);  // of chi-square
   double low = 1;
   double high = most;
   if (disagreement.chi2(low) <= median) return low;
@@ -223,7 +224,7 @@ std::vector<bool> consistent(std::size_t count, const std::vector<Disagreement>&
 }
 
 // Returns the disagreements between the marks that are kept. The order of pairs is that of consistent().
-std::vector<Disagreement> between(const std::vector<bool>& kept,
+std::vector<Disagreement> of_kept(const std::vector<bool>& kept,
                                   const std::vector<Disagreement>& disagreements) {
   std::vector<Disagreement> result;
   auto pair = disagreements.begin();
@@ -238,7 +239,7 @@ void enable(const std::vector<std::size_t>& constraints, const std::vector<bool>
 }
 
 MeasuredPose relative_to(const TPose2D& site_T_root, MeasuredPose site_T_mark) {
-  site_T_mark.pose = site_T_mark.pose - site_T_root;
+  site_T_mark.pose = between(site_T_root, site_T_mark.pose);
   return site_T_mark;
 }
 
@@ -274,7 +275,7 @@ class KnownLandmarks::Consistency {
       const std::vector<Matrix3d> covariances = relative_to_later(marks, a);
       for (std::size_t b = a + 1; b < marks.size(); ++b)
         pairs.push_back(disagreement_of(marks[a], marks[b],
-                                        graph_.pose(marks[b].node) - graph_.pose(marks[a].node),
+                                        between(graph_.pose(marks[a].node), graph_.pose(marks[b].node)),
                                         covariances[b - a - 1], comparison_of(marks[a], marks[b], is_same)));
     }
     return pairs;
@@ -348,7 +349,7 @@ void KnownLandmarks::add_ties(std::size_t landmark, std::size_t sighting, double
   for (const std::uint32_t index : constraints) {
     Constraint tie = graph.constraint(index);
     if (tie.kind != Constraint::Kind::kLocalMap || tie.to != node || !graph.enabled(index)) continue;
-    tie.from_T_to = graph.pose(node) - graph.pose(tie.from);
+    tie.from_T_to = between(graph.pose(tie.from), graph.pose(node));
     tie.information *= weight;
     tie.kind = Constraint::Kind::kKnown;
     tie.kernel = RobustKernel{RobustKernel::Type::kNone, kKnownKernelWidth * std::sqrt(weight)};
@@ -415,9 +416,9 @@ void KnownLandmarks::select(PoseGraph& graph, double max_chi) {
   const std::vector<bool> kept_places = consistent(placed.size(), of_places, drift, max_chi);
 
   // The weight follows from the drift without the contradictions.
-  all = between(kept_places, of_places);
+  all = of_kept(kept_places, of_places);
   for (std::size_t i = 0; i < landmarks_.size(); ++i)
-    for (Disagreement& one : between(kept_sightings[i], of_sightings[i])) all.push_back(std::move(one));
+    for (Disagreement& one : of_kept(kept_sightings[i], of_sightings[i])) all.push_back(std::move(one));
   add_constraints(kOverconfidence * drift_factor(all), graph);
   for (std::size_t i = 0; i < landmarks_.size(); ++i) enable_sightings(i, kept_sightings[i], graph);
   for (std::size_t k = 0; k < placed.size(); ++k)
@@ -440,7 +441,7 @@ std::size_t KnownLandmarks::best_sighting(std::size_t landmark, const PoseGraph&
 void KnownLandmarks::place_nodes(PoseGraph& graph) const {
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     const LandmarkSighting& best = landmarks_[i].sightings[best_sighting(i, graph)];
-    graph.set_pose(numbers_[i].node, graph.pose(best.node) + best.node_T_mark.pose);
+    graph.set_pose(numbers_[i].node, compose(graph.pose(best.node), best.node_T_mark.pose));
   }
   if (site_) graph.set_pose(*site_, placed_site(graph));
 }
@@ -456,7 +457,8 @@ TPose2D KnownLandmarks::placed_site(const PoseGraph& graph) const {
     const TPose2D& map_T_mark = graph.pose(numbers_[i].node);
     const MeasuredPose root_T_mark = relative_to(site_T_root_, *landmarks_[i].site_T_mark);
     const LandmarkSighting& best = landmarks_[i].sightings[best_sighting(i, graph)];
-    if (root_T_mark.sigma_rad && best.node_T_mark.sigma_rad) return map_T_mark + inverse(root_T_mark.pose);
+    if (root_T_mark.sigma_rad && best.node_T_mark.sigma_rad)
+      return compose(map_T_mark, inverse(root_T_mark.pose));
     pairs.emplace_back(map_T_mark, root_T_mark.pose);
     in_map += Eigen::Vector2d(map_T_mark.x, map_T_mark.y);
     in_site += Eigen::Vector2d(root_T_mark.pose.x, root_T_mark.pose.y);
@@ -472,16 +474,16 @@ TPose2D KnownLandmarks::placed_site(const PoseGraph& graph) const {
     cosine += p.dot(q);
     sine += p.x() * q.y() - p.y() * q.x();
   }
-  const TPose2D turned(0, 0, pairs.size() > 1 ? std::atan2(sine, cosine) : 0);
-  const TPose2D centre = turned + TPose2D(in_site.x(), in_site.y(), 0);
+  const TPose2D turned(0, 0, pairs.size() > 1 ? portable::atan2(sine, cosine) : 0);
+  const TPose2D centre = compose(turned, TPose2D(in_site.x(), in_site.y(), 0));
   return {in_map.x() - centre.x, in_map.y() - centre.y, turned.phi};
 }
 
 void KnownLandmarks::move_to_site(PoseGraph& graph) const {
   if (!site_) return;
-  const TPose2D site_T_map = site_T_root_ + inverse(graph.pose(*site_));
+  const TPose2D site_T_map = compose(site_T_root_, inverse(graph.pose(*site_)));
   for (std::size_t node = 0; node < graph.num_nodes(); ++node)
-    graph.set_pose(node, site_T_map + graph.pose(node));
+    graph.set_pose(node, compose(site_T_map, graph.pose(node)));
   graph.set_pose(*site_, site_T_root_);
   graph.set_root(*site_);
 }

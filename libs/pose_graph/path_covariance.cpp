@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/portable_math.h"
+
 namespace psi_slam {
 namespace {
 
@@ -74,7 +76,7 @@ double extended_cost(const PoseCovariance& at_previous, const GraphLink& link, c
 double RelativeUncertainty::position_sigma_m() const {
   const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
   const double difference = 0.5 * (covariance(0, 0) - covariance(1, 1));
-  return std::sqrt(std::max(0.0, mean + std::hypot(difference, covariance(0, 1))));
+  return std::sqrt(std::max(0.0, mean + portable::hypot(difference, covariance(0, 1))));
 }
 
 PathCovarianceSearch::Node& PathCovarianceSearch::node_at(const PoseGraph& graph, std::size_t index) {
@@ -94,7 +96,8 @@ void PathCovarianceSearch::settle(const PoseGraph& graph, std::uint32_t here) {
   const Node& previous = nodes_[node.previous];
   const GraphLink& link = graph.links()[node.constraint];
   node.covariance = extended(previous.covariance, link, previous.pose, node.pose, link.to == here);
-  node.chain_m = previous.chain_m + std::hypot(node.pose.x - previous.pose.x, node.pose.y - previous.pose.y);
+  node.chain_m =
+      previous.chain_m + portable::hypot(node.pose.x - previous.pose.x, node.pose.y - previous.pose.y);
 }
 
 void PathCovarianceSearch::look_around(const PoseGraph& graph, std::uint32_t here, double lever2,

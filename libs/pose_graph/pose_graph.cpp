@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/portable_math.h"
 #include "pose_graph/constraint_error.h"
 #include "pose_graph/information_matrix.h"
 
@@ -56,7 +57,7 @@ double RobustKernel::cost(double chi2) const {
     case Type::kHuber:
       return chi2 <= width2 ? chi2 : 2 * width * std::sqrt(chi2) - width2;
     case Type::kCauchy:
-      return width2 * std::log1p(chi2 / width2);
+      return width2 * portable::log1p(chi2 / width2);
     case Type::kDynamicScaling:
       return chi2 <= width2 ? chi2 : width2 * (3 * chi2 - width2) / (chi2 + width2);
     case Type::kGemanMcClure:

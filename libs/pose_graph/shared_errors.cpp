@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "pose_graph/marginal_covariance.h"
 #include "psi_slam/user_error.h"
 
@@ -22,15 +24,15 @@ using Eigen::Vector3d;
 constexpr double kRigidSigma = 1e-3;
 
 double distance_m(const PoseGraph& graph, std::size_t a, std::size_t b) {
-  return std::hypot(graph.pose(b).x - graph.pose(a).x, graph.pose(b).y - graph.pose(a).y);
+  return portable::hypot(graph.pose(b).x - graph.pose(a).x, graph.pose(b).y - graph.pose(a).y);
 }
 
 // Returns a covariance or information matrix along the axes in which the axes of `matrix` have the heading
 // `angle_rad`.
 Matrix3d turned(const Matrix3d& matrix, double angle_rad) {
   Matrix3d rotation = Matrix3d::Identity();
-  rotation(0, 0) = rotation(1, 1) = std::cos(angle_rad);
-  rotation(1, 0) = std::sin(angle_rad);
+  rotation(0, 0) = rotation(1, 1) = portable::cos(angle_rad);
+  rotation(1, 0) = portable::sin(angle_rad);
   rotation(0, 1) = -rotation(1, 0);
   return rotation * matrix * rotation.transpose();
 }
@@ -169,7 +171,7 @@ void SharedErrors::link(std::size_t from, std::size_t to, const Matrix3d& covari
   constraint.kind = Constraint::Kind::kLocalMap;
   constraint.from = from;
   constraint.to = to;
-  constraint.from_T_to = model_.pose(to) - model_.pose(from);
+  constraint.from_T_to = between(model_.pose(from), model_.pose(to));
   constraint.information = inverse_of(turned(covariance_in_map, -model_.pose(from).phi));
   model_.add_constraint(constraint);
 }
@@ -180,7 +182,7 @@ void SharedErrors::add_independent_constraints() {
     if (!graph_.enabled(i) || constraint.kind == Constraint::Kind::kLocalMap ||
         constraint.kind == Constraint::Kind::kLoop)
       continue;
-    constraint.from_T_to = graph_.pose(constraint.to) - graph_.pose(constraint.from);
+    constraint.from_T_to = between(graph_.pose(constraint.from), graph_.pose(constraint.to));
     if (constraint.kind == Constraint::Kind::kKnown) constraint.information /= weight_of_known(constraint);
     model_.add_constraint(constraint);
   }

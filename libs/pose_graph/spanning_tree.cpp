@@ -35,7 +35,7 @@ std::vector<mrpt::math::TPose2D> spanning_tree_poses(const PoseGraph& graph) {
       if (reached[next] != 0) continue;
       const TPose2D node_T_next = forward ? constraint.from_T_to : inverse(constraint.from_T_to);
       (constraint.kind == Constraint::Kind::kOdometry ? by_odometry : by_others)
-          .push_back({next, arrival.map_T_node + node_T_next});
+          .push_back({next, compose(arrival.map_T_node, node_T_next)});
     }
   }
   for (std::size_t node = 0; node < poses.size(); ++node)

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "frames/pose_operations.h"
 #include "psi_slam/mapping_result.h"
 
 namespace psi_slam {
@@ -26,7 +27,8 @@ class LivePoses {
                                   const std::vector<mrpt::math::TPose2D>& map_T_node) const {
     const FrameRecord& of_node = frames[node_frames_[frame]];
     if (!of_node.node || *of_node.node >= map_T_node.size()) return frames[frame].map_T_robot;
-    return map_T_node[*of_node.node] + (frames[frame].front_end_T_robot - of_node.front_end_T_robot);
+    return compose(map_T_node[*of_node.node],
+                   between(of_node.front_end_T_robot, frames[frame].front_end_T_robot));
   }
 
  private:

@@ -8,6 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "psi_slam/user_error.h"
 #include "rendering/picture_ink.h"
 
@@ -58,7 +59,7 @@ void add_scale_bar(cv::Mat& image, double resolution_m, const Pixel& ground) {
 
 double scale_bar_m(double width_m, double resolution_m) {
   const double longest_m = std::max(width_m / 5, resolution_m);
-  const double power_m = std::pow(10, std::floor(std::log10(longest_m)));
+  const double power_m = portable::pow(10, std::floor(portable::log10(longest_m)));
   for (const double digit : {5.0, 2.0})
     if (digit * power_m <= longest_m) return digit * power_m;
   return power_m;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/portable_math.h"
+
 namespace psi_slam {
 namespace {
 
@@ -160,11 +162,11 @@ void MovingThings::find_normal(Sightings& cell) const {
   const double var_y = yy / n - y / n * (y / n);
   const double covariance = xy / n - x / n * (y / n);
   const double middle = (var_x + var_y) / 2;
-  const double half = std::hypot((var_x - var_y) / 2, covariance);
+  const double half = portable::hypot((var_x - var_y) / 2, covariance);
   if (!(half > 0) || middle - half > kStraightRatio * (middle + half)) return;
-  const double along_rad = std::atan2(2 * covariance, var_x - var_y) / 2;
-  cell.normal_x = static_cast<float>(-std::sin(along_rad));
-  cell.normal_y = static_cast<float>(std::cos(along_rad));
+  const double along_rad = portable::atan2(2 * covariance, var_x - var_y) / 2;
+  cell.normal_x = static_cast<float>(-portable::sin(along_rad));
+  cell.normal_y = static_cast<float>(portable::cos(along_rad));
 }
 
 void MovingThings::add(const Frame& frame, const TPose2D& map_T_robot) {
@@ -368,7 +370,8 @@ void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
         part.push_back(next);
       });
     }
-    const double length_m = std::hypot(high.x - low.x + 1, high.y - low.y + 1) * layout_.resolution_m;
+    const double length_m = layout_.resolution_m * portable::hypot(static_cast<double>(high.x - low.x + 1),
+                                                                   static_cast<double>(high.y - low.y + 1));
     if (length_m <= kLargeSurface_m || 3 * surface <= hits) continue;
     for (const std::size_t cell : part) is_moving[cell] = false;
   }

@@ -10,7 +10,7 @@ namespace psi_slam {
 using mrpt::math::TPose2D;
 
 TPose2D robot_in_target(const TPose2D& target_T_mapper, const TPose2D& mapper_T_robot) {
-  return mapper_T_robot == TPose2D(0, 0, 0) ? target_T_mapper : target_T_mapper + mapper_T_robot;
+  return mapper_T_robot == TPose2D(0, 0, 0) ? target_T_mapper : compose(target_T_mapper, mapper_T_robot);
 }
 
 MapEdit with_frame(MapEdit edit, const TPose2D& export_T_start) {
@@ -26,8 +26,8 @@ std::optional<MapEdit> placed_edit(MapEdit edit, const TPose2D& target_T_mapper,
   if (!at_scan) return std::nullopt;
   const TPose2D target_T_robot = robot_in_target(target_T_mapper, *at_scan);
   if (edit.frame_T_robot == target_T_robot) return edit;
-  const TPose2D target_T_frame = target_T_robot + inverse(edit.frame_T_robot.value());
-  for (mrpt::math::TPoint2D& point : edit.points) point = target_T_frame.composePoint(point);
+  const TPose2D target_T_frame = compose(target_T_robot, inverse(edit.frame_T_robot.value()));
+  for (mrpt::math::TPoint2D& point : edit.points) point = transform(target_T_frame, point);
   edit.frame_T_robot = target_T_robot;
   return edit;
 }

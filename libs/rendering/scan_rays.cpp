@@ -7,6 +7,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
+
 namespace psi_slam {
 
 using mrpt::math::TBoundingBox;
@@ -51,18 +54,18 @@ void RayMaker::cast(const LaserScan& scan, const TPose2D& map_T_robot, Fan& fan)
     fan.directions.clear();
     for (std::size_t i = 0; fan.bearings && i < fan.bearings->size(); ++i) {
       const double angle = static_cast<double>((*fan.bearings)[i]);
-      fan.directions.emplace_back(std::cos(angle), std::sin(angle));
+      fan.directions.emplace_back(portable::cos(angle), portable::sin(angle));
     }
   }
   const std::size_t beams = scan.ranges_m.size();
   if (fan.directions.size() != beams)
     throw std::invalid_argument("draw_grid_map: " + std::to_string(beams) + " ranges but " +
                                 std::to_string(fan.directions.size()) + " bearings, expected equal numbers");
-  const TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
+  const TPose2D map_T_laser = compose(map_T_robot, scan.robot_T_laser);
   if (!std::isfinite(map_T_laser.x) || !std::isfinite(map_T_laser.y) || !std::isfinite(map_T_laser.phi))
     throw std::invalid_argument("draw_grid_map: the pose of a laser is not finite");
-  const double c = std::cos(map_T_laser.phi);
-  const double s = std::sin(map_T_laser.phi);
+  const double c = portable::cos(map_T_laser.phi);
+  const double s = portable::sin(map_T_laser.phi);
   const double clear_m = std::min(options_.no_return_clears_m, static_cast<double>(scan.max_range_m));
   fan.start = {map_T_laser.x, map_T_laser.y};
   fan.rays.clear();

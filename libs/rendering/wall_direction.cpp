@@ -8,6 +8,9 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
+
 namespace psi_slam {
 namespace {
 
@@ -32,7 +35,7 @@ bool is_straight(const TPoint2D& from, const TPoint2D& middle, const TPoint2D& t
 class DirectionHistogram {
  public:
   void add_scan(const LaserScan& scan, const TPose2D& map_T_robot) {
-    const TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
+    const TPose2D map_T_laser = compose(map_T_robot, scan.robot_T_laser);
     std::vector<TPoint2D> piece;
     for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
       const auto range_m = static_cast<double>(scan.ranges_m[i]);
@@ -41,8 +44,8 @@ class DirectionHistogram {
         continue;
       }
       const auto bearing_rad = static_cast<double>((*scan.bearings_rad)[i]);
-      const TPoint2D point = map_T_laser.composePoint(
-          TPoint2D(range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)));
+      const TPoint2D point = transform(
+          map_T_laser, TPoint2D(range_m * portable::cos(bearing_rad), range_m * portable::sin(bearing_rad)));
       if (!piece.empty() && (point - piece.back()).norm() > kStep_m) piece.clear();
       piece.push_back(point);
       if (piece.size() < 3 || (point - piece.front()).norm() < kPiece_m) continue;
@@ -56,20 +59,20 @@ class DirectionHistogram {
     std::size_t peak = 0;
     double most = 0;
     for (std::size_t bin = 0; bin < kBins; ++bin) {
-      const double sum = std::hypot(around(bin).x, around(bin).y);
+      const double sum = portable::hypot(around(bin).x, around(bin).y);
       if (sum > most) most = sum, peak = bin;
     }
     const TPoint2D mean = around(peak);
-    return std::atan2(mean.y, mean.x) / 4;
+    return portable::atan2(mean.y, mean.x) / 4;
   }
 
  private:
   void add(const TPoint2D& piece) {
-    const double direction_rad = std::atan2(piece.y, piece.x);
+    const double direction_rad = portable::atan2(piece.y, piece.x);
     const double turns = direction_rad / kRightAngle;
     const double share = turns - std::floor(turns);
     TPoint2D& bin = bins_[std::min(kBins - 1, static_cast<std::size_t>(share * kBins))];
-    bin += TPoint2D(std::cos(4 * direction_rad), std::sin(4 * direction_rad)) * piece.norm();
+    bin += TPoint2D(portable::cos(4 * direction_rad), portable::sin(4 * direction_rad)) * piece.norm();
   }
 
   /// Sum of the unit vectors at four times the direction, in the bins around a bin.

@@ -2,8 +2,10 @@
 #include "replay/loop_between_places.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -15,7 +17,7 @@ constexpr double kNear_m = 2;
 
 /// Distance of a node from a place, in metres; all distances below kNear_m count as kNear_m.
 double rounded_distance_m(const TPose2D& node, const TPoint2D& place) {
-  return std::max(kNear_m, std::hypot(node.x - place.x, node.y - place.y));
+  return std::max(kNear_m, portable::hypot(node.x - place.x, node.y - place.y));
 }
 
 std::size_t newest_node_near(const std::vector<TPose2D>& map_T_node, const TPoint2D& place) {
@@ -57,7 +59,7 @@ std::optional<LoopEdit> loop_between_places(const ReplaySnapshot& snapshot, cons
   const TPose2D map_T_expected(map_T_scan.x + shift.x, map_T_scan.y + shift.y, map_T_scan.phi);
   LoopEdit edit{LoopEdit::Kind::kMatch, snapshot.nodes[node].frame, *local_map};
   edit.matcher = matcher;
-  edit.place = LoopPlace{map_T_expected - map_T_node[snapshot.local_maps[*local_map].anchor],
+  edit.place = LoopPlace{between(map_T_node[snapshot.local_maps[*local_map].anchor], map_T_expected),
                          {kClickedWindow_m, kClickedWindow_m, kClickedWindow_rad}};
   return edit;
 }

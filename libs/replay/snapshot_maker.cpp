@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "frames/discarded_ranges.h"
+#include "frames/pose_operations.h"
 #include "pose_graph/placed_covariances.h"
 
 namespace psi_slam {
@@ -27,8 +28,8 @@ mrpt::math::TPose2D map_T_frame(const ReplaySnapshot& snapshot, std::size_t fram
     (snapshot.nodes[middle].frame <= frame ? node : end) = middle;
   }
   const mrpt::math::TPose2D node_T_frame =
-      snapshot.frames[frame].front_end_T_robot - snapshot.nodes[node].local_T_robot;
-  return (*snapshot.map_T_node)[node] + node_T_frame;
+      between(snapshot.nodes[node].local_T_robot, snapshot.frames[frame].front_end_T_robot);
+  return compose((*snapshot.map_T_node)[node], node_T_frame);
 }
 
 SnapshotMaker::SnapshotMaker(const PsiThresholds& psi, const EditJournal& edits, bool live) {

@@ -5,15 +5,17 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
 
 namespace psi_slam {
 
 double DecadeAxis::share(double value) const {
-  return std::clamp(std::log(std::max(value, low) / low) / std::log(high / low), 0.0, 1.0);
+  return std::clamp(portable::log(std::max(value, low) / low) / portable::log(high / low), 0.0, 1.0);
 }
 
 DecadeAxis decades_around(double least, double most) {
-  DecadeAxis axis{std::pow(10, std::floor(std::log10(least))), std::pow(10, std::ceil(std::log10(most)))};
+  DecadeAxis axis{portable::pow(10, std::floor(portable::log10(least))),
+                  portable::pow(10, std::ceil(portable::log10(most)))};
   if (axis.high <= axis.low) axis.high = 10 * axis.low;
   return axis;
 }
@@ -26,7 +28,7 @@ std::vector<AxisTick> decade_ticks(const DecadeAxis& axis, const std::function<s
 }
 
 std::string power_text(double value) {
-  return fixed_text(value, std::max(0, -static_cast<int>(std::lround(std::log10(value)))));
+  return fixed_text(value, std::max(0, -static_cast<int>(std::lround(portable::log10(value)))));
 }
 
 DecadeAxis psi_axis(double most, const PsiThresholds& thresholds) {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "rendering/map_image.h"
 #include "report/drawn_loops.h"
 #include "report/html_text.h"
@@ -34,7 +36,7 @@ std::string text(const Pixel& pixel) {
 /// Adds a point to the path if it is at least 1.5 pixels from the last point or is the end of the path.
 void extend(Path& path, const Pixel& point, bool is_end) {
   constexpr double kStep_px = 1.5;
-  if (path.empty() || is_end || std::hypot(point.x - path.back().x, point.y - path.back().y) >= kStep_px)
+  if (path.empty() || is_end || portable::hypot(point.x - path.back().x, point.y - path.back().y) >= kStep_px)
     path.push_back(point);
 }
 
@@ -46,7 +48,8 @@ Paths paths_of(const MappingResult& result, TPose2D FrameRecord::*pose, const Ma
     const FrameRecord& first = result.frames[run.begin];
     Path path;
     for (std::size_t i = run.begin; i < run.end; ++i)
-      extend(path, pixel_of(first.map_T_robot + (result.frames[i].*pose - first.*pose), picture),
+      extend(path,
+             pixel_of(compose(first.map_T_robot, between(first.*pose, result.frames[i].*pose)), picture),
              i + 1 == run.end);
     paths.push_back(std::move(path));
   }

@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "doctor/odometry_calibration.h"
 #include "frames/laser_choice.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -20,7 +22,7 @@ using mrpt::RAD2DEG;
 using mrpt::math::TPose2D;
 
 constexpr double kScaleDeviation = 0.005;
-const double kMostLogScale = std::log(2.0);  // of odometry in metres
+const double kMostLogScale = portable::log(2.0);  // of odometry in metres
 constexpr double kMountDeviation_m = 0.02;
 const double kMountDeviation_rad = DEG2RAD(0.5);
 constexpr double kDelayDeviationPerPeriod = 0.2;
@@ -67,7 +69,7 @@ class Calibrator {
     const double scale = 1 / found_.mount->odometry_scale;
     const double deviation = scale * scale * found_.mount->scale_deviation;
     const bool is_determined = deviation <= kScaleDeviation;
-    const bool is_used = is_determined && std::abs(std::log(scale)) < kMostLogScale;
+    const bool is_used = is_determined && std::abs(portable::log(scale)) < kMostLogScale;
     add(kScale, scale, deviation, is_used);
     say("estimates the scale of odometry: " + fixed_text(scale, 4) + " (standard deviation " +
         fixed_text(deviation, 4) + "), " +
@@ -100,7 +102,7 @@ class Calibrator {
     const TPose2D& pose = mount.robot_T_laser;
     const bool is_determined =
         mount.deviation_m <= kMountDeviation_m && mount.deviation_rad <= kMountDeviation_rad;
-    const TPose2D off = pose - found_.stated_mount;
+    const TPose2D off = between(found_.stated_mount, pose);
     const bool differs = off.norm() > std::max(kUsualError_m, kSignificant * mount.deviation_m) ||
                          std::abs(off.phi) > std::max(kUsualError_rad, kSignificant * mount.deviation_rad);
     const bool is_used = is_determined && differs;

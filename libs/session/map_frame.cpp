@@ -3,6 +3,7 @@
 
 #include "base/number_text.h"
 #include "exports/mapped_trajectory.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 #include "rendering/placed_edits.h"
 #include "rendering/wall_direction.h"
@@ -19,7 +20,7 @@ void set_poses(MappingResult& result, const std::vector<mrpt::math::TPose2D>& ma
 
 std::vector<mrpt::math::TPose2D> moved(std::vector<mrpt::math::TPose2D> poses,
                                        const mrpt::math::TPose2D& export_T_map) {
-  for (mrpt::math::TPose2D& pose : poses) pose = export_T_map + pose;
+  for (mrpt::math::TPose2D& pose : poses) pose = compose(export_T_map, pose);
   return poses;
 }
 

@@ -2,9 +2,9 @@
 #include "session/place_run.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
+#include "base/portable_math.h"
 #include "frames/discarded_ranges.h"
 #include "frames/pose_operations.h"
 #include "local_maps/front_end.h"
@@ -37,7 +37,7 @@ std::vector<FrameSpan> unplaced_runs_of(const MappingResult& mapped) {
 
 /// Returns the start of the run relative to the node that is nearest to the robot's place in `seen`.
 RunStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& seen) {
-  const TPose2D map_T_start = seen.map_T_robot + inverse(seen.start_T_robot);
+  const TPose2D map_T_start = compose(seen.map_T_robot, inverse(seen.start_T_robot));
   RunStart start;
   double nearest_m = std::numeric_limits<double>::infinity();
   const std::vector<FrameSpan> unplaced = unplaced_runs_of(mapped);
@@ -48,10 +48,10 @@ RunStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& see
   for (std::size_t node = 0; node < mapped.node_frames.size(); ++node) {
     if (!is_placed(mapped.node_frames[node])) continue;
     const TPose2D& there = mapped.frames[mapped.node_frames[node]].map_T_robot;
-    const double distance_m = std::hypot(there.x - seen.map_T_robot.x, there.y - seen.map_T_robot.y);
+    const double distance_m = portable::hypot(there.x - seen.map_T_robot.x, there.y - seen.map_T_robot.y);
     if (distance_m >= nearest_m) continue;
     nearest_m = distance_m;
-    start = {node, map_T_start - there, seen.start_T_robot};
+    start = {node, between(there, map_T_start), seen.start_T_robot};
   }
   return start;
 }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "base/scope_exit.h"
 #include "base/text_parts.h"
 #include "localization/reference_map.h"
@@ -170,7 +171,7 @@ mrpt::maps::COccupancyGridMap2D read_plan_drawing(const std::filesystem::path& p
   for (const Line& line : lines)
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
       const TPoint2D along = line[i + 1] - line[i];
-      const int steps = 1 + static_cast<int>(std::hypot(along.x, along.y) / (kStepCells * cell_m));
+      const int steps = 1 + static_cast<int>(portable::hypot(along.x, along.y) / (kStepCells * cell_m));
       for (int k = 0; k <= steps; ++k) {
         const TPoint2D at = line[i] + along * (static_cast<double>(k) / steps);
         grid->setCell(static_cast<int>(cell(at.x) - layout.x_min),

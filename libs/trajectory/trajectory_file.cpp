@@ -4,11 +4,11 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 #include "trajectory/text_lines.h"
@@ -36,7 +36,7 @@ StampedPose tum_pose(const TextLine& line) {
     throw line.error("expected a rotation about the z axis, found a quaternion with qz = qw = 0");
   return {line.time(0),
           {line.finite_number(1, "tx in metres"), line.finite_number(2, "ty in metres"),
-           mrpt::math::wrapToPi(2 * std::atan2(q_z, q_w))}};
+           mrpt::math::wrapToPi(2 * portable::atan2(q_z, q_w))}};
 }
 
 StampedPose flaser_pose(const TextLine& line) {
@@ -59,7 +59,7 @@ std::string tum_text(const Trajectory& trajectory) {
   for (const StampedPose& stamped : trajectory) {
     const auto& [x, y, yaw] = stamped.pose;
     text += format_seconds(stamped.time_us) + ' ' + fixed_text(x, 9) + ' ' + fixed_text(y, 9) + " 0 0 0 " +
-            fixed_text(std::sin(yaw / 2), 12) + ' ' + fixed_text(std::cos(yaw / 2), 12) + '\n';
+            fixed_text(portable::sin(yaw / 2), 12) + ' ' + fixed_text(portable::cos(yaw / 2), 12) + '\n';
   }
   return text;
 }

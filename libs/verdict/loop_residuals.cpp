@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
+
 namespace psi_slam {
 namespace {
 
@@ -23,14 +26,15 @@ std::vector<LoopResidual> loop_residuals(const MappingResult& result) {
     const LoopRecord& loop = result.loops[i];
     if (loop.verdict != LoopVerdict::kAccepted) continue;
     const auto pose = [&](std::size_t node) { return result.frames[result.node_frames[node]].map_T_robot; };
-    const mrpt::math::TPose2D error = (pose(loop.node) - pose(loop.anchor)) - loop.anchor_T_node;
-    const mrpt::math::TPose2D mapped = pose(loop.node) - pose(loop.anchor);
+    const mrpt::math::TPose2D error =
+        between(loop.anchor_T_node, between(pose(loop.anchor), pose(loop.node)));
+    const mrpt::math::TPose2D mapped = between(pose(loop.anchor), pose(loop.node));
     const Eigen::Vector3d difference(mapped.x - loop.anchor_T_node.x, mapped.y - loop.anchor_T_node.y,
                                      mrpt::math::wrapToPi(error.phi));
     Eigen::Matrix3d covariance = loop.covariance;
     covariance.diagonal() +=
         Eigen::Vector3d(kModel_m * kModel_m, kModel_m * kModel_m, kModel_rad * kModel_rad);
-    residuals.push_back({i, std::hypot(difference.x(), difference.y()), std::abs(difference.z()),
+    residuals.push_back({i, portable::hypot(difference.x(), difference.y()), std::abs(difference.z()),
                          std::sqrt(difference.dot(covariance.ldlt().solve(difference)))});
   }
   std::stable_sort(residuals.begin(), residuals.end(),

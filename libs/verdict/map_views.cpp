@@ -8,6 +8,7 @@
 #include <functional>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "frames/discarded_ranges.h"
 #include "local_maps/scan_filter.h"
 
@@ -69,7 +70,7 @@ std::vector<MapView> map_views(const MappingResult& result, const MapViewOptions
       travelled_m = 0;
       before = nullptr;
     }
-    if (before != nullptr) travelled_m += std::hypot(here.x - before->x, here.y - before->y);
+    if (before != nullptr) travelled_m += portable::hypot(here.x - before->x, here.y - before->y);
     before = &here;
     const MapView* last = views.empty() || views.back().run != run ? nullptr : &views.back();
     if (last != nullptr && travelled_m - last->travelled_m < options.step_m &&

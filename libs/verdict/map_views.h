@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "frames/pose_operations.h"
 #include "matching/surface_alignment.h"
 #include "psi_slam/mapping_result.h"
 
@@ -29,7 +30,7 @@ struct MapView {
   const LaserScan* scan = nullptr;
   SurfacePoints surfaces;  ///< in the robot's frame
 
-  mrpt::math::TPose2D map_T_laser() const { return map_T_robot + scan->robot_T_laser; }
+  mrpt::math::TPose2D map_T_laser() const { return compose(map_T_robot, scan->robot_T_laser); }
 };
 
 /// Returns the view of one frame of a map, with run and travelled_m 0. Empty for a frame without ranges, and

@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "matching/point_index.h"
 
 namespace psi_slam {
@@ -32,7 +33,7 @@ bool is_alignment_judged(const ScanComparison& scans, const PassCheckOptions& op
 double estimated_error_m(const ScanComparison& scans, const PassCheckOptions& options) {
   const bool judged = is_alignment_judged(scans, options);
   const double same = judged ? scans.same_if_moved : 1 - scans.seen_through_share();
-  const double moved_m = std::hypot(scans.displacement_m, options.lever_m * scans.turn_rad);
+  const double moved_m = portable::hypot(scans.displacement_m, options.lever_m * scans.turn_rad);
   if (same >= kFits) return judged ? std::min(moved_m, options.unknown_m) : 0;
   // Doors and furniture that moved lower the shares of true pairs, so the error grows with the misfit.
   return options.unknown_m * std::clamp((kFits - same) / (kFits - 0.5), 0.0, 1.0);
@@ -64,7 +65,7 @@ std::vector<std::size_t> views_of_other_passes(std::size_t view, const std::vect
     if (!are_different_passes(here, there, options.pass_apart_m)) continue;
     const double turn_rad = std::abs(mrpt::math::wrapToPi(there.map_T_robot.phi - here.map_T_robot.phi));
     near.emplace_back(
-        std::hypot(there.map_T_robot.x - here.map_T_robot.x, there.map_T_robot.y - here.map_T_robot.y) +
+        portable::hypot(there.map_T_robot.x - here.map_T_robot.x, there.map_T_robot.y - here.map_T_robot.y) +
             turn_rad / kRadiansPerMetre,
         other);
   }

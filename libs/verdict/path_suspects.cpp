@@ -7,13 +7,16 @@
 #include <cmath>
 #include <limits>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
+
 namespace psi_slam {
 namespace {
 
 /// Motion by odometry between two successive frames, metres; turns count with a lever of 1 m.
 double motion_m(const FrameRecord& from, const FrameRecord& to) {
-  const mrpt::math::TPose2D step = to.odom_T_robot - from.odom_T_robot;
-  return std::hypot(step.x, step.y) + std::abs(mrpt::math::wrapToPi(step.phi));
+  const mrpt::math::TPose2D step = between(from.odom_T_robot, to.odom_T_robot);
+  return portable::hypot(step.x, step.y) + std::abs(mrpt::math::wrapToPi(step.phi));
 }
 
 constexpr double kLeastGap_s = 2;

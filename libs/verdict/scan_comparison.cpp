@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 
 namespace psi_slam {
@@ -81,8 +82,8 @@ class Comparison {
       : view_(view), fan_(*other.scan), options_(options) {}
 
   std::vector<Sighting> sightings(const TPose2D& other_T_robot) const {
-    const double c = std::cos(other_T_robot.phi);
-    const double s = std::sin(other_T_robot.phi);
+    const double c = portable::cos(other_T_robot.phi);
+    const double s = portable::sin(other_T_robot.phi);
     std::vector<Sighting> seen;
     for (std::size_t i = 0; i < view_.surfaces.points.size(); ++i) {
       const auto px = static_cast<double>(view_.surfaces.points[i].x);
@@ -96,7 +97,7 @@ class Comparison {
       if (range_m < options_.margin_m || range_m > options_.max_range_m) continue;
       const double incidence = -one.normal.dot(one.point) / range_m;
       if (incidence < options_.least_incidence) continue;  // seen from behind, or at a grazing angle
-      const std::optional<BeamRanges> beams = fan_.towards(std::atan2(one.point.y(), one.point.x()));
+      const std::optional<BeamRanges> beams = fan_.towards(portable::atan2(one.point.y(), one.point.x()));
       if (!beams) continue;
       one.offset_m = -(beams->nearest_m - range_m) * incidence;
       one.behind_m = (beams->shortest_m - range_m) * incidence;
@@ -124,9 +125,9 @@ class Comparison {
       gradient += weight * one.offset_m * jacobian;
     }
     information += kPriorPoints * Eigen::Matrix3d::Identity();
-    const TPose2D back = start - other_T_robot;
-    const double c = std::cos(other_T_robot.phi);
-    const double s = std::sin(other_T_robot.phi);
+    const TPose2D back = between(other_T_robot, start);
+    const double c = portable::cos(other_T_robot.phi);
+    const double s = portable::sin(other_T_robot.phi);
     gradient += kPriorPoints * Eigen::Vector3d(c * back.x - s * back.y, s * back.x + c * back.y, back.phi);
     const Eigen::Vector3d move = information.ldlt().solve(gradient);
     return {other_T_robot.x + move.x(), other_T_robot.y + move.y(),
@@ -161,7 +162,7 @@ std::optional<Eigen::Vector2d> middle_of_faults(const Comparison& comparison,
 ScanComparison compare_scans(const MapView& view, const MapView& other,
                              const ScanComparisonOptions& options) {
   const Comparison comparison(view, other, options);
-  const TPose2D start = view.map_T_robot - other.map_T_laser();
+  const TPose2D start = between(other.map_T_laser(), view.map_T_robot);
   const std::vector<Sighting> seen = comparison.sightings(start);
   ScanComparison result;
   result.points = seen.size();
@@ -177,12 +178,12 @@ ScanComparison compare_scans(const MapView& view, const MapView& other,
     result.offset_m = *middle;
   }
   const Eigen::Vector2d at = middle_of_faults(comparison, seen).value_or(Eigen::Vector2d(start.x, start.y));
-  const TPose2D placed = other.map_T_laser() + TPose2D(at.x(), at.y(), 0);
+  const TPose2D placed = compose(other.map_T_laser(), TPose2D(at.x(), at.y(), 0));
   result.at = {placed.x, placed.y};
 
   TPose2D moved = start;
   for (const double kernel_m : kKernels_m) moved = comparison.step(moved, kernel_m, start);
-  result.displacement_m = std::hypot(moved.x - start.x, moved.y - start.y);
+  result.displacement_m = portable::hypot(moved.x - start.x, moved.y - start.y);
   result.turn_rad = std::abs(mrpt::math::wrapToPi(moved.phi - start.phi));
   std::size_t same = 0;
   std::size_t through = 0;

@@ -18,6 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "local_maps/scan_filter.h"
 #include "report/drawn_loops.h"
 #include "view/palette.h"
@@ -180,15 +182,15 @@ void add_window(CSetOfLines& lines, const TPose2D& map_T_middle, const SearchExt
                                         TPoint2D(extent.x_m, -extent.y_m)};
   const auto line = [&](const TPoint2D& a, const TPoint2D& b) { join(lines, a, b, height_m::kWindows); };
   for (std::size_t i = 0; i < corners.size(); ++i)
-    line(map_T_middle.composePoint(corners[i]), map_T_middle.composePoint(corners[(i + 1) % corners.size()]));
+    line(transform(map_T_middle, corners[i]), transform(map_T_middle, corners[(i + 1) % corners.size()]));
   const double reach_m = std::max(extent.x_m, extent.y_m);
   for (const double turn_rad : {-extent.theta_rad, extent.theta_rad})
     line({map_T_middle.x, map_T_middle.y},
-         map_T_middle.composePoint({reach_m * std::cos(turn_rad), reach_m * std::sin(turn_rad)}));
+         transform(map_T_middle, {reach_m * portable::cos(turn_rad), reach_m * portable::sin(turn_rad)}));
 }
 
 void add_loop_window(CSetOfLines& lines, const ReplaySnapshot& snapshot, const LoopRecord& loop) {
-  add_window(lines, snapshot.map_T_node->at(loop.anchor) + loop.anchor_T_predicted, loop.window);
+  add_window(lines, compose(snapshot.map_T_node->at(loop.anchor), loop.anchor_T_predicted), loop.window);
 }
 
 }  // namespace
@@ -241,7 +243,8 @@ void draw_odometry(SceneLayer& layer, const ReplaySnapshot& snapshot) {
   const FrameRecord& first = snapshot.frames[0];
   for (std::size_t i = 0; i < snapshot.frames.size(); ++i) {
     if (starts_run(snapshot, i)) last.reset();
-    extend(*lines, last, first.map_T_robot + (snapshot.frames[i].odom_T_robot - first.odom_T_robot),
+    extend(*lines, last,
+           compose(first.map_T_robot, between(first.odom_T_robot, snapshot.frames[i].odom_T_robot)),
            height_m::kOdometry);
   }
   layer.insert(lines);
@@ -298,7 +301,7 @@ void draw_uncertainty(SceneLayer& layer, const ReplaySnapshot& snapshot) {
         axes.eigenvectors() * (kChiSquare95 * axes.eigenvalues().cwiseMax(0)).cwiseSqrt().asDiagonal();
     const auto corner = [&](int i) {
       const double angle = 2 * M_PI * i / kEllipseSides;
-      const Eigen::Vector2d offset = radii_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      const Eigen::Vector2d offset = radii_m * Eigen::Vector2d(portable::cos(angle), portable::sin(angle));
       return TPoint2D(middle.x + offset.x(), middle.y + offset.y());
     };
     for (int i = 0; i < kEllipseSides; ++i) join(*lines, corner(i), corner(i + 1), height_m::kUncertainty);
@@ -315,7 +318,7 @@ void draw_hot_spots(SceneLayer& layer, const ReplaySnapshot& snapshot) {
     auto ring = lines_of(palette::kHotSpot, width);
     const auto corner = [&](int i) {
       const double angle = 2 * M_PI * i / kRingSides;
-      return TPoint2D(spot.at.x + kRing_m * std::cos(angle), spot.at.y + kRing_m * std::sin(angle));
+      return TPoint2D(spot.at.x + kRing_m * portable::cos(angle), spot.at.y + kRing_m * portable::sin(angle));
     };
     for (int i = 0; i < kRingSides; ++i) join(*ring, corner(i), corner(i + 1), height_m::kHotSpots);
     layer.insert(ring);
@@ -383,9 +386,9 @@ void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::si
 void draw_robot(SceneLayer& layer, const TPose2D& map_T_robot) {
   auto triangles = mrpt::opengl::CSetOfTriangles::Create();
   triangles->enableLight(false);
-  mrpt::opengl::TTriangle arrow(raised(map_T_robot.composePoint({kNose_m, 0}), height_m::kRobot),
-                                raised(map_T_robot.composePoint({kTail_m, kHalfWidth_m}), height_m::kRobot),
-                                raised(map_T_robot.composePoint({kTail_m, -kHalfWidth_m}), height_m::kRobot));
+  mrpt::opengl::TTriangle arrow(raised(transform(map_T_robot, {kNose_m, 0}), height_m::kRobot),
+                                raised(transform(map_T_robot, {kTail_m, kHalfWidth_m}), height_m::kRobot),
+                                raised(transform(map_T_robot, {kTail_m, -kHalfWidth_m}), height_m::kRobot));
   arrow.setColor(mrpt::img::TColor(palette::kRobot));
   triangles->insertTriangle(arrow);
   layer.insert(triangles);
@@ -399,7 +402,7 @@ void draw_scan(SceneLayer& layer, const Frame& frame, const TPose2D& map_T_robot
     all.max_range_m = std::max(all.max_range_m, static_cast<double>(companion.scan.max_range_m));
   std::vector<TPoint3D> points;
   for (const mrpt::math::TPoint2Df& point : matching_points(frame, all).points)
-    points.push_back(raised(map_T_robot.composePoint(point), height_m::kScan));
+    points.push_back(raised(transform(map_T_robot, point), height_m::kScan));
   if (!points.empty()) layer.insert(dots_of(points, palette::kScan, 3));  // MRPT cannot draw zero points
 }
 
@@ -407,8 +410,8 @@ void draw_windows(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t
   auto lines = lines_of(palette::kWindow, 1.5F);
   if (frame > 0) {  // the front end searches around the pose that odometry predicts
     const FrameRecord& record = snapshot.frames[frame];
-    const TPose2D motion = record.odom_T_robot - snapshot.frames[frame - 1].odom_T_robot;
-    add_window(*lines, map_T_frame(snapshot, frame - 1) + motion, record.window);
+    const TPose2D motion = between(snapshot.frames[frame - 1].odom_T_robot, record.odom_T_robot);
+    add_window(*lines, compose(map_T_frame(snapshot, frame - 1), motion), record.window);
   }
   for (const LoopRecord& loop : *snapshot.loops)
     if (loop.frame == frame && !loop.in_final_search) add_loop_window(*lines, snapshot, loop);

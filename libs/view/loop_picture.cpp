@@ -4,9 +4,10 @@
 #include <mrpt/math/TBoundingBox.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "pose_graph/constraint_error.h"
 
 namespace psi_slam {
@@ -20,7 +21,7 @@ constexpr int kDarkerByPoint = 75;
 std::vector<mrpt::math::TPoint2D> placed(const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot) {
   std::vector<mrpt::math::TPoint2D> points;
   points.reserve(scan.points.size());
-  for (const mrpt::math::TPoint2Df& point : scan.points) points.push_back(map_T_robot.composePoint(point));
+  for (const mrpt::math::TPoint2Df& point : scan.points) points.push_back(transform(map_T_robot, point));
   return points;
 }
 
@@ -30,7 +31,7 @@ std::vector<mrpt::math::TPoint2D> points_of(const LocalMapRecord& map, const His
   const mrpt::math::TPose2D local_T_map = nodes[map.anchor].local_T_robot;
   for (std::size_t node = map.first_node; node <= map.last_node && node < nodes.size(); ++node)
     for (const mrpt::math::TPoint2D& point :
-         placed(*nodes[node].points, nodes[node].local_T_robot - local_T_map))
+         placed(*nodes[node].points, between(local_T_map, nodes[node].local_T_robot)))
       points.push_back(point);
   return points;
 }
@@ -75,7 +76,7 @@ std::optional<LoopPicture> loop_picture(const ReplaySnapshot& snapshot, std::siz
 double loop_residual_m(const LoopRecord& loop, const std::vector<mrpt::math::TPose2D>& map_T_node) {
   const Eigen::Vector3d error = constraint_error(loop.anchor_T_node, RotatedPose(map_T_node.at(loop.anchor)),
                                                  RotatedPose(map_T_node.at(loop.node)));
-  return std::hypot(error.x(), error.y());
+  return portable::hypot(error.x(), error.y());
 }
 
 }  // namespace psi_slam

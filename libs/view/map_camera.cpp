@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable_math.h"
+
 namespace psi_slam {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr double kMargin = 1.08;
 constexpr double kNearest_m = 2;
 
 double half_tangent(const MapCamera& camera) {
-  return std::tan(camera.field_of_view_deg * M_PI / 360);
+  return portable::tan(camera.field_of_view_deg * M_PI / 360);
 }
 
 }  // namespace
@@ -22,9 +24,9 @@ std::optional<mrpt::math::TPoint2D> ground_at(const MapCamera& camera, const mrp
                                               double x_px, double y_px) {
   const double azimuth = camera.azimuth_deg * M_PI / 180;
   const double elevation = camera.elevation_deg * M_PI / 180;
-  const Eigen::Vector3d to_eye(std::cos(azimuth) * std::cos(elevation),
-                               std::sin(azimuth) * std::cos(elevation), std::sin(elevation));
-  const Eigen::Vector3d right(-std::sin(azimuth), std::cos(azimuth), 0);
+  const Eigen::Vector3d to_eye(portable::cos(azimuth) * portable::cos(elevation),
+                               portable::sin(azimuth) * portable::cos(elevation), portable::sin(elevation));
+  const Eigen::Vector3d right(-portable::sin(azimuth), portable::cos(azimuth), 0);
   const Eigen::Vector3d up = to_eye.cross(right);
   const double scale = half_tangent(camera);
   const double aspect = static_cast<double>(size.x) / std::max(1, size.y);
@@ -40,7 +42,7 @@ std::optional<mrpt::math::TPoint2D> ground_at(const MapCamera& camera, const mrp
 double ground_pixel_m(const MapCamera& camera, const mrpt::img::TImageSize& size) {
   constexpr double kLeastSine = 0.1;  // a camera at the horizon sees without end
   const double across_m = 2 * camera.distance_m * half_tangent(camera) / std::max(1, size.y);
-  return across_m / std::max(kLeastSine, std::sin(camera.elevation_deg * M_PI / 180));
+  return across_m / std::max(kLeastSine, portable::sin(camera.elevation_deg * M_PI / 180));
 }
 
 MapCamera camera_above(const MapRectangle& rectangle, const mrpt::img::TImageSize& size) {

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/portable_math.h"
+
 namespace psi_slam {
 namespace {
 
@@ -23,7 +25,7 @@ int ink(const std::uint8_t* pixel) {
 
 int raster_level(double resolution_m, double pixel_m) {
   if (!(pixel_m > 0) || !(resolution_m > 0)) return 0;
-  const double level = std::ceil(std::log2(pixel_m / resolution_m) - kTolerance);
+  const double level = std::ceil(portable::log2(pixel_m / resolution_m) - kTolerance);
   return static_cast<int>(std::clamp(level, 0.0, static_cast<double>(kMostLevels)));
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "report/html_text.h"
 
 namespace psi_slam {
@@ -18,13 +19,13 @@ struct LogAxis {
   double high = 1;
 
   /// Position of a value: 0 at `low`, 1 at `high`.
-  double position(double value) const { return std::log(value / low) / std::log(high / low); }
+  double position(double value) const { return portable::log(value / low) / portable::log(high / low); }
 
   /// Calls draw(value, label) for each decade.
   template <class Draw>
   void for_each_decade(const std::string& unit, const Draw& draw) const {
     for (double value = low; value <= high * 1.001; value *= 10) {
-      const int decimals = std::max(0, static_cast<int>(std::lround(-std::log10(value))));
+      const int decimals = std::max(0, static_cast<int>(std::lround(-portable::log10(value))));
       draw(value, fixed_text(value, decimals) + ' ' + unit);
     }
   }
@@ -44,7 +45,8 @@ struct PositiveRange {
   /// Axis over the range; from 0.1 to 1 if no positive value was added.
   LogAxis axis() const {
     if (!(most > 0)) return {};
-    LogAxis axis{std::pow(10, std::floor(std::log10(least))), std::pow(10, std::ceil(std::log10(most)))};
+    LogAxis axis{portable::pow(10, std::floor(portable::log10(least))),
+                 portable::pow(10, std::ceil(portable::log10(most)))};
     if (axis.high <= axis.low) axis.high = 10 * axis.low;
     return axis;
   }

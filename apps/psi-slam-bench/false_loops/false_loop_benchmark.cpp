@@ -9,7 +9,9 @@
 #include <set>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "base/random_draws.h"
+#include "frames/pose_operations.h"
 #include "loop_closure/outlier_loops.h"
 #include "mapping/carried_frames.h"
 #include "psi_slam/open_log.h"
@@ -41,13 +43,14 @@ Material material_of(const PoseGraph& graph) {
 TPose2D draw_place(double reach_m, RandomDraws& draws) {
   const double radius_m = reach_m * std::sqrt(draws.share());
   const double direction = draws.plus_minus(M_PI);
-  return {radius_m * std::cos(direction), radius_m * std::sin(direction), draws.plus_minus(M_PI)};
+  return {radius_m * portable::cos(direction), radius_m * portable::sin(direction), draws.plus_minus(M_PI)};
 }
 
 bool is_false(const TPose2D& place, const TPose2D& truth, const FalseLoopOptions& options) {
-  TPose2D error = place - truth;
+  TPose2D error = between(truth, place);
   error.normalizePhi();
-  return std::hypot(error.x, error.y) >= options.min_error_m || std::abs(error.phi) >= options.min_error_rad;
+  return portable::hypot(error.x, error.y) >= options.min_error_m ||
+         std::abs(error.phi) >= options.min_error_rad;
 }
 
 /// Draws loops that join one node, or a group of successive nodes, to one random pose near a random anchor.
@@ -65,7 +68,7 @@ std::vector<Constraint> draw_elsewhere(const Material& material, const std::vect
     Constraint loop;
     loop.from = anchor;
     loop.to = node;
-    loop.from_T_to = place + (map_T_node[node] - map_T_node[first]);
+    loop.from_T_to = compose(place, between(map_T_node[first], map_T_node[node]));
     loop.information = material.loops[draws.index(material.loops.size())].information;
     loops.push_back(loop);
   }
@@ -76,8 +79,9 @@ Constraint draw_nearby(const Material& material, const FalseLoopOptions& options
   Constraint loop = material.loops[draws.index(material.loops.size())];
   const double off_m = options.min_error_m + draws.share() * (options.nearby_m - options.min_error_m);
   const double direction = draws.plus_minus(M_PI);
-  loop.from_T_to = loop.from_T_to + TPose2D(off_m * std::cos(direction), off_m * std::sin(direction),
-                                            draws.plus_minus(options.min_error_rad));
+  loop.from_T_to =
+      compose(loop.from_T_to, TPose2D(off_m * portable::cos(direction), off_m * portable::sin(direction),
+                                      draws.plus_minus(options.min_error_rad)));
   return loop;
 }
 
@@ -127,8 +131,9 @@ std::vector<std::size_t> add_false_loops(PoseGraph& graph, const std::vector<TPo
     for (Constraint& loop : loops) {
       loop.from_T_to.normalizePhi();
       loop.kind = Constraint::Kind::kLoop;
-      const bool wrong = loop.from != loop.to &&
-                         is_false(loop.from_T_to, map_T_node[loop.to] - map_T_node[loop.from], options);
+      const bool wrong =
+          loop.from != loop.to &&
+          is_false(loop.from_T_to, between(map_T_node[loop.from], map_T_node[loop.to]), options);
       if (wrong && added.size() < options.count) added.push_back(graph.add_constraint(loop));
     }
   }

@@ -18,6 +18,7 @@
 #include "batch/child_process.h"
 #include "batch/kept_run.h"
 #include "common/bench_report.h"
+#include "frames/pose_operations.h"
 #include "freiburg/freiburg_benchmark.h"
 #include "observations/mrpt_objects.h"
 #include "psi_slam/open_log.h"
@@ -203,8 +204,9 @@ std::vector<TimeUs> write_baseline_log(FrameSource& source, const std::filesyste
     mrpt::math::TPose2D odom_T_last;
     while (const std::optional<Frame> frame = source.next()) {
       if (stop()) throw SystemFailure("interrupted");
-      const mrpt::math::TPose2D motion =
-          times.empty() || !frame->has_odometry ? mrpt::math::TPose2D() : frame->odom_T_robot - odom_T_last;
+      const mrpt::math::TPose2D motion = times.empty() || !frame->has_odometry
+                                             ? mrpt::math::TPose2D()
+                                             : between(odom_T_last, frame->odom_T_robot);
       odom_T_last = frame->odom_T_robot;
       mrpt::obs::CSensoryFrame observations;
       for (const auto& observation : range_observations(*frame)) observations.insert(observation);

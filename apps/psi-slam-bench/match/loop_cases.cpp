@@ -6,7 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "base/random_draws.h"
+#include "frames/pose_operations.h"
 #include "loop_closure/scan_context.h"
 #include "psi_slam/open_log.h"
 
@@ -66,13 +68,13 @@ TPose2D draw_start(const MappedLog& log, const LoopCase& loop_case, const CaseOp
   TPose2D start = loop_case.anchor_T_node;
   if (!loop_case.positive) {
     const std::size_t other = map.first_node + draws.index(map.last_node - map.first_node + 1);
-    start = log.map_T_node[other] - log.map_T_node[map.anchor];
+    start = between(log.map_T_node[map.anchor], log.map_T_node[other]);
     start.phi = draws.plus_minus(M_PI);
   }
   const double radius_m = options.start_share * options.window_m * std::sqrt(draws.share());
   const double direction = draws.plus_minus(M_PI);
-  start.x += radius_m * std::cos(direction);
-  start.y += radius_m * std::sin(direction);
+  start.x += radius_m * portable::cos(direction);
+  start.y += radius_m * portable::sin(direction);
   start.phi += draws.plus_minus(options.turn_share * options.window_rad);
   start.normalizePhi();
   return start;
@@ -95,7 +97,7 @@ void draw(const MappedLog& log, const CaseOptions& options, bool positive, std::
     loop_case.scan = options.context ? std::make_shared<const ScanPoints>(scan_context(
                                            node, log.memory, log.options.back_end.loop_closure.context))
                                      : log.memory.nodes[node].points;
-    loop_case.anchor_T_node = log.map_T_node[node] - log.map_T_node[map.anchor];
+    loop_case.anchor_T_node = between(log.map_T_node[map.anchor], log.map_T_node[node]);
     loop_case.seed = {options.seed, log.memory.nodes[node].frame, map.id};
     if (!can_be_searched(*loop_case.scan, *loop_case.map, options)) continue;
     if (positive && !shares_space(loop_case, options)) continue;

@@ -12,6 +12,8 @@
 #include <numeric>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "matching/make_matcher.h"
 #include "psi_slam/user_error.h"
 
@@ -203,9 +205,9 @@ Judgement judge(const LoopCase& loop_case, const MatchResult& match, const Match
                 double accepted_response) {
   Judgement judgement;
   if (loop_case.positive) {
-    const mrpt::math::TPose2D off = match.map_T_robot - loop_case.anchor_T_node;
+    const mrpt::math::TPose2D off = between(loop_case.anchor_T_node, match.map_T_robot);
     judgement.success =
-        match.found && std::hypot(off.x, off.y) <= kSuccess_m && std::abs(off.phi) <= kSuccess_rad;
+        match.found && portable::hypot(off.x, off.y) <= kSuccess_m && std::abs(off.phi) <= kSuccess_rad;
     judgement.same_optimum = match.found == exact.found && (!match.found || match.response >= exact.response);
   } else {
     judgement.false_accept = match.found && match.response >= accepted_response;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/portable_math.h"
 #include "match/match_benchmark.h"
 
 #include <cmath>
@@ -16,7 +17,7 @@ using Json = nlohmann::ordered_json;
 /// The value rounded to `decimals`; null if it is missing or not finite.
 Json rounded(const std::optional<double>& value, int decimals) {
   if (!value || !std::isfinite(*value)) return nullptr;
-  const double scale = std::pow(10.0, decimals);
+  const double scale = portable::pow(10.0, decimals);
   return std::round(*value * scale) / scale;
 }
 

@@ -12,8 +12,10 @@
 
 #include "base/degrees.h"
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "evaluation/loop_judgement.h"
 #include "exports/unmatched_scans.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/open_log.h"
 
 namespace psi_slam {
@@ -34,10 +36,10 @@ struct Stretch {
   double off_rad = 0;
 
   void add(const TPose2D& odometry_motion, const TPose2D& map_motion, double map_heading_rad) {
-    way_m += std::hypot(odometry_motion.x, odometry_motion.y);
+    way_m += portable::hypot(odometry_motion.x, odometry_motion.y);
     turn_rad += std::abs(mrpt::math::wrapToPi(odometry_motion.phi));
-    const TPose2D off = TPose2D(0, 0, map_heading_rad) +
-                        TPose2D(odometry_motion.x - map_motion.x, odometry_motion.y - map_motion.y, 0);
+    const TPose2D off = compose(TPose2D(0, 0, map_heading_rad), TPose2D(odometry_motion.x - map_motion.x,
+                                                                        odometry_motion.y - map_motion.y, 0));
     off_x_m += off.x;
     off_y_m += off.y;
     off_rad += mrpt::math::wrapToPi(odometry_motion.phi - map_motion.phi);
@@ -49,7 +51,7 @@ std::vector<Stretch> stretches_of(const std::vector<TPose2D>& odom_T_robot,
   std::vector<Stretch> stretches;
   Stretch stretch;
   for (std::size_t i = 1; i < map_T_robot.size(); ++i) {
-    stretch.add(odom_T_robot[i] - odom_T_robot[i - 1], map_T_robot[i] - map_T_robot[i - 1],
+    stretch.add(between(odom_T_robot[i - 1], odom_T_robot[i]), between(map_T_robot[i - 1], map_T_robot[i]),
                 map_T_robot[i - 1].phi);
     if (stretch.way_m < kStretch_m && stretch.turn_rad < kStretch_rad) continue;
     stretches.push_back(stretch);
@@ -177,16 +179,16 @@ void DegradedSource::spoil_odometry(Frame& frame) {
   } else {
     const double share = std::sqrt(options_.odometry_noise_scale * options_.odometry_noise_scale - 1);
     const OdometryNoise& natural = options_.natural_noise;
-    TPose2D motion = odom_T_robot - *last_odom_T_robot_;
-    const double way_m = std::hypot(motion.x, motion.y);
+    TPose2D motion = between(*last_odom_T_robot_, odom_T_robot);
+    const double way_m = portable::hypot(motion.x, motion.y);
     const double turn_rad = std::abs(mrpt::math::wrapToPi(motion.phi));
     const double sigma_m = share * natural.sigma_m_per_root_m * std::sqrt(way_m);
-    const double sigma_rad = share * std::hypot(natural.sigma_rad_per_root_m * std::sqrt(way_m),
-                                                natural.sigma_rad_per_root_rad * std::sqrt(turn_rad));
+    const double sigma_rad = share * portable::hypot(natural.sigma_rad_per_root_m * std::sqrt(way_m),
+                                                     natural.sigma_rad_per_root_rad * std::sqrt(turn_rad));
     motion.x += sigma_m * draws_.normal();
     motion.y += sigma_m * draws_.normal();
     motion.phi += sigma_rad * draws_.normal();
-    spoilt_odom_T_robot_ = spoilt_odom_T_robot_ + motion;
+    spoilt_odom_T_robot_ = compose(spoilt_odom_T_robot_, motion);
     spoilt_odom_T_robot_.normalizePhi();
   }
   last_odom_T_robot_ = odom_T_robot;

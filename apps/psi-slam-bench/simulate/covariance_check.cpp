@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/random_draws.h"
+#include "frames/pose_operations.h"
 #include "pose_graph/constraint_error.h"
 #include "pose_graph/marginal_covariance.h"
 #include "pose_graph/path_covariance.h"
@@ -50,7 +51,7 @@ PairSquares squares_of_pairs(const PoseGraph& graph, const TruePose& a_T_b, std:
     const std::vector<Eigen::Matrix3d> covariances = of_graph.relative(a, others);
     of_path.run(graph, a);
     for (std::size_t k = 0; k < others.size(); ++k) {
-      const TPose2D found = graph.pose(others[k]) - graph.pose(a);
+      const TPose2D found = between(graph.pose(a), graph.pose(others[k]));
       const TPose2D true_pose = a_T_b(a, others[k]);
       squares.whole_graph.push_back(normalised_square(found, true_pose, covariances[k].inverse()));
       const RelativeUncertainty along_path = of_path.of(others[k]);
@@ -75,7 +76,7 @@ ModelSquares squares_by_model(const PoseGraph& graph, const TruePose& a_T_b, std
   const auto add = [&](std::size_t a, const std::vector<std::size_t>& others, std::vector<double>& squares) {
     const std::vector<Eigen::Matrix3d> covariances = of_model.relative(a, others);
     for (std::size_t k = 0; k < others.size(); ++k)
-      squares.push_back(normalised_square(graph.pose(others[k]) - graph.pose(a), a_T_b(a, others[k]),
+      squares.push_back(normalised_square(between(graph.pose(a), graph.pose(others[k])), a_T_b(a, others[k]),
                                           covariances[k].inverse()));
   };
   ModelSquares squares;
@@ -124,7 +125,7 @@ std::vector<NormalisedErrors> check_covariances(const MappingResult& result, con
                                                 std::uint64_t seed) {
   PoseGraph graph = result.graph;
   const TruePose a_T_b = [&](std::size_t a, std::size_t b) {
-    return truth[result.node_frames[b]].pose - truth[result.node_frames[a]].pose;
+    return between(truth[result.node_frames[a]].pose, truth[result.node_frames[b]].pose);
   };
   std::set<std::pair<std::size_t, std::size_t>> loops;
   for (const LoopRecord& loop : result.loops)

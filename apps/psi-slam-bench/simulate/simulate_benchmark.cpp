@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "base/portable_math.h"
 #include "common/benchmark_logs.h"
 #include "exports/run_summary.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/mapper.h"
 #include "session/settings.h"
 #include "simulate/forked_work.h"
@@ -90,7 +92,7 @@ std::vector<Relation> draw_relations(const Trajectory& truth, std::size_t count,
   while (relations.size() < count) {
     const StampedPose& first = truth[random.index(truth.size())];
     const StampedPose& second = truth[random.index(truth.size())];
-    relations.push_back({first.time_us, second.time_us, second.pose - first.pose});
+    relations.push_back({first.time_us, second.time_us, between(first.pose, second.pose)});
   }
   return relations;
 }
@@ -98,9 +100,9 @@ std::vector<Relation> draw_relations(const Trajectory& truth, std::size_t count,
 ErrorSummary trajectory_error_m(const std::vector<TPose2D>& path, const Trajectory& truth) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const TPose2D there = path[i] - path.front();
-    const TPose2D truly = truth[i].pose - truth.front().pose;
-    errors.push_back(std::hypot(there.x - truly.x, there.y - truly.y));
+    const TPose2D there = between(path.front(), path[i]);
+    const TPose2D truly = between(truth.front().pose, truth[i].pose);
+    errors.push_back(portable::hypot(there.x - truly.x, there.y - truly.y));
   }
   return summarize(std::move(errors));
 }
@@ -109,9 +111,10 @@ std::size_t count_false_loops(const MappingResult& result, const Trajectory& tru
   return static_cast<std::size_t>(
       std::count_if(result.loops.begin(), result.loops.end(), [&](const LoopRecord& loop) {
         if (loop.verdict != LoopVerdict::kAccepted) return false;
-        const TPose2D anchor_T_node = truth[loop.frame].pose - truth[result.node_frames[loop.anchor]].pose;
-        const TPose2D off = loop.anchor_T_node - anchor_T_node;
-        return std::hypot(off.x, off.y) > kFalseLoop_m ||
+        const TPose2D anchor_T_node =
+            between(truth[result.node_frames[loop.anchor]].pose, truth[loop.frame].pose);
+        const TPose2D off = between(anchor_T_node, loop.anchor_T_node);
+        return portable::hypot(off.x, off.y) > kFalseLoop_m ||
                std::abs(std::remainder(off.phi, 2 * M_PI)) > kFalseLoop_deg * M_PI / 180;
       }));
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -13,6 +12,7 @@
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "common/bench_command.h"
 #include "compression/compression.h"
 #include "exports/corrected_log.h"
@@ -75,7 +75,7 @@ std::string path_svg(const Trajectory& truth) {
   mrpt::math::TPoint2D last(std::numeric_limits<double>::infinity(), 0);
   for (const StampedPose& stamped : truth) {
     const mrpt::math::TPoint2D here(stamped.pose.x, stamped.pose.y);
-    if (std::hypot(here.x - last.x, here.y - last.y) < kBetweenPoints_m) continue;
+    if (portable::hypot(here.x - last.x, here.y - last.y) < kBetweenPoints_m) continue;
     last = here;
     points += (points.empty() ? "" : " ") + point_text(here);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/portable_math.h"
 #include "simulation/simulation_random.h"
 
 namespace psi_slam {
@@ -78,7 +79,7 @@ class Route {
 };
 
 double distance_m(const TPoint2D& a, const TPoint2D& b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
+  return portable::hypot(b.x - a.x, b.y - a.y);
 }
 
 }  // namespace
@@ -111,7 +112,7 @@ class RobotPath::Carrot {
     const double x = (to_.x - from_.x) / length;
     const double y = (to_.y - from_.y) / length;
     const double aside =
-        weave_m_ / 2 * (std::sin(run_m_ / 3.1 + phases_[0]) + std::sin(run_m_ / 1.3 + phases_[1]));
+        weave_m_ / 2 * (portable::sin(run_m_ / 3.1 + phases_[0]) + portable::sin(run_m_ / 1.3 + phases_[1]));
     return {from_.x + along_m_ * x - aside * y, from_.y + along_m_ * y + aside * x};
   }
 
@@ -131,7 +132,7 @@ RobotPath::RobotPath(const FloorPlan& plan, const RobotPathOptions& options)
   const TPoint2D start = carrot_->at();
   carrot_->run_ahead_of(start);
   const TPoint2D ahead = carrot_->at();
-  now_.world_T_robot = {start.x, start.y, std::atan2(ahead.y - start.y, ahead.x - start.x)};
+  now_.world_T_robot = {start.x, start.y, portable::atan2(ahead.y - start.y, ahead.x - start.x)};
 }
 
 RobotPath::~RobotPath() = default;
@@ -152,15 +153,15 @@ void RobotPath::advance(double duration_s) {
   mrpt::math::TPose2D& pose = now_.world_T_robot;
   carrot_->run_ahead_of({pose.x, pose.y});
   const TPoint2D ahead = carrot_->at();
-  const double off = std::remainder(std::atan2(ahead.y - pose.y, ahead.x - pose.x) - pose.phi, 2 * M_PI);
+  const double off = std::remainder(portable::atan2(ahead.y - pose.y, ahead.x - pose.x) - pose.phi, 2 * M_PI);
   const double turn = std::clamp(kTurnPerError * off, -options_.max_turn_rad_s, options_.max_turn_rad_s);
   const double wanted =
-      std::abs(off) > kTurnOnTheSpot_rad ? 0 : options_.max_speed_m_s * std::pow(std::cos(off), 4);
+      std::abs(off) > kTurnOnTheSpot_rad ? 0 : options_.max_speed_m_s * portable::pow(portable::cos(off), 4);
   const double change = options_.max_acceleration_m_s2 * duration_s;
   speed_m_s_ = std::clamp(wanted, std::max(0.0, speed_m_s_ - 3 * change), speed_m_s_ + change);
   const double way_m = speed_m_s_ * duration_s;
   const double heading = pose.phi + turn * duration_s / 2;
-  pose = {pose.x + way_m * std::cos(heading), pose.y + way_m * std::sin(heading),
+  pose = {pose.x + way_m * portable::cos(heading), pose.y + way_m * portable::sin(heading),
           std::remainder(pose.phi + turn * duration_s, 2 * M_PI)};
   now_.travelled_m += way_m;
   now_.time_s += duration_s;

@@ -8,7 +8,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/portable_math.h"
 #include "frames/laser_readings.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -30,7 +32,7 @@ constexpr float kPassGlass = 0.35F;
 double range_to_circle_m(const TPose2D& ray, const TPoint2D& middle, double radius_m) {
   const double x = middle.x - ray.x;
   const double y = middle.y - ray.y;
-  const double along = x * std::cos(ray.phi) + y * std::sin(ray.phi);
+  const double along = x * portable::cos(ray.phi) + y * portable::sin(ray.phi);
   const double aside2 = x * x + y * y - along * along;
   const double half2 = radius_m * radius_m - aside2;
   if (half2 < 0 || x * x + y * y <= radius_m * radius_m || along <= 0)
@@ -40,7 +42,7 @@ double range_to_circle_m(const TPose2D& ray, const TPoint2D& middle, double radi
 
 /// Distance along the ray to a segment, in metres. Infinite if the ray misses the segment.
 double range_to_segment_m(const TPose2D& ray, const PlanSegment& segment) {
-  const TPoint2D direction(std::cos(ray.phi), std::sin(ray.phi));
+  const TPoint2D direction(portable::cos(ray.phi), portable::sin(ray.phi));
   const TPoint2D way = segment.to - segment.from;
   const TPoint2D off = segment.from - TPoint2D(ray.x, ray.y);
   const double determinant = direction.x * way.y - direction.y * way.x;
@@ -161,7 +163,7 @@ double ScanSimulator::plan_range_m(const TPose2D& ray, SimulationRandom& random)
 
 LaserScan ScanSimulator::scan(const TPose2D& world_T_robot, const std::vector<TPoint2D>& people,
                               std::uint64_t index, const std::vector<PlanSegment>& things) {
-  const TPose2D world_T_laser = world_T_robot + options_.robot_T_laser;
+  const TPose2D world_T_laser = compose(world_T_robot, options_.robot_T_laser);
   const TPoint2D here(world_T_laser.x, world_T_laser.y);
   if (!any_painted_ ||
       std::max(std::abs(here.x - painted_.x), std::abs(here.y - painted_.y)) > kRepaintAfter_m)

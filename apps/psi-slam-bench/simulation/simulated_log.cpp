@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "simulation/simulation_random.h"
 
@@ -26,7 +27,7 @@ WalkingPeople::WalkingPeople(const FloorPlan& plan, std::size_t count, std::uint
   for (std::size_t i = 0; i < count; ++i) {
     const Corridor& corridor = plan.corridors[random.index(plan.corridors.size())];
     const mrpt::math::TPoint2D way = corridor.to - corridor.from;
-    const double length = std::hypot(way.x, way.y);
+    const double length = portable::hypot(way.x, way.y);
     const double aside =
         random.between(-1, 1) * std::max(0.0, corridor.width_m / 2 - kFromWall_m - kPersonRadius_m);
     const mrpt::math::TPoint2D off(-aside * way.y / length, aside * way.x / length);
@@ -39,7 +40,7 @@ std::vector<mrpt::math::TPoint2D> WalkingPeople::at(double time_s) const {
   std::vector<mrpt::math::TPoint2D> points;
   for (const Person& person : people_) {
     const mrpt::math::TPoint2D way = person.to - person.from;
-    const double length = std::hypot(way.x, way.y);
+    const double length = portable::hypot(way.x, way.y);
     const double gone = std::fmod(person.start_m + person.speed_m_s * time_s, 2 * length);
     const double share = std::min(gone, 2 * length - gone) / length;
     points.push_back(person.from + way * share);
@@ -48,7 +49,7 @@ std::vector<mrpt::math::TPoint2D> WalkingPeople::at(double time_s) const {
 }
 
 mrpt::math::TPose2D WheelOdometry::move(const mrpt::math::TPose2D& before_T_now) {
-  const double way_m = std::hypot(before_T_now.x, before_T_now.y);
+  const double way_m = portable::hypot(before_T_now.x, before_T_now.y);
   const double turned_rad = std::abs(before_T_now.phi);
   const double root_m = std::sqrt(way_m);
   const double length_error_m = options_.sigma_m_per_root_m * root_m * random_.normal();
@@ -58,7 +59,7 @@ mrpt::math::TPose2D WheelOdometry::move(const mrpt::math::TPose2D& before_T_now)
   const double stretch = way_m > 0 ? 1 + longer_m / way_m : 1;
   const double turn = options_.turn_scale * before_T_now.phi + drift_rad + turn_error_rad;
   odom_T_robot_ =
-      odom_T_robot_ + mrpt::math::TPose2D(stretch * before_T_now.x, stretch * before_T_now.y, turn);
+      compose(odom_T_robot_, mrpt::math::TPose2D(stretch * before_T_now.x, stretch * before_T_now.y, turn));
   odom_T_robot_.normalizePhi();
   return odom_T_robot_;
 }
@@ -91,7 +92,8 @@ std::optional<SimulatedLog::Stop> SimulatedLog::next_stop() {
   const std::optional<PathPose> path = path_.next();
   if (!path) return std::nullopt;
   Stop stop{*path, {0, 0, 0}};
-  if (last_stop_) stop.odom_T_robot = odometry_.move(path->world_T_robot - last_stop_->path.world_T_robot);
+  if (last_stop_)
+    stop.odom_T_robot = odometry_.move(between(last_stop_->path.world_T_robot, path->world_T_robot));
   last_stop_ = stop;
   return stop;
 }
@@ -104,7 +106,8 @@ CompanionScan SimulatedLog::scan_between(std::size_t laser, const Stop& now, con
       interpolate(now.path.world_T_robot, next.path.world_T_robot, share);
   CompanionScan companion;
   companion.time_us = kStart_us + static_cast<TimeUs>(std::llround((now.path.time_s + delay_s) * 1e6));
-  companion.frame_T_robot = interpolate(now.odom_T_robot, next.odom_T_robot, share) - now.odom_T_robot;
+  companion.frame_T_robot =
+      between(now.odom_T_robot, interpolate(now.odom_T_robot, next.odom_T_robot, share));
   companion.scan =
       further_scanners_[laser].scan(world_T_robot, people_.at(now.path.time_s + delay_s), frames_);
   companion.scan.laser = laser + 1;

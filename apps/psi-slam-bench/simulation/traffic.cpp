@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "simulation/simulation_random.h"
 
 namespace psi_slam {
@@ -24,7 +26,7 @@ constexpr double kStridesPer_s = 0.9;
 /// Outline of a cart that stands along a wall of a corridor.
 std::vector<PlanSegment> cart_outline(const Corridor& corridor, SimulationRandom& random) {
   const TPoint2D way = corridor.to - corridor.from;
-  const double length_m = std::hypot(way.x, way.y);
+  const double length_m = portable::hypot(way.x, way.y);
   const TPoint2D along = way * (1 / length_m);
   const TPoint2D across(-along.y, along.x);
   const double from_m = random.between(0.1, 0.9) * (length_m - kCartLength_m);
@@ -62,15 +64,15 @@ TrafficNow Traffic::at(double time_s, const TPose2D& world_T_robot) const {
     const bool is_near =
         std::any_of(thing.outline.begin(), thing.outline.end(), [&](const PlanSegment& side) {
           const TPoint2D middle = (side.from + side.to) * 0.5;
-          return std::hypot(middle.x - world_T_robot.x, middle.y - world_T_robot.y) < kAway_m;
+          return portable::hypot(middle.x - world_T_robot.x, middle.y - world_T_robot.y) < kAway_m;
         });
     const bool is_there =
         thing.leaves ? time_s < 0.75 * options_.duration_s : time_s > 0.25 * options_.duration_s;
     if (is_there && !is_near) now.things.insert(now.things.end(), thing.outline.begin(), thing.outline.end());
   }
-  const double stride_m = kStride_m * std::sin(2 * M_PI * kStridesPer_s * time_s);
+  const double stride_m = kStride_m * portable::sin(2 * M_PI * kStridesPer_s * time_s);
   if (options_.has_operator)
-    now.people.push_back(world_T_robot.composePoint({kOperatorAhead_m + stride_m, kOperatorAside_m}));
+    now.people.push_back(transform(world_T_robot, {kOperatorAhead_m + stride_m, kOperatorAside_m}));
   return now;
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -22,7 +24,7 @@ StepThinnedSource::StepThinnedSource(std::unique_ptr<FrameSource> source, const 
 }
 
 bool StepThinnedSource::is_one_step(const TPose2D& motion) const {
-  return std::hypot(motion.x, motion.y) >= step_.distance_m ||
+  return portable::hypot(motion.x, motion.y) >= step_.distance_m ||
          std::abs(mrpt::math::wrapToPi(motion.phi)) >= step_.turn_rad;
 }
 
@@ -31,7 +33,7 @@ std::optional<Frame> StepThinnedSource::next() {
     if (!frame->has_odometry)
       throw UserError("scan " + std::to_string(frame->index) +
                       " has no odometry: only logs with odometry can be thinned. Name such logs with --logs");
-    const TPose2D motion = frame->odom_T_robot - odom_T_kept_;
+    const TPose2D motion = between(odom_T_kept_, frame->odom_T_robot);
     const bool keep = kept_ == 0 || is_one_step(motion);
     if (keep) {
       odom_T_kept_ = frame->odom_T_robot;
@@ -47,7 +49,7 @@ Trajectory put_poses_back(const std::vector<ThinnedScan>& scans, const std::vect
   Trajectory trajectory;
   trajectory.reserve(scans.size());
   for (const ThinnedScan& scan : scans)
-    trajectory.push_back({scan.time_us, map_T_kept.at(scan.kept) + scan.kept_T_scan});
+    trajectory.push_back({scan.time_us, compose(map_T_kept.at(scan.kept), scan.kept_T_scan)});
   return trajectory;
 }
 

@@ -7,7 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "exports/mapped_trajectory.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
@@ -39,7 +41,8 @@ Trajectory with_all_scans(const MappingResult& map, const KnownRun& run) {
     const std::size_t next = i + 1 < run.scans.size() ? run.scans[i + 1] : scan + 1;
     const std::size_t end = next - scan <= run.kept_every_nth ? next : scan + 1;
     for (std::size_t j = scan; j < end; ++j)
-      path.push_back({whole[j].time_us, map.frames[i].map_T_robot + (whole[j].pose - whole[scan].pose)});
+      path.push_back(
+          {whole[j].time_us, compose(map.frames[i].map_T_robot, between(whole[scan].pose, whole[j].pose))});
   }
   return path;
 }
@@ -114,11 +117,11 @@ double aligned_error_m(const std::vector<TPose2D>& path, const std::vector<TPose
     dot += px * tx + py * ty;
     cross += px * ty - py * tx;
   }
-  const TPose2D turn(0, 0, std::atan2(cross, dot));
+  const TPose2D turn(0, 0, portable::atan2(cross, dot));
   double sum_m = 0;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const TPose2D turned = turn + TPose2D(path[i].x - path_mean.x, path[i].y - path_mean.y, 0);
-    sum_m += std::hypot(turned.x - (truth[i].x - true_mean.x), turned.y - (truth[i].y - true_mean.y));
+    const TPose2D turned = compose(turn, TPose2D(path[i].x - path_mean.x, path[i].y - path_mean.y, 0));
+    sum_m += portable::hypot(turned.x - (truth[i].x - true_mean.x), turned.y - (truth[i].y - true_mean.y));
   }
   return sum_m / count;
 }
@@ -134,12 +137,12 @@ KnownRun degraded(const KnownRun& run, std::size_t keep_every_nth, double max_ra
   TPose2D odom_T_robot(0, 0, 0);
   for (std::size_t i = 0; i < run.frames.size(); i += keep_every_nth) {
     Frame frame = run.frames[i];
-    const TPose2D step = last ? frame.odom_T_robot - *last : TPose2D(0, 0, 0);
+    const TPose2D step = last ? between(*last, frame.odom_T_robot) : TPose2D(0, 0, 0);
     last = frame.odom_T_robot;
-    const double root_m = std::sqrt(std::hypot(step.x, step.y));
+    const double root_m = std::sqrt(portable::hypot(step.x, step.y));
     const double turn_rad = noise * 0.02 * root_m * draws.normal();
     const double along_m = noise * 0.03 * root_m * draws.normal();
-    odom_T_robot = odom_T_robot + TPose2D(step.x + along_m, step.y, step.phi + turn_rad);
+    odom_T_robot = compose(odom_T_robot, TPose2D(step.x + along_m, step.y, step.phi + turn_rad));
     frame.odom_T_robot = odom_T_robot;
     frame.index = kept.frames.size();
     cut_ranges(max_range_m, frame.scan);
@@ -159,16 +162,16 @@ void slip(KnownRun& run, std::size_t from, std::size_t to, const TPose2D& slippe
   const std::size_t middle = (from + to) / 2;
   const TPose2D before = run.frames[middle - 1].odom_T_robot;
   const TPose2D first = run.frames[middle].odom_T_robot;
-  const TPose2D jumped = before + (first - before) + slipped;
+  const TPose2D jumped = compose(compose(before, between(before, first)), slipped);
   for (std::size_t i = middle; i < run.frames.size(); ++i)
-    run.frames[i].odom_T_robot = jumped + (run.frames[i].odom_T_robot - first);
+    run.frames[i].odom_T_robot = compose(jumped, between(first, run.frames[i].odom_T_robot));
 }
 
 void carry(KnownRun& run, std::size_t off, std::size_t on) {
   const TPose2D odom_T_off = run.frames[off - 1].odom_T_robot;
   const TPose2D odom_T_on = run.frames[on].odom_T_robot;
   for (std::size_t i = on; i < run.frames.size(); ++i)
-    run.frames[i].odom_T_robot = odom_T_off + (run.frames[i].odom_T_robot - odom_T_on);
+    run.frames[i].odom_T_robot = compose(odom_T_off, between(odom_T_on, run.frames[i].odom_T_robot));
   const auto erase = [&](auto& all) {
     all.erase(all.begin() + static_cast<std::ptrdiff_t>(off), all.begin() + static_cast<std::ptrdiff_t>(on));
   };
@@ -182,7 +185,7 @@ void pause(KnownRun& run, std::size_t at, double pause_s) {
   const TPose2D odom_T_restart = run.frames[at].odom_T_robot;
   for (std::size_t i = at; i < run.frames.size(); ++i) {
     run.frames[i].time_us += static_cast<TimeUs>(1e6 * pause_s);
-    run.frames[i].odom_T_robot = run.frames[i].odom_T_robot - odom_T_restart;
+    run.frames[i].odom_T_robot = between(odom_T_restart, run.frames[i].odom_T_robot);
   }
 }
 
@@ -192,7 +195,7 @@ std::size_t frame_after(const KnownRun& run, std::size_t from, double path_m) {
   for (; i + 1 < run.frames.size() && travelled_m < path_m; ++i) {
     const TPose2D& a = run.world_T_robot[i];
     const TPose2D& b = run.world_T_robot[i + 1];
-    travelled_m += std::hypot(b.x - a.x, b.y - a.y);
+    travelled_m += portable::hypot(b.x - a.x, b.y - a.y);
   }
   return i;
 }

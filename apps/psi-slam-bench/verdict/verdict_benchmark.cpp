@@ -2,8 +2,9 @@
 #include "verdict/verdict_benchmark.h"
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
+
+#include "base/portable_math.h"
 
 namespace psi_slam {
 
@@ -24,7 +25,7 @@ VerdictRow judged(const FaultyMap& map) {
   const Suspect& suspect = verdict.hot_spots.front().suspect;
   if (is_false_loop(map.fault) && suspect.kind != Suspect::Kind::kLoop) return row;
   for (const mrpt::math::TPoint2D& place : map.places) {
-    const double away_m = std::hypot(place.x - suspect.at.x, place.y - suspect.at.y);
+    const double away_m = portable::hypot(place.x - suspect.at.x, place.y - suspect.at.y);
     row.distance_m = std::min(row.distance_m.value_or(away_m), away_m);
   }
   return row;

@@ -15,6 +15,7 @@
 #include <optional>
 #include <vector>
 
+#include "frames/pose_operations.h"
 #include "psi_slam/time_stamp.h"
 
 namespace psi_slam {
@@ -64,7 +65,7 @@ template <class Take>
 void for_each_scan(const Frame& frame, const mrpt::math::TPose2D& map_T_robot, Take take) {
   take(frame.scan, map_T_robot);
   for (const CompanionScan& companion : frame.companions)
-    take(companion.scan, map_T_robot + companion.frame_T_robot);
+    take(companion.scan, compose(map_T_robot, companion.frame_T_robot));
 }
 
 }  // namespace psi_slam

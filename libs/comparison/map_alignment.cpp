@@ -2,7 +2,6 @@
 #include "comparison/map_alignment.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -152,7 +151,7 @@ MapAlignment alignment_of(const WallMatch& found, const Walls& walls, bool swapp
   // A swapped match has its errors along the axes of B, with the opposite sign.
   Eigen::Matrix3d a_R_match = Eigen::Matrix3d::Identity();
   if (swapped)
-    a_R_match.topLeftCorner<2, 2>() = Eigen::Rotation2D<double>(alignment.a_T_b.phi).toRotationMatrix();
+    a_R_match.topLeftCorner<2, 2>() = rotation_matrix(alignment.a_T_b.phi);
   alignment.covariance = a_R_match * found.match.covariance * a_R_match.transpose();
   alignment.agree = found.agreement.share();
   return alignment;

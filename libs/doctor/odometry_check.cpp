@@ -4,9 +4,9 @@
 #include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <map>
 #include <optional>
 #include <utility>
@@ -47,6 +47,11 @@ struct Track {
   double length_deviation_m = 0;
   std::vector<Step> steps;
 };
+
+Eigen::Vector2d unit_vector(double angle_rad) {
+  const auto [sin, cos] = portable::sin_cos(angle_rad);
+  return {cos, sin};
+}
 
 /// Guesses around a pose that assume no motion model: turned to both sides, behind and ahead.
 std::vector<TPose2D> fan_of_guesses(const TPose2D& around) {
@@ -99,7 +104,7 @@ double quantile(std::vector<double> values, double share) {
 void compare_lengths(const std::vector<Track>& tracks, OdometryAgreement& agreement) {
   std::vector<double> ratios;
   std::vector<double> slips_rad;
-  std::complex<double> directions = 0;
+  Eigen::Vector2d directions = Eigen::Vector2d::Zero();
   for (const Track& track : tracks) {
     const double by_scans_m = track.by_scans.norm();
     const double by_odometry_m = track.by_odometry.norm();
@@ -110,15 +115,15 @@ void compare_lengths(const std::vector<Track>& tracks, OdometryAgreement& agreem
     if (by_odometry_m == 0) continue;
     const double odometry_direction = portable::atan2(track.by_odometry.y, track.by_odometry.x);
     const double scan_direction = portable::atan2(track.by_scans.y, track.by_scans.x);
-    directions += std::polar(1.0, scan_direction - odometry_direction);
+    directions += unit_vector(scan_direction - odometry_direction);
     slips_rad.push_back(std::abs(std::remainder(odometry_direction - track.by_odometry.phi / 2, M_PI)));
   }
   agreement.length_samples = ratios.size();
   if (ratios.size() < kFewestSamples) return;
   agreement.length_ratio = quantile(ratios, 0.5);
   if (slips_rad.size() < kFewestSamples) return;
-  agreement.direction_offset_rad = std::arg(directions);
-  agreement.direction_concentration = std::abs(directions) / static_cast<double>(slips_rad.size());
+  agreement.direction_offset_rad = portable::atan2(directions.y(), directions.x());
+  agreement.direction_concentration = directions.norm() / static_cast<double>(slips_rad.size());
   agreement.odometry_slip_rad = quantile(slips_rad, 0.5);
 }
 
@@ -134,15 +139,15 @@ bool fits(const Step& step, double factor) {
 /// enlarge the errors of turns 57 times.
 double degrees_resultant(const std::vector<Step>& steps, double factor) {
   for (const double most_rad : {DEG2RAD(2.5), DEG2RAD(6.0)}) {
-    std::complex<double> sum = 0;
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     std::size_t count = 0;
     for (const Step& step : steps) {
       const double turn_rad = std::abs(step.scan_turn_rad);
       if (turn_rad < DEG2RAD(0.3) || turn_rad > most_rad) continue;
-      sum += std::polar(1.0, step.odometry_turn_rad - factor * step.scan_turn_rad);
+      sum += unit_vector(step.odometry_turn_rad - factor * step.scan_turn_rad);
       ++count;
     }
-    if (count >= 3 * kFewestSamples) return std::abs(sum) / static_cast<double>(count);
+    if (count >= 3 * kFewestSamples) return sum.norm() / static_cast<double>(count);
   }
   return 0;
 }

@@ -6,6 +6,7 @@
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/math/wrap2pi.h>
 
+#include <Eigen/Core>
 #include <cmath>
 
 #include "base/portable_math.h"
@@ -46,6 +47,14 @@ inline mrpt::math::TPose2D inverse(const mrpt::math::TPose2D& a_T_b) {
 inline mrpt::math::TPoint2D transform(const mrpt::math::TPose2D& a_T_b, const mrpt::math::TPoint2D& point) {
   const auto [sin, cos] = portable::sin_cos(a_T_b.phi);
   return {a_T_b.x + point.x * cos - point.y * sin, a_T_b.y + point.x * sin + point.y * cos};
+}
+
+/// Returns the 2×2 rotation matrix of an angle.
+inline Eigen::Matrix2d rotation_matrix(double angle_rad) {
+  const auto [sin, cos] = portable::sin_cos(angle_rad);
+  Eigen::Matrix2d matrix;
+  matrix << cos, -sin, sin, cos;
+  return matrix;
 }
 
 /// Returns the pose at `fraction` of the way from one pose to another. Position and yaw change linearly; yaw

@@ -3,7 +3,6 @@
 
 #include <mrpt/math/wrap2pi.h>
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -410,7 +409,7 @@ std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, con
       return {};
     }
   }
-  if (doubtful_corrections_.add_doubtful(Eigen::Rotation2Dd(-pose.phi).toRotationMatrix() * correction))
+  if (doubtful_corrections_.add_doubtful(rotation_matrix(-pose.phi) * correction))
     return {};
   Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
   across.topLeftCorner<2, 2>() -= along * along.transpose();
@@ -435,7 +434,7 @@ void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& mot
       // Rotation from the axes of the matched map to those of `active`.
       Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
       turn.topLeftCorner<2, 2>() =
-          Eigen::Rotation2Dd(active_.front().local_T_map.phi - active.local_T_map.phi).toRotationMatrix();
+          rotation_matrix(active_.front().local_T_map.phi - active.local_T_map.phi);
       const Eigen::Matrix3d information = turn * step.information * turn.transpose();
       covariance = (Eigen::Matrix3d::Identity() + covariance * information).inverse() * covariance;
       covariance = Eigen::Matrix3d(0.5 * (covariance + covariance.transpose()));

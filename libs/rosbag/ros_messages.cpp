@@ -96,7 +96,7 @@ RosHeader header(RosFields& fields, TimeUs recorded_us) {
 
 /// Parses a position and a quaternion x, y, z, w. Empty if odometry cannot measure the position, or if the
 /// length of the quaternion is not 1.
-std::optional<mrpt::math::TPose3D> pose(RosFields& fields) {
+std::optional<mrpt::poses::CPose3D> pose(RosFields& fields) {
   double values[7];
   for (double& value : values) value = fields.number<double>();
   const auto [x, y, z, qx, qy, qz, qw] = values;
@@ -104,9 +104,9 @@ std::optional<mrpt::math::TPose3D> pose(RosFields& fields) {
   if (!is_possible_odometry({x, y, 0}) || !std::isfinite(z) || !(std::abs(norm - 1) < 0.1))
     return std::nullopt;
   const mrpt::math::CQuaternionDouble rotation(qw / norm, qx / norm, qy / norm, qz / norm);
-  mrpt::math::TPose3D pose(x, y, z, 0, 0, 0);
-  rotation.rpy(pose.roll, pose.pitch, pose.yaw);
-  return pose;
+  // From the matrix, because MRPT computes angles with the C library.
+  return mrpt::poses::CPose3D::FromRotationAndTranslation(rotation.rotationMatrix<mrpt::math::CMatrixDouble33>(),
+                                                          mrpt::math::TVector3D(x, y, z));
 }
 
 /// Parses a header, the name of a frame and its pose. Empty if the pose is invalid.

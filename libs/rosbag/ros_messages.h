@@ -4,7 +4,7 @@
 #pragma once
 
 #include <mrpt/math/TPoint3D.h>
-#include <mrpt/math/TPose3D.h>
+#include <mrpt/poses/CPose3D.h>
 
 #include <optional>
 #include <string>
@@ -43,7 +43,7 @@ struct RosLaserScan {
 struct RosTransform {
   RosHeader header;
   std::string child_frame;
-  mrpt::math::TPose3D pose;
+  mrpt::poses::CPose3D pose;
 };
 
 struct RosImu {

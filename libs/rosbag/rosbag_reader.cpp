@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/byte_cursor.h"
+#include "base/portable_math.h"
 #include "base/text_parts.h"
 #include "frames/gyroscope_headings.h"
 #include "frames/height_slice.h"
@@ -31,8 +32,9 @@
 namespace psi_slam {
 namespace {
 
-mrpt::math::TPose2D on_floor(const mrpt::math::TPose3D& pose) {
-  return {pose.x, pose.y, pose.yaw};
+mrpt::math::TPose2D on_floor(const mrpt::poses::CPose3D& pose) {
+  const mrpt::math::CMatrixDouble33& rotation = pose.getRotationMatrix();
+  return {pose.x(), pose.y(), portable::atan2(rotation(1, 0), rotation(0, 0))};
 }
 
 /// Returns the sweep time of a scan in seconds, or 0 if the stated time is implausible. Drivers may state 0,

@@ -16,7 +16,7 @@ bool has_word(std::string frame, const char* word) {
 
 void TransformTree::add(const RosTransform& transform) {
   if (transform.child_frame == transform.header.frame) return;
-  links_[transform.child_frame] = {transform.header.frame, CPose3D(transform.pose)};
+  links_[transform.child_frame] = {transform.header.frame, transform.pose};
 }
 
 std::vector<std::string> TransformTree::way_up(const std::string& frame) const {

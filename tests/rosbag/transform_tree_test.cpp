@@ -15,7 +15,7 @@ RosTransform transform(const std::string& parent, const std::string& child,
   RosTransform transform;
   transform.header.frame = parent;
   transform.child_frame = child;
-  transform.pose = pose;
+  transform.pose = mrpt::poses::CPose3D(pose);
   return transform;
 }
 

@@ -65,6 +65,7 @@ void write_edits(const EditJournal& edits, const fs::path& file) {
 
 DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   Members& m = *m_;
+  if (folder) check_prior_apart(m.settings, folder->path());
   m.begin(SessionProgress::Phase::kWriting);
   WorkClock clock(m.work_s);
   m.result.stages.resize(m.stages_of_mapping);

@@ -205,7 +205,8 @@ TEST_F(PriorMapApp, results_never_replace_the_prior_map) {
   const std::string bytes = read_file(path("prior") / "map.pgm");
   const AppRun run = map("prior", {log_.string(), "--force", "--set", prior});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, AllOf(HasSubstr("would replace it"), HasSubstr("Choose another folder with -o")));
+  EXPECT_THAT(run.err,
+              AllOf(HasSubstr("may replace it"), HasSubstr("Choose another folder for the results")));
   EXPECT_EQ(read_file(path("prior") / "map.pgm"), bytes);
 }
 
@@ -247,6 +248,9 @@ TEST_F(PriorMapApp, contradicting_settings_and_edits_are_refused) {
           "prior.map states the frame of the map, but map.align");
   refused({"--set", prior, "--edits", path("prior.edits").string()},
           "and so do the lines pose and tag of the edits");
+  refused({"--set", prior, "--set", "prior.layers=WALLS"},
+          "prior.layers is for a drawing, but prior.map is ");
+  refused({"--set", prior, "--set", "prior.metres_per_unit=0.001"}, "prior.metres_per_unit is for a drawing");
   refused({"--set", "prior.extend=true"}, "prior.extend needs a map to extend");
   refused({"--set", "prior.map=" + path("none.yaml").string()}, "none.yaml");
   refused({"--set", prior, "--set", "prior.extend=true", "--set", "map.resolution_m=0.1"},

@@ -74,6 +74,7 @@ MappingSession::MappingSession(const SessionInput& input, const Settings& settin
   check(settings);
   m_->check_knowledge({});
   if (!settings.prior.map.empty()) m_->prior.emplace(settings);
+  if (m_->prior && m_->recording) m_->prior->compare_with(m_->recording->facts);
   m_->read_from(open_input(input, settings));
   m_->mapper = std::make_unique<Mapper>(options_for(input, settings));
   m_->make_due_edits({});
@@ -206,6 +207,7 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   }
   m.mapper->set_knowledge(std::move(knowledge));
   m.result = m.mapper->finish(progress, m.after_finish);
+  if (m.prior && m.prior->changed_text()) m.result.contradictions.push_back(*m.prior->changed_text());
   if (refusal) m.result.contradictions.push_back(*std::move(refusal));
   m.contradictions_of_mapping = m.result.contradictions.size();
   m.check_log();
@@ -348,6 +350,7 @@ void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
   const std::size_t first_node = m.mapper->graph().num_nodes();
   m.later_runs.push_back({m.scans, start});
   const auto& inner = run.recording();
+  if (inner && m.prior) m.prior->compare_with(inner->facts);
   if (inner)
     for (RecordedRun later : inner->facts.runs) {
       later.scan += m.scans;

@@ -32,7 +32,7 @@ PriorMapOptions prior_options(const Settings& settings, const PlacedMapFile& fil
 PlacedMapFile read_prior(const Settings& settings) {
   const PriorOptions& prior = settings.prior;
   if (!is_plan_drawing(prior.map)) return read_placed_map_file(prior.map);
-  return {read_plan_drawing(prior.map, {settings.map.resolution_m, prior.metres_per_unit, prior.layers})};
+  return {read_plan_drawing(prior.map, {prior.metres_per_unit, prior.layers})};
 }
 
 std::string place_text(const mrpt::math::TPoint2D& place) {
@@ -101,8 +101,17 @@ void check_prior_apart(const Settings& settings, const std::filesystem::path& re
 SessionPrior::SessionPrior(const Settings& settings)
     : options_(settings.prior),
       file_(read_prior(settings)),
+      recorded_{options_.map, sha256_of_map_file(options_.map)},
       map_(file_.grid, prior_options(settings, file_)) {
   if (options_.extend) check_extendable(settings, file_);
+}
+
+void SessionPrior::compare_with(const SessionFacts& facts) {
+  const auto& before = facts.prior;
+  if (!before || before->map != recorded_.map || before->sha256 == recorded_.sha256) return;
+  changed_text_ = options_.map +
+                  ": this prior map has changed since the session was saved, so the map can differ from that "
+                  "of the session. Restore the file to get the same map again";
 }
 
 std::optional<std::string> SessionPrior::place(const Mapper& mapper, FixedKnowledge& knowledge,

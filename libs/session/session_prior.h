@@ -14,6 +14,7 @@
 #include "localization/reference_map.h"
 #include "psi_slam/fixed_knowledge.h"
 #include "psi_slam/mapper.h"
+#include "session/session_recording.h"
 #include "session/settings.h"
 
 namespace psi_slam {
@@ -36,6 +37,13 @@ class SessionPrior {
   std::optional<std::string> place(const Mapper& mapper, FixedKnowledge& knowledge,
                                    const std::function<bool(double)>& progress = {});
 
+  /// Returns the prior map for the facts of a session.
+  const RecordedPrior& recorded() const { return recorded_; }
+  /// Notes the facts of a session from which this one continues. From then on, changed_text() returns a
+  /// sentence without full stop if the file of the prior map has changed since the session was saved.
+  void compare_with(const SessionFacts& facts);
+  const std::optional<std::string>& changed_text() const { return changed_text_; }
+
   /// Returns whether the last call of place() was stopped by its `progress`.
   bool is_interrupted() const { return is_interrupted_; }
 
@@ -50,6 +58,8 @@ class SessionPrior {
  private:
   PriorOptions options_;
   PlacedMapFile file_;
+  RecordedPrior recorded_;  // after file_, which checks that the file is readable
+  std::optional<std::string> changed_text_;
   PriorMap map_;
   bool is_aligned_ = false;
   bool is_interrupted_ = false;

@@ -4,16 +4,20 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "psi_slam/mapping_session.h"
 #include "psi_slam/user_error.h"
 #include "report/output_folder.h"
+#include "room_drawing.h"
 #include "room_log.h"
 #include "same_results.h"
 #include "session/drawn_map.h"
+#include "session/edit_journal.h"
 #include "session/session_file.h"
 #include "session/session_input.h"
 #include "session/settings.h"
@@ -24,6 +28,8 @@ namespace psi_slam {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
+using testing::Contains;
 using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -76,6 +82,36 @@ class SessionPriorTest : public testing::Test {
     return folder_.path() / name;
   }
 
+  /// Chooses the drawing of the room as the prior map.
+  void use_drawing() {
+    settings_.prior.map = (folder_.path() / "room.dxf").string();
+    settings_.prior.layers = "WALLS";
+    write_file(settings_.prior.map, room_drawing(kMillimetres));
+  }
+
+  /// Maps the first `scans` scans and saves the session.
+  void save_after(int scans, const EditJournal& edits = {}) {
+    MappingSession session(log_, settings_);
+    session.add_edits(edits);
+    for (int i = 0; i < scans; ++i) session.step();
+    session.finish();
+    session.save(saved_);
+  }
+
+  SessionInput resumed(const fs::path& log = {}) const {
+    return SessionInput(std::make_shared<const SessionRecording>(read_session_file(saved_)), log);
+  }
+
+  /// Maps the saved session again. Returns the sentences about a prior map that has changed.
+  std::vector<std::string> sentences_of_change() const {
+    MappingSession session(resumed(), settings_);
+    session.run(go_on_);
+    std::vector<std::string> sentences;
+    for (const std::string& warning : session.warnings())
+      if (warning.find("has changed") != std::string::npos) sentences.push_back(warning);
+    return sentences;
+  }
+
   /// Distance of the last pose in the exported frame from its true place in the room.
   static double off_m(MappingSession& session) {
     double off = 0;
@@ -89,6 +125,7 @@ class SessionPriorTest : public testing::Test {
   }
 
   TemporaryFolder folder_;
+  const fs::path saved_ = folder_.path() / "saved.session";
   const fs::path log_ = folder_.path() / "room.log";
   Settings settings_;
   const std::atomic<bool> go_on_{false};
@@ -156,6 +193,144 @@ TEST_F(SessionPriorTest, an_export_never_replaces_the_prior_map) {
   EXPECT_EQ(read_file(folder_.path() / "plan" / "map.pgm"), image);
   EXPECT_FALSE(fs::exists(folder_.path() / "plan" / "graph.g2o"));
   export_of(session, "out");
+}
+
+TEST_F(SessionPriorTest, a_resumed_session_names_a_changed_file_once) {
+  save_after(kScans);
+  EXPECT_EQ(read_session_file(saved_).facts.prior->map, settings_.prior.map);
+  EXPECT_THAT(sentences_of_change(), IsEmpty());
+  write_file(folder_.path() / "plan" / "map.yaml",
+             read_file(folder_.path() / "plan" / "map.yaml") + "mode: trinary\n");
+  EXPECT_THAT(sentences_of_change(),
+              ElementsAre(AllOf(HasSubstr("map.yaml: this prior map has changed since the session was saved"),
+                                HasSubstr("Restore the file"))));
+  save_after(kScans);
+  EXPECT_THAT(sentences_of_change(), IsEmpty());
+  std::string image = read_file(folder_.path() / "plan" / "map.pgm");
+  image.back() = '\0';
+  write_file(folder_.path() / "plan" / "map.pgm", image);
+  EXPECT_THAT(sentences_of_change(), testing::SizeIs(1));
+  MappingSession session(resumed(), settings_);
+  session.run(go_on_);
+  session.save(saved_);
+  EXPECT_THAT(sentences_of_change(), IsEmpty()) << "the saved session has the checksum of the changed file";
+}
+
+TEST_F(SessionPriorTest, a_changed_drawing_is_named_and_old_sessions_are_not) {
+  use_drawing();
+  save_after(30);
+  write_file(settings_.prior.map, room_drawing(kMillimetres) + "\n");
+  EXPECT_THAT(sentences_of_change(), ElementsAre(HasSubstr("room.dxf: this prior map has changed")));
+  SessionRecording recording = read_session_file(saved_);
+  recording.facts.prior.reset();
+  write_session_file(saved_, recording.facts, recording.frames);
+  EXPECT_THAT(sentences_of_change(), IsEmpty());
+}
+
+TEST_F(SessionPriorTest, an_interrupted_run_is_resumed_to_the_same_bytes) {
+  for (const char* name : {"image", "drawing"}) {
+    if (std::string(name) == "drawing") use_drawing();
+    MappingSession session(log_, settings_);
+    session.run(go_on_);
+    const fs::path whole = export_of(session, name);
+    save_after(35);
+    MappingSession again(resumed(log_), settings_);
+    again.run(go_on_);
+    EXPECT_LT(off_m(again), 0.1);
+    expect_same_results(whole, export_of(again, name + std::string("-resumed")));
+  }
+}
+
+TEST_F(SessionPriorTest, the_cells_of_the_drawn_map_change_no_pose) {
+  use_drawing();
+  MappingSession fine(log_, settings_);
+  fine.run(go_on_);
+  settings_.map.resolution_m = 0.1;
+  MappingSession coarse(log_, settings_);
+  coarse.run(go_on_);
+  ASSERT_EQ(fine.result().frames.size(), coarse.result().frames.size());
+  for (std::size_t i = 0; i < fine.result().frames.size(); ++i)
+    ASSERT_EQ(fine.result().frames[i].map_T_robot, coarse.result().frames[i].map_T_robot) << i;
+}
+
+TEST_F(SessionPriorTest, a_session_that_stays_open_is_aligned_again_after_every_edit) {
+  write_lines(log_, room_log_lines(110, kScansOfRound));
+  MappingSession session(log_, settings_);
+  session.stay_open();
+  session.run(go_on_);
+  const fs::path first = export_of(session, "first");
+  session.reopen();
+  session.finish();
+  expect_same_results(first, export_of(session, "again"));
+  const auto& loops = session.result().loops;
+  const auto loop = std::find_if(loops.begin(), loops.end(), [](const LoopRecord& candidate) {
+    return candidate.verdict == LoopVerdict::kAccepted;
+  });
+  ASSERT_NE(loop, loops.end());
+  session.edit(LoopEdit{LoopEdit::Kind::kDelete, loop->frame, loop->local_map});
+  session.edit(EditJournal::parse("wall line=9,3;9,5 width_m=0.2\n", "my.edits").map_edits().front());
+  session.finish();
+  const fs::path edited = export_of(session, "edited");
+  EXPECT_LT(off_m(session), 0.06);
+  EXPECT_NE(read_file(first / "loops.csv"), read_file(edited / "loops.csv"));
+  session.save(saved_);
+  MappingSession resumed_session(resumed(), settings_);
+  resumed_session.run(go_on_);
+  expect_same_results(edited, export_of(resumed_session, "resumed"));
+  MappingSession from_edits(log_, settings_);
+  from_edits.add_edits(EditJournal::read(edited / "loops.edits"));
+  from_edits.run(go_on_);
+  expect_same_results(edited, export_of(from_edits, "from-edits"));
+}
+
+TEST_F(SessionPriorTest, a_wall_drawn_in_the_frame_of_the_run_follows_it_into_the_frame_of_the_prior_map) {
+  const std::string prior = std::exchange(settings_.prior.map, "");
+  const mrpt::math::TPose2D room_T_run = room_pose(0);
+  const auto in_run = [&](double x, double y) { return room_T_run.inverseComposePoint({x, y}); };
+  const mrpt::math::TPoint2D from = in_run(9, 3);
+  const mrpt::math::TPoint2D to = in_run(9, 5);
+  MappingSession alone(log_, settings_);
+  alone.add_edits(EditJournal::parse("wall line=" + std::to_string(from.x) + ',' + std::to_string(from.y) +
+                                         ';' + std::to_string(to.x) + ',' + std::to_string(to.y) +
+                                         " width_m=0.2\n",
+                                     "my.edits"));
+  alone.run(go_on_);
+  const fs::path before = export_of(alone, "alone");
+  settings_.prior.map = prior;
+  MappingSession aligned(log_, settings_);
+  aligned.add_edits(EditJournal::read(before / "loops.edits"));
+  aligned.run(go_on_);
+  const DrawnMap drawn = aligned.draw();
+  for (const float y : {3.2F, 4.0F, 4.8F}) {
+    EXPECT_LT(drawn.grid->getPos(9.05F, y), 0.3F) << y;
+    EXPECT_GT(drawn.grid->getPos(9.5F, y), 0.7F) << y;
+  }
+}
+
+TEST_F(SessionPriorTest, sightings_of_marks_without_a_place_are_allowed) {
+  std::string lines;
+  for (const int scan : {5, 55}) {
+    const mrpt::math::TPoint2D mark =
+        room_pose(2 * M_PI * scan / kScansOfRound).inverseComposePoint({9.0, 7.0});
+    lines += "seen name=a time_s=" + std::to_string(1000 + 0.2 * scan) +
+             " ahead_m=" + std::to_string(mark.x) + " left_m=" + std::to_string(mark.y) + " sigma_m=0.02\n";
+  }
+  MappingSession session(log_, settings_);
+  session.add_edits(EditJournal::parse(lines, "my.edits"));
+  session.run(go_on_);
+  EXPECT_THAT(session.result().contradictions,
+              Each(Not(AnyOf(HasSubstr("left out"), HasSubstr("my.edits")))));
+  EXPECT_LT(off_m(session), 0.06);
+}
+
+TEST_F(SessionPriorTest, larger_cells_than_those_of_the_prior_map_do_not_extend_it) {
+  settings_.prior.extend = true;
+  settings_.map.max_cells = 10'000;
+  MappingSession session(log_, settings_);
+  session.run(go_on_);
+  export_of(session, "out");
+  EXPECT_THAT(session.warnings(), Contains(AllOf(HasSubstr("map.yaml: this map is not extended"),
+                                                 HasSubstr("Increase map.max_cells"))));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/byte_cursor.h"
+#include "base/file_checksum.h"
 #include "base/number_text.h"
 #include "compression/compressed_file.h"
 #include "psi_slam/user_error.h"
@@ -46,6 +47,16 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+bool is_yaml_file(const std::filesystem::path& path) {
+  return path.extension() == ".yaml" || path.extension() == ".yml";
+}
+
+/// Returns the path of the image that `map.yaml` names.
+std::filesystem::path image_of(const std::filesystem::path& path, const mrpt::containers::yaml& yaml) {
+  // An absolute image replaces the parent.
+  return path.parent_path() / yaml["image"].as<std::string>();
+}
+
 constexpr double kLeastResolution_m = 0.001;
 constexpr double kMostResolution_m = 1;
 constexpr double kFarthest_m = 200'000;
@@ -58,10 +69,9 @@ void check_resolution(const std::filesystem::path& path, double resolution_m) {
         " m, expected 0.001 to 1 m. Export the map again with psi-slam, or correct the resolution");
 }
 
-/// Throws UserError if the image that `map.yaml` names does not exist. MRPT reports this on the terminal
-/// only.
-void check_image(const std::filesystem::path& path, const std::filesystem::path& image) {
-  const std::filesystem::path file = path.parent_path() / image;  // an absolute image replaces the parent
+/// Throws UserError if `file`, the image that `map.yaml` names, does not exist. MRPT reports this on the
+/// terminal only.
+void check_image(const std::filesystem::path& path, const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
     throw UserError(
@@ -80,7 +90,7 @@ PlacedMapFile read_yaml(const std::filesystem::path& path) {
       throw UserError(path.string() +
                       ": the origin is rotated, expected yaw 0. Rotate the image instead, and set the third "
                       "value of origin to 0");
-    check_image(path, yaml["image"].as<std::string>());
+    check_image(path, image_of(path, yaml));
     if (!grid.loadFromROSMapServerYAML(path.string()))
       throw UserError(path.string() +
                       ": the image that it names is unreadable, expected an image file such as map.pgm. "
@@ -186,7 +196,7 @@ void check_map_place(const std::filesystem::path& path, const mrpt::math::TPoint
 
 PlacedMapFile read_placed_map_file(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
-  const bool is_yaml = ends_with(name, ".yaml") || ends_with(name, ".yml");
+  const bool is_yaml = is_yaml_file(path);
   if (!is_yaml && !ends_with(name, ".gridmap.gz") && !ends_with(name, ".gridmap"))
     throw UserError(path.string() +
                     " is not a map: expected map.yaml or map.gridmap.gz, as psi-slam writes them. Name one "
@@ -202,6 +212,12 @@ PlacedMapFile read_placed_map_file(const std::filesystem::path& path) {
     throw UserError(path.string() +
                     ": the map has no wall, expected at least one occupied cell. Use a map with walls");
   return map;
+}
+
+std::string sha256_of_map_file(const std::filesystem::path& path) {
+  if (!is_yaml_file(path)) return sha256_of_file(path);
+  const auto yaml = mrpt::containers::yaml::FromFile(path.string());
+  return sha256_of_text(sha256_of_file(path) + '\n' + sha256_of_file(image_of(path, yaml)) + '\n');
 }
 
 Grid read_map_file(const std::filesystem::path& path) {

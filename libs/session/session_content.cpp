@@ -71,11 +71,13 @@ Json json_of(const SessionFacts& facts) {
                     {"node_T_robot", pose_json(run.start.node_T_robot)},
                     {"robot_T_found", pose_json(run.start.robot_T_found)}});
   }
-  return {{"program_version", facts.program_version},
-          {"logs", logs},
-          {"drives", runs},
-          {"settings", facts.settings},
-          {"edits", facts.edits.text()}};
+  Json json{{"program_version", facts.program_version},
+            {"logs", logs},
+            {"drives", runs},
+            {"settings", facts.settings},
+            {"edits", facts.edits.text()}};
+  if (facts.prior) json["prior"] = {{"map", facts.prior->map}, {"sha256", facts.prior->sha256}};
+  return json;
 }
 
 /// Reads the damage of a log, its skipped lines, and whether scans were left unread.
@@ -105,6 +107,10 @@ SessionFacts facts_of(const Json& json, std::uint32_t version, const fs::path& p
                            pose_of(run.at("robot_T_found"))}});
   facts.settings = json.at("settings").get<std::string>();
   facts.edits = EditJournal::parse(json.at("edits").get<std::string>(), path);
+  if (json.contains("prior")) {
+    const Json& prior = json.at("prior");
+    facts.prior = RecordedPrior{prior.at("map").get<std::string>(), prior.at("sha256").get<std::string>()};
+  }
   return facts;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/file_checksum.h"
 #include "compression/compressed_file.h"
 #include "exports/map_files.h"
 #include "exports/map_server_pair.h"
@@ -38,6 +39,19 @@ TEST(MapFile, reads_both_formats_with_all_cells_in_place) {
     EXPECT_GT(read.getCell(31, 10), 0.65F) << name;
     EXPECT_NEAR(read.getCell(31, 55), 0.5F, 0.01F) << name << ": unknown cells stay unknown";
   }
+}
+
+TEST(MapFile, its_checksum_covers_the_image) {
+  const TemporaryFolder folder;
+  write_map_server_pair(folder.path() / "map.yaml", small_map());
+  write_mrpt_map(folder.path() / "map.gridmap.gz", small_map());
+  const auto checksum = [&](const char* name) { return sha256_of_map_file(folder.path() / name); };
+  EXPECT_EQ(checksum("map.gridmap.gz"), sha256_of_file(folder.path() / "map.gridmap.gz"));
+  const std::string before = checksum("map.yaml");
+  EXPECT_EQ(before, sha256_of_text(sha256_of_file(folder.path() / "map.yaml") + '\n' +
+                                   sha256_of_file(folder.path() / "map.pgm") + '\n'));
+  write_file(folder.path() / "map.pgm", read_file(folder.path() / "map.pgm") + ' ');
+  EXPECT_NE(checksum("map.yaml"), before);
 }
 
 TEST(MapFile, rejects_files_that_are_no_map) {

@@ -37,6 +37,13 @@ TPose2D read_pose(ByteCursor& bytes) {
   return pose;
 }
 
+/// Reads the time of a scan. Throws MalformedBytes for a time that no log has.
+TimeUs read_time(ByteCursor& bytes) {
+  const auto time_us = bytes.number<TimeUs>();
+  if (!is_possible_time(time_us)) throw MalformedBytes("a scan has an impossible time stamp");
+  return time_us;
+}
+
 void append_floats(std::string& bytes, const std::vector<float>& values) {
   append_number(bytes, static_cast<std::uint32_t>(values.size()));
   for (const float value : values) append_number(bytes, value);
@@ -114,7 +121,7 @@ Frame FrameReader::read(ByteCursor& bytes) {
   const auto flags = bytes.number<std::uint8_t>();
   if ((flags & ~kAllFlags) != 0) throw MalformedBytes("a scan has an unknown flag");
   frame.has_odometry = (flags & kHasOdometry) != 0;
-  frame.time_us = bytes.number<TimeUs>();
+  frame.time_us = read_time(bytes);
   frame.odom_T_robot = read_pose(bytes);
   LaserScan& sensor = sensors_[0];
   if ((flags & kOtherSensor) != 0) sensor = read_sensor(bytes, version_);
@@ -135,7 +142,7 @@ std::vector<CompanionScan> FrameReader::read_companions(ByteCursor& bytes, std::
     CompanionScan companion;
     const auto flags = bytes.number<std::uint8_t>();
     if ((flags & ~kOtherSensor) != 0) throw MalformedBytes("a scan has an unknown flag");
-    companion.time_us = bytes.number<TimeUs>();
+    companion.time_us = read_time(bytes);
     companion.frame_T_robot = read_pose(bytes);
     LaserScan& sensor = sensors_[i + 1];
     if (flags != 0) sensor = read_sensor(bytes, version_);

@@ -148,6 +148,10 @@ TEST_F(SessionFileTest, reports_contradictions_despite_a_valid_checksum) {
               HasSubstr("a log has more scans than the session"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].frame_T_robot.x = 1e300; }),
               HasSubstr("invalid pose"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].time_us = kMostTimeUs + 1; }),
+              HasSubstr("a scan has an impossible time stamp"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].time_us = INT64_MIN; }),
+              HasSubstr("a scan has an impossible time stamp"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[0].odom_T_robot.phi = NAN; }),
               HasSubstr("invalid pose"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].imu_heading_rad = NAN; }),

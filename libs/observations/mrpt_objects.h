@@ -19,8 +19,8 @@ namespace psi_slam {
 /// Converts Unix time in microseconds, at most kMostTimeUs, to MRPT's clock.
 mrpt::Clock::time_point mrpt_clock_time(TimeUs time_us);
 
-/// Unix time of an observation, rounded to the nearest microsecond. Empty if the observation has no time stamp
-/// or an impossible one, see kMostTimeUs.
+/// Unix time of an observation, rounded to the nearest microsecond. Empty if the observation has no time
+/// stamp or an impossible one, see kMostTimeUs.
 std::optional<TimeUs> time_us(const mrpt::obs::CObservation& observation);
 
 /// Movement of the robot relative to its previous pose: the increment of the odometry, or the mean of the

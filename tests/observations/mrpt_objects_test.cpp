@@ -52,7 +52,8 @@ void expect_correct_bearings(const Frame& frame, double tolerance_rad) {
 
 TEST(TimeOfObservation, round_trips_up_to_the_largest_time_stamp) {
   mrpt::obs::CObservationOdometry observation;
-  for (const TimeUs time : {TimeUs{0}, TimeUs{976052905167303}, kMostTimeUs, TimeUs{-11'000'000'000'000'000}}) {
+  for (const TimeUs time :
+       {TimeUs{0}, TimeUs{976052905167303}, kMostTimeUs, TimeUs{-11'000'000'000'000'000}}) {
     observation.timestamp = mrpt_clock_time(time);
     EXPECT_EQ(time_us(observation), time);
   }

@@ -155,6 +155,10 @@ TEST_F(SessionFileTest, reports_contradictions_despite_a_valid_checksum) {
               HasSubstr("a scan has an impossible time stamp"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].time_us = INT64_MIN; }),
               HasSubstr("a scan has an impossible time stamp"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].frame_T_robot.x = 2000; }),
+              HasSubstr("the robot moves by more than 100 m between the scans of a frame"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].scan.robot_T_laser.y = -1e6; }),
+              HasSubstr("a laser is more than 100 m from the robot's centre"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[0].odom_T_robot.phi = NAN; }),
               HasSubstr("invalid pose"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].imu_heading_rad = NAN; }),

@@ -5,6 +5,7 @@
 
 #include "base/file_checksum.h"
 #include "compression/compressed_file.h"
+#include "decompression_bombs.h"
 #include "exports/map_files.h"
 #include "exports/map_server_pair.h"
 #include "temporary_folder.h"
@@ -15,6 +16,7 @@ namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Map with free space, one wall and unknown cells at the top. The lower left corner is at (-1.5, 4) m.
 COccupancyGridMap2D small_map() {
@@ -111,6 +113,27 @@ TEST(MapFile, checks_the_cell_counts_of_a_gridmap) {
   EXPECT_THAT(sentence_with(15, 0x70), HasSubstr("is damaged: it claims"));
   write_file(path, whole.substr(0, whole.size() / 2));
   EXPECT_THAT(sentence_of([&] { read_map_file(path); }), HasSubstr("is damaged: it claims"));
+}
+
+TEST(MapFile, refuses_small_files_of_countless_cells) {
+  const TemporaryFolder folder;
+  expect_little_memory([&] {
+    write_mrpt_map(folder.path() / "map.gridmap.gz", small_map());
+    write_gzipped_zeros(folder.path() / "map.gridmap.gz", "", 2'000'000'000);
+    EXPECT_THAT(sentence_of([&] { read_map_file(folder.path() / "map.gridmap.gz"); }),
+                HasSubstr("which no map of its size has. Export the map with a coarser resolution"));
+  });
+  write_map_server_pair(folder.path() / "map.yaml", small_map());
+  const auto sentence_with = [&](const std::string& image) {
+    write_file(folder.path() / "map.pgm", image);
+    return sentence_of([&] { read_map_file(folder.path() / "map.yaml"); });
+  };
+  expect_little_memory([&] {
+    EXPECT_THAT(sentence_with("P5 30000 30000 255\n"),
+                HasSubstr("map.pgm states 30000 x 30000 pixels, expected at most 100000000 for a file"));
+    EXPECT_THAT(sentence_with("GIF89a"), HasSubstr("map.pgm is not an image that is read, expected PNG"));
+    EXPECT_THAT(sentence_with("P5 9000 11000 255\n"), Not(HasSubstr("pixels")));
+  });
 }
 
 }  // namespace

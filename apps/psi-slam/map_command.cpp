@@ -130,7 +130,9 @@ void watch(MappingSession& session, const InterruptSignals& signals, const Comma
   };
   session.set_observer([&, print, reported = false,
                         journal = FailureNotice("the journal")](const SessionProgress& progress) mutable {
-    if (!reported && progress.phase == SessionProgress::Phase::kFinalSearch && signals.came()) {
+    const bool finishes = progress.phase == SessionProgress::Phase::kPriorSearch ||
+                          progress.phase == SessionProgress::Phase::kFinalSearch;
+    if (!reported && finishes && signals.came()) {
       reported = true;
       print(interrupted_text(progress.scans));
     }

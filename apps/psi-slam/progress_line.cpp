@@ -24,7 +24,10 @@ std::string progress_text(const SessionProgress& progress, bool of_stream) {
   if (of_stream && progress.phase == Phase::kMapping) return scans;
   if (progress.phase == Phase::kWriting) return "drawing the map and writing the results";
   std::string line = mrpt::format("%3.0f %%   ", 100 * progress.share);
-  line += progress.phase == Phase::kFinalSearch ? "final loop search" : scans;
+  if (progress.phase == Phase::kMapping)
+    line += scans;
+  else
+    line += progress.phase == Phase::kPriorSearch ? "aligning with the prior map" : "final loop search";
   if (progress.remaining_s) line += "   " + minutes_text(*progress.remaining_s) + " left";
   return line;
 }

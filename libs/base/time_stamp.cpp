@@ -10,8 +10,7 @@ namespace psi_slam {
 namespace {
 
 constexpr TimeUs kMicrosecondsPerSecond = 1'000'000;
-// Microseconds of such times, and the differences of two, fit in 64 bits.
-constexpr TimeUs kMaxSeconds = 4'000'000'000'000;
+constexpr TimeUs kMaxSeconds = kMostTimeUs / kMicrosecondsPerSecond;
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -43,7 +42,7 @@ std::optional<TimeUs> parse_seconds(std::string_view text) {
   std::size_t digits = 0;
   for (; i < text.size() && is_digit(text[i]); ++i, ++digits) {
     whole = whole * 10 + (text[i] - '0');
-    if (whole > kMaxSeconds) return std::nullopt;
+    if (whole >= kMaxSeconds) return std::nullopt;
   }
   TimeUs fraction = 0;
   if (i < text.size() && text[i] == '.') {

@@ -88,7 +88,10 @@ std::string decompress_lz4(std::string_view compressed, std::uint64_t most) {
 }  // namespace
 
 std::string decompress_zstd_frame(std::string_view compressed, std::uint64_t most) {
+  constexpr int kMostWindowLog = 26;  // zstd takes as much memory beside the result; 64 MiB are rarely used
   const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), &ZSTD_freeDCtx);
+  if (ZSTD_isError(ZSTD_DCtx_setParameter(context.get(), ZSTD_d_windowLogMax, kMostWindowLog)) != 0)
+    fail("zstd");
   ZSTD_inBuffer in{compressed.data(), compressed.size(), 0};
   return decompressed("zstd", most, [&](char* bytes, std::size_t room) -> Step {
     ZSTD_outBuffer out{bytes, room, 0};

@@ -9,11 +9,16 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <system_error>
 
 namespace psi_slam {
 namespace {
 
 constexpr std::size_t kPieceBytes = std::size_t{256} * 1024;
+// A file unpacks to at most this number of bytes, or this multiple of its size, so that a small file cannot
+// fill the disk. Databases of ROS unpack to less than 20 times their size.
+constexpr std::uint64_t kMostBytesOfAnyFile = std::uint64_t{1} << 28;
+constexpr std::uint64_t kMostRatio = 64;
 
 std::filesystem::path temporary_folder() {
   const char* const stated = std::getenv("TMPDIR");
@@ -66,6 +71,13 @@ bool UnpackedFile::unpack_piece() {
       std::fwrite(piece_.data(), 1, got, unpacked_.get()) != got)
     fail_to_unpack();
   unpacked_bytes_ += got;
+  std::error_code error;
+  const std::uint64_t packed_bytes = std::filesystem::file_size(packed_.path(), error);
+  const std::uint64_t most =
+      std::max(kMostBytesOfAnyFile, kMostRatio * (error ? std::uint64_t{0} : packed_bytes));
+  if (unpacked_bytes_ > most)
+    throw UserError(packed_.path().string() + " unpacks to more than " + std::to_string(most) +
+                    " bytes, which no recording of its size does. Fetch it again");
   return got > 0;
 }
 

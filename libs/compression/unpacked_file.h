@@ -21,8 +21,8 @@ class UnpackedFile {
   explicit UnpackedFile(const std::filesystem::path& path);
 
   /// Reads `size` decompressed bytes at `offset` and returns their number, which is smaller only at the end
-  /// of the file. Throws UserError if these bytes are truncated or damaged, or if the temporary file has no
-  /// space.
+  /// of the file. Throws UserError if these bytes are truncated or damaged, if the temporary file has no
+  /// space, or if the file unpacks to far more than recordings of its size do.
   std::size_t read(std::uint64_t offset, char* bytes, std::size_t size);
 
   /// Unpacks the rest of the file. Throws UserError as read() does.

@@ -10,7 +10,9 @@
 #include <system_error>
 #include <tuple>
 
+#include "base/byte_cursor.h"
 #include "base/text_parts.h"
+#include "base/yaml_directives.h"
 #include "compression/compressed_file.h"
 #include "psi_slam/user_error.h"
 
@@ -89,6 +91,7 @@ bool by_numbers(const fs::path& a, const fs::path& b) {
 std::vector<fs::path> files_listed(const fs::path& metadata) {
   std::vector<fs::path> files;
   try {
+    if (has_yaml_directive(metadata)) throw MalformedBytes("a directive");
     const auto yaml = mrpt::containers::yaml::FromFile(metadata.string());
     const auto paths = yaml["rosbag2_bagfile_information"]["relative_file_paths"];
     for (const auto& file : paths.asSequence())

@@ -16,6 +16,8 @@ namespace {
 using Grid = mrpt::maps::COccupancyGridMap2D;
 
 constexpr double kGrowthStep_m = 5.0;  // large, so that grids rarely grow
+constexpr double kFarthest_m = 1e5;    // of a beam from the map's origin
+constexpr double kMostCells = 1e8;     // 500 m by 500 m in cells of 5 cm
 
 }  // namespace
 
@@ -31,29 +33,43 @@ LocalMap::LocalMap(const LocalMapOptions& options, const Grid& drawn) : options_
   finish();
 }
 
-void LocalMap::grow_to_hold(const std::vector<Beams>& scans) {
-  double x_min = static_cast<double>(grid_->getXMin());
-  double x_max = static_cast<double>(grid_->getXMax());
-  double y_min = static_cast<double>(grid_->getYMin());
-  double y_max = static_cast<double>(grid_->getYMax());
-  const double margin = 4 * options_.resolution_m;
-  bool grow = false;
-  const auto hold = [&](const mrpt::math::TPoint2D& p) {
-    while (p.x - margin < x_min) x_min -= kGrowthStep_m, grow = true;
-    while (p.x + margin > x_max) x_max += kGrowthStep_m, grow = true;
-    while (p.y - margin < y_min) y_min -= kGrowthStep_m, grow = true;
-    while (p.y + margin > y_max) y_max += kGrowthStep_m, grow = true;
-  };
+// Returns the scans that the grid can hold, and grows the grid for them. A scan that would make the grid
+// larger than kMostCells is far from the map's other scans, so it cannot belong to this map.
+std::vector<const Beams*> LocalMap::grow_to_hold(const std::vector<Beams>& scans) {
+  Limits limits = {static_cast<double>(grid_->getXMin()), static_cast<double>(grid_->getXMax()),
+                   static_cast<double>(grid_->getYMin()), static_cast<double>(grid_->getYMax())};
+  const Limits before = limits;
+  std::vector<const Beams*> held;
   for (const Beams& beams : scans) {
-    hold(beams.origin);
-    for (const auto& end : beams.ends) hold(end);
+    const std::optional<Limits> grown = limits_with(beams, limits);
+    if (!grown) continue;
+    limits = *grown;
+    held.push_back(&beams);
   }
-  if (!grow) return;
-  grid_->resizeGrid(static_cast<float>(x_min), static_cast<float>(x_max), static_cast<float>(y_min),
-                    static_cast<float>(y_max), 0.5F, false);
+  if (limits == before) return held;
+  grid_->resizeGrid(static_cast<float>(limits.x_min), static_cast<float>(limits.x_max),
+                    static_cast<float>(limits.y_min), static_cast<float>(limits.y_max), 0.5F, false);
   last_scan_.assign(grid_->getRawMap().size(), 0);
   scan_ = 0;
   scores_fit_ = false;
+  return held;
+}
+
+// Returns the limits of a grid that also holds a scan, or nothing if that grid has more than kMostCells.
+std::optional<LocalMap::Limits> LocalMap::limits_with(const Beams& beams, Limits limits) const {
+  const double margin = 4 * options_.resolution_m;
+  const auto hold = [&](const mrpt::math::TPoint2D& p) {
+    if (!(std::abs(p.x) <= kFarthest_m && std::abs(p.y) <= kFarthest_m)) return false;
+    while (p.x - margin < limits.x_min) limits.x_min -= kGrowthStep_m;
+    while (p.x + margin > limits.x_max) limits.x_max += kGrowthStep_m;
+    while (p.y - margin < limits.y_min) limits.y_min -= kGrowthStep_m;
+    while (p.y + margin > limits.y_max) limits.y_max += kGrowthStep_m;
+    return true;
+  };
+  if (!hold(beams.origin) || !std::all_of(beams.ends.begin(), beams.ends.end(), hold)) return std::nullopt;
+  const double cells = (limits.x_max - limits.x_min) * (limits.y_max - limits.y_min) /
+                       (options_.resolution_m * options_.resolution_m);
+  return cells <= kMostCells ? std::optional(limits) : std::nullopt;
 }
 
 void LocalMap::add_to_dirty(const Region& region) {
@@ -111,13 +127,13 @@ void LocalMap::draw_way(int x0, int y0, int x1, int y1) {
 }
 
 void LocalMap::insert(const std::vector<Beams>& scans) {
-  grow_to_hold(scans);
+  const std::vector<const Beams*> held = grow_to_hold(scans);
   if (++scan_ == 0) {  // the counter overflowed
     std::fill(last_scan_.begin(), last_scan_.end(), std::uint16_t{0});
     scan_ = 1;
   }
   std::vector<Way> ways;
-  for (const Beams& beams : scans) draw_hits(beams, ways);
+  for (const Beams* beams : held) draw_hits(*beams, ways);
   for (const Way& way : ways) draw_way(way.from_x, way.from_y, way.to_x, way.to_y);
 }
 

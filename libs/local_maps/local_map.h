@@ -50,7 +50,8 @@ class LocalMap {
 
   /// Draws a scan. Cells at beam ends, and between ends on one surface, become more occupied. Cells along the
   /// beams become less occupied. A scan changes each cell at most once; surfaces take precedence over beams.
-  /// Must not be called after finish().
+  /// Leaves out a scan for which the grid would need more than 10^8 cells, because such a scan is far from
+  /// the others. Must not be called after finish().
   void insert(const Beams& beams) { insert(std::vector<Beams>{beams}); }
 
   /// Draws simultaneous scans of several lasers as one scan, so that no beam of one laser erases the beam
@@ -101,7 +102,17 @@ class LocalMap {
     int to_x = 0;
     int to_y = 0;
   };
-  void grow_to_hold(const std::vector<Beams>& scans);
+  struct Limits {  // of the grid, metres
+    double x_min = 0;
+    double x_max = 0;
+    double y_min = 0;
+    double y_max = 0;
+    bool operator==(const Limits& other) const {
+      return x_min == other.x_min && x_max == other.x_max && y_min == other.y_min && y_max == other.y_max;
+    }
+  };
+  std::vector<const Beams*> grow_to_hold(const std::vector<Beams>& scans);
+  std::optional<Limits> limits_with(const Beams& beams, Limits limits) const;
   void add_to_dirty(const Region& region);
   Region observed_region() const;
   bool observed(int x, int y) const;

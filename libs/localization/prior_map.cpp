@@ -279,6 +279,7 @@ PriorPlaces PriorMap::places(const Mapper& mapper, const std::optional<PriorStar
     pose.site_T_robot.pose.y += options_.offset.y;
     pose.source = options_.source;
     pose.is_matched = true;
+    pose.scan = frame;
     result.poses.push_back(std::move(pose));
   }
   if (result.poses.empty()) result.objection = "no place along the path fits";

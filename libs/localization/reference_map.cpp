@@ -8,13 +8,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/byte_cursor.h"
+#include "base/file_checksum.h"
 #include "base/number_text.h"
+#include "base/yaml_directives.h"
 #include "compression/compressed_file.h"
+#include "localization/image_size.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -46,10 +51,31 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+bool is_yaml_file(const std::filesystem::path& path) {
+  return path.extension() == ".yaml" || path.extension() == ".yml";
+}
+
+/// Returns the path of the image that `map.yaml` names.
+std::filesystem::path image_of(const std::filesystem::path& path, const mrpt::containers::yaml& yaml) {
+  // An absolute image replaces the parent.
+  return path.parent_path() / yaml["image"].as<std::string>();
+}
+
 constexpr double kLeastResolution_m = 0.001;
 constexpr double kMostResolution_m = 1;
 constexpr double kFarthest_m = 200'000;
 constexpr double kLeastOffset = 0.01;  // of a cell; less is rounding
+
+// A map has at most this number of cells, or this number per byte of its file, so that a small file cannot
+// take all memory.
+constexpr std::uint64_t kMostCellsOfAnyFile = 100'000'000;
+constexpr std::uint64_t kMostCellsPerByte = 64;
+
+std::uint64_t most_cells(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::uint64_t bytes = std::filesystem::file_size(file, error);
+  return error ? kMostCellsOfAnyFile : std::max(kMostCellsOfAnyFile, kMostCellsPerByte * bytes);
+}
 
 void check_resolution(const std::filesystem::path& path, double resolution_m) {
   if (!(resolution_m >= kLeastResolution_m && resolution_m <= kMostResolution_m))
@@ -58,15 +84,37 @@ void check_resolution(const std::filesystem::path& path, double resolution_m) {
         " m, expected 0.001 to 1 m. Export the map again with psi-slam, or correct the resolution");
 }
 
-/// Throws UserError if the image that `map.yaml` names does not exist. MRPT reports this on the terminal
-/// only.
-void check_image(const std::filesystem::path& path, const std::filesystem::path& image) {
-  const std::filesystem::path file = path.parent_path() / image;  // an absolute image replaces the parent
+/// Throws UserError if `file`, the image that `map.yaml` names, does not exist, which MRPT reports on the
+/// terminal only, or if its header states more pixels than most_cells().
+void check_image(const std::filesystem::path& path, const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
     throw UserError(
         path.string() + ": the image " + file.string() +
         " does not exist, expected the image of the map. Copy the image, or correct the key image");
+  constexpr std::size_t kHeadBytes = std::size_t{1} << 20;
+  std::string head(kHeadBytes, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  const std::optional<ImageSize> size = image_size(head);
+  if (!size)
+    throw UserError(file.string() +
+                    " is not an image that is read, expected PNG, PGM, BMP or JPEG. Convert the image");
+  const std::uint64_t most = most_cells(file);
+  if (size->width * size->height > most)
+    throw UserError(file.string() + " states " + std::to_string(size->width) + " x " +
+                    std::to_string(size->height) + " pixels, expected at most " + std::to_string(most) +
+                    " for a file of its size. Export the map with a coarser resolution");
+}
+
+/// Returns the number at a place of a YAML file. Throws std::exception if there is none. MRPT's own
+/// conversion of other texts to double has undefined behaviour.
+template <class Yaml>
+double number_in(const Yaml& place) {
+  const std::optional<double> number = parse_number(place.template as<std::string>());
+  if (!number) throw MalformedBytes("expected a number");
+  return *number;
 }
 
 PlacedMapFile read_yaml(const std::filesystem::path& path) {
@@ -74,24 +122,25 @@ PlacedMapFile read_yaml(const std::filesystem::path& path) {
   PlacedMapFile map;
   Grid& grid = map.grid;
   try {
+    if (has_yaml_directive(path)) throw MalformedBytes("a directive");
     const auto yaml = mrpt::containers::yaml::FromFile(path.string());
-    check_resolution(path, yaml["resolution"].as<double>());
-    if (yaml["origin"](2).as<double>() != 0)
+    const double resolution_m = number_in(yaml["resolution"]);
+    check_resolution(path, resolution_m);
+    if (number_in(yaml["origin"](2)) != 0)
       throw UserError(path.string() +
                       ": the origin is rotated, expected yaw 0. Rotate the image instead, and set the third "
                       "value of origin to 0");
-    check_image(path, yaml["image"].as<std::string>());
+    check_image(path, image_of(path, yaml));
     if (!grid.loadFromROSMapServerYAML(path.string()))
       throw UserError(path.string() +
                       ": the image that it names is unreadable, expected an image file such as map.pgm. "
                       "Export the map again with psi-slam");
-    const double resolution_m = yaml["resolution"].as<double>();
     const auto offset = [&](double stated_m, float read_m) {
       const double off_m = stated_m - static_cast<double>(read_m);
       return std::abs(off_m) > kLeastOffset * resolution_m ? off_m : 0;
     };
-    map.offset = {offset(yaml["origin"](0).as<double>(), grid.getXMin()),
-                  offset(yaml["origin"](1).as<double>(), grid.getYMin())};
+    map.offset = {offset(number_in(yaml["origin"](0)), grid.getXMin()),
+                  offset(number_in(yaml["origin"](1)), grid.getYMin())};
   } catch (const UserError&) {
     throw;
   } catch (const std::exception&) {
@@ -103,8 +152,10 @@ PlacedMapFile read_yaml(const std::filesystem::path& path) {
   return map;
 }
 
+/// Reads a file with one byte per cell. Throws UserError if it has more bytes than most_cells().
 std::vector<char> all_bytes(const std::filesystem::path& path) {
   CompressedFile file(path, kExpected);
+  const std::uint64_t most = most_cells(path);
   std::vector<char> bytes;
   constexpr std::size_t kBlock = std::size_t{1} << 20;
   std::size_t read = kBlock;
@@ -112,6 +163,9 @@ std::vector<char> all_bytes(const std::filesystem::path& path) {
     bytes.resize(bytes.size() + kBlock);
     read = file.read(bytes.data() + bytes.size() - kBlock, kBlock);
     bytes.resize(bytes.size() - kBlock + read);
+    if (bytes.size() > most + kBlock)
+      throw UserError(path.string() + " decompresses to more than " + std::to_string(most) +
+                      " cells, which no map of its size has. Export the map with a coarser resolution");
   }
   return bytes;
 }
@@ -186,7 +240,7 @@ void check_map_place(const std::filesystem::path& path, const mrpt::math::TPoint
 
 PlacedMapFile read_placed_map_file(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
-  const bool is_yaml = ends_with(name, ".yaml") || ends_with(name, ".yml");
+  const bool is_yaml = is_yaml_file(path);
   if (!is_yaml && !ends_with(name, ".gridmap.gz") && !ends_with(name, ".gridmap"))
     throw UserError(path.string() +
                     " is not a map: expected map.yaml or map.gridmap.gz, as psi-slam writes them. Name one "
@@ -202,6 +256,12 @@ PlacedMapFile read_placed_map_file(const std::filesystem::path& path) {
     throw UserError(path.string() +
                     ": the map has no wall, expected at least one occupied cell. Use a map with walls");
   return map;
+}
+
+std::string sha256_of_map_file(const std::filesystem::path& path) {
+  if (!is_yaml_file(path)) return sha256_of_file(path);
+  const auto yaml = mrpt::containers::yaml::FromFile(path.string());
+  return sha256_of_text(sha256_of_file(path) + '\n' + sha256_of_file(image_of(path, yaml)) + '\n');
 }
 
 Grid read_map_file(const std::filesystem::path& path) {

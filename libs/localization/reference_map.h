@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "local_maps/local_map.h"
 
@@ -44,5 +45,9 @@ void check_map_place(const std::filesystem::path& path, const mrpt::math::TPoint
 
 /// Reads a map like read_map_file(), with its exact place.
 PlacedMapFile read_placed_map_file(const std::filesystem::path& path);
+
+/// Returns the SHA-256 of a map's file. For `map.yaml`: SHA-256 of a text with two lines, its own SHA-256 and
+/// that of the image that it names. Throws UserError if a file is unreadable.
+std::string sha256_of_map_file(const std::filesystem::path& path);
 
 }  // namespace psi_slam

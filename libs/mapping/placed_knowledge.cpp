@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 
 #include "base/degrees.h"
@@ -52,6 +53,14 @@ void sort(FixedKnowledge& knowledge) {
               return std::tuple(a.name, a.from_scan, a.time_us, key_of(a.robot_T_tag)) <
                      std::tuple(b.name, b.from_scan, b.time_us, key_of(b.robot_T_tag));
             });
+}
+
+// Number of the node of a scan.
+std::size_t node_of(std::size_t scan, const std::vector<std::size_t>& node_frames) {
+  const auto node = std::lower_bound(node_frames.begin(), node_frames.end(), scan);
+  if (node == node_frames.end() || *node != scan)
+    throw std::logic_error("PlacedKnowledge: scan " + std::to_string(scan) + " is no node");
+  return static_cast<std::size_t>(node - node_frames.begin());
 }
 
 // Pose of a later place relative to a node, both by the front end.
@@ -120,7 +129,8 @@ PlacedKnowledge::PlacedKnowledge(FixedKnowledge knowledge, const std::vector<Fra
       complaints_.push_back(moments.complaint(stated.source, stated.time_us));
     return moment;
   };
-  for (const KnownPose& pose : knowledge.poses) add_pose(pose, moment_of(pose));
+  for (const KnownPose& pose : knowledge.poses)
+    add_pose(pose, pose.scan ? Moment{node_of(*pose.scan, node_frames), {}} : moment_of(pose));
   std::set<std::string> names;
   std::vector<std::pair<TagSighting, Moment>> sightings;
   for (const TagPlace& tag : knowledge.tags) names.insert(tag.name);

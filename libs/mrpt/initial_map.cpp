@@ -88,8 +88,7 @@ std::optional<MeasuredPose> InitialMap::follow(const Mapper& mapper) {
     if (!place.believed()) return std::nullopt;
     if (!consensus_.add(node, keyframes, place)) return std::nullopt;
     start_ = PriorStart{node, place.map_T_robot};
-    constexpr double kFoundSigma_m = 0.05;
-    initial_T_run_ = MeasuredPose{{}, kFoundSigma_m, kFoundSigma_m / 5};
+    initial_T_run_ = map_.with_errors_of_walls(place.map_T_robot);
   }
   initial_T_run_->pose = compose(start_->prior_T_node, inverse(run_T_node));
   return initial_T_run_;

@@ -97,7 +97,8 @@ std::optional<TimeUs> time_us(const mrpt::obs::CObservation& observation) {
   if (ticks <= 0) return std::nullopt;
   const std::int64_t since_1970 = ticks - kTicksFrom1601To1970;
   const std::int64_t half = since_1970 < 0 ? -kTicksPerMicrosecond / 2 : kTicksPerMicrosecond / 2;
-  return (since_1970 + half) / kTicksPerMicrosecond;
+  const TimeUs time_us = (since_1970 + half) / kTicksPerMicrosecond;
+  return is_possible_time(time_us) ? std::optional(time_us) : std::nullopt;
 }
 
 std::optional<mrpt::math::TPose2D> movement_of(const mrpt::obs::CActionCollection& actions) {

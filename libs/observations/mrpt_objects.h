@@ -16,11 +16,11 @@
 
 namespace psi_slam {
 
-/// Converts Unix time in microseconds to MRPT's clock.
+/// Converts Unix time in microseconds, at most kMostTimeUs, to MRPT's clock.
 mrpt::Clock::time_point mrpt_clock_time(TimeUs time_us);
 
 /// Unix time of an observation, rounded to the nearest microsecond. Empty if the observation has no time
-/// stamp.
+/// stamp or an impossible one, see kMostTimeUs.
 std::optional<TimeUs> time_us(const mrpt::obs::CObservation& observation);
 
 /// Movement of the robot relative to its previous pose: the increment of the odometry, or the mean of the

@@ -80,7 +80,7 @@ std::array<Column, kCount> columns_of(const py::object& given, const std::array<
 }
 
 TimeUs time_us(double time_s, const std::string& what) {
-  if (!(std::abs(time_s) <= 4e12))  // as parse_seconds()
+  if (!(std::abs(time_s) < seconds(kMostTimeUs)))
     throw UserError(what + ": a time is " + exact_text(time_s) + ", expected seconds");
   return std::llround(time_s * 1e6);
 }

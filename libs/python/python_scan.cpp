@@ -23,8 +23,6 @@ namespace {
 
 namespace py = pybind11;
 
-constexpr double kMostSeconds = 4e12;  // as parse_seconds()
-
 std::string shape_text(const py::array& array) {
   return py::str(array.attr("shape"));
 }
@@ -73,7 +71,7 @@ PythonScan make_scan(const py::object& ranges_m, double time_s, double max_range
                      std::optional<double> angle_min_rad, std::optional<double> angle_increment_rad,
                      const py::object& bearings_rad, double min_range_m, const py::object& mount) {
   PythonScan made;
-  if (!(std::abs(time_s) <= kMostSeconds))
+  if (!(std::abs(time_s) < seconds(kMostTimeUs)))
     throw UserError("Scan: time_s is " + exact_text(time_s) + ", expected a time in seconds");
   made.time_us = std::llround(time_s * 1e6);
   require_above_zero(max_range_m, "max_range_m");

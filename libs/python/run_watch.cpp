@@ -17,7 +17,7 @@ namespace py = pybind11;
 constexpr std::chrono::milliseconds kPeriod{50};
 
 const char* name_of(SessionProgress::Phase phase) {
-  constexpr std::array<const char*, 3> kNames{"mapping", "final search", "writing"};
+  constexpr std::array<const char*, 4> kNames{"mapping", "prior map", "final search", "writing"};
   return kNames.at(static_cast<std::size_t>(phase));
 }
 
@@ -78,7 +78,7 @@ void bind_progress(py::module_& module) {
   py::class_<PythonProgress>(module, "Progress", "Progress of a run, as the function `progress` receives it.")
       .def_property_readonly(
           "phase", [](const PythonProgress& progress) { return progress.phase; },
-          "Part of the work: \"calibrating\", \"mapping\" or \"final search\".")
+          "Part of the work: \"calibrating\", \"mapping\", \"prior map\" or \"final search\".")
       .def_readonly("share", &PythonProgress::share, "Completed share of the phase, in [0, 1].")
       .def_readonly("scans", &PythonProgress::scans, "Number of scans mapped so far.")
       .def_readonly("scans_per_s", &PythonProgress::scans_per_s, "Scans mapped per second of work.")

@@ -14,7 +14,7 @@ namespace psi_slam {
 
 /// Progress of a run for Python. While log.calibrate estimates, `phase` is "calibrating".
 struct PythonProgress {
-  const char* phase = "mapping";  ///< "calibrating", "mapping" or "final search"
+  const char* phase = "mapping";  ///< "calibrating", "mapping", "prior map" or "final search"
   double share = 0;               ///< completed share of the phase, in [0, 1]
   std::size_t scans = 0;
   double scans_per_s = 0;

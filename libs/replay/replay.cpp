@@ -362,7 +362,8 @@ void Replay::observe(const SessionProgress& progress) {
     maker_->follow_local_maps(session_->mapper());
   }
   if (Clock::now() >= next_publication()) publish();
-  if (progress.phase == SessionProgress::Phase::kFinalSearch) {
+  if (progress.phase == SessionProgress::Phase::kPriorSearch ||
+      progress.phase == SessionProgress::Phase::kFinalSearch) {
     serve_map_edits();
     hold_final_search();
   }

@@ -41,8 +41,9 @@ struct BagMessage {
   std::string_view bytes;
 };
 
-/// Largest record, chunk or message that is read. Anything larger is taken for damage.
-constexpr std::uint64_t kMaxRecordBytes = std::uint64_t{1} << 29;
+/// Largest record, chunk or message that is read, compressed or not. Recorders write chunks of a few
+/// megabytes; anything larger than this limit is taken for damage, so that no bag takes all memory.
+constexpr std::uint64_t kMaxRecordBytes = std::uint64_t{1} << 27;
 
 /// Throws MalformedBytes if a bag states a size above kMaxRecordBytes.
 void check_stated_size(std::uint64_t bytes);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "frames/laser_readings.h"
 #include "frames/pose_operations.h"
 
 namespace psi_slam {
@@ -35,6 +36,13 @@ TPose2D read_pose(ByteCursor& bytes) {
   for (double* const value : {&pose.x, &pose.y, &pose.phi}) *value = bytes.number<double>();
   if (!is_possible_odometry(pose)) throw MalformedBytes("invalid pose");
   return pose;
+}
+
+/// Reads the time of a scan. Throws MalformedBytes for a time that no log has.
+TimeUs read_time(ByteCursor& bytes) {
+  const auto time_us = bytes.number<TimeUs>();
+  if (!is_possible_time(time_us)) throw MalformedBytes("a scan has an impossible time stamp");
+  return time_us;
 }
 
 void append_floats(std::string& bytes, const std::vector<float>& values) {
@@ -69,6 +77,8 @@ LaserScan read_sensor(ByteCursor& bytes, std::uint32_t version) {
   sensor.bearings_rad = std::make_shared<const std::vector<float>>(std::move(bearings_rad));
   sensor.max_range_m = bytes.number<float>();
   sensor.robot_T_laser = read_pose(bytes);
+  if (!is_possible_mount(sensor.robot_T_laser))
+    throw MalformedBytes("a laser is more than 100 m from the robot's centre");
   sensor.sweep_time_s = bytes.number<float>();
   if (version >= kSeveralLasers) sensor.laser = bytes.number<std::uint32_t>();
   if (sensor.laser >= kMostLasers) throw MalformedBytes("the number of a laser is too high");
@@ -114,7 +124,7 @@ Frame FrameReader::read(ByteCursor& bytes) {
   const auto flags = bytes.number<std::uint8_t>();
   if ((flags & ~kAllFlags) != 0) throw MalformedBytes("a scan has an unknown flag");
   frame.has_odometry = (flags & kHasOdometry) != 0;
-  frame.time_us = bytes.number<TimeUs>();
+  frame.time_us = read_time(bytes);
   frame.odom_T_robot = read_pose(bytes);
   LaserScan& sensor = sensors_[0];
   if ((flags & kOtherSensor) != 0) sensor = read_sensor(bytes, version_);
@@ -135,8 +145,10 @@ std::vector<CompanionScan> FrameReader::read_companions(ByteCursor& bytes, std::
     CompanionScan companion;
     const auto flags = bytes.number<std::uint8_t>();
     if ((flags & ~kOtherSensor) != 0) throw MalformedBytes("a scan has an unknown flag");
-    companion.time_us = bytes.number<TimeUs>();
+    companion.time_us = read_time(bytes);
     companion.frame_T_robot = read_pose(bytes);
+    if (!is_possible_mount(companion.frame_T_robot))
+      throw MalformedBytes("the robot moves by more than 100 m between the scans of a frame");
     LaserScan& sensor = sensors_[i + 1];
     if (flags != 0) sensor = read_sensor(bytes, version_);
     if (!sensor.bearings_rad) throw MalformedBytes("the first scan of a laser has no sensor description");

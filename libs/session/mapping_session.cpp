@@ -74,6 +74,7 @@ MappingSession::MappingSession(const SessionInput& input, const Settings& settin
   check(settings);
   m_->check_knowledge({});
   if (!settings.prior.map.empty()) m_->prior.emplace(settings);
+  if (m_->prior && m_->recording) m_->prior->compare_with(m_->recording->facts);
   m_->read_from(open_input(input, settings));
   m_->mapper = std::make_unique<Mapper>(options_for(input, settings));
   m_->make_due_edits({});
@@ -170,7 +171,7 @@ void MappingSession::finish() {
 void MappingSession::finish(const std::atomic<bool>& stop) {
   Members& m = *m_;
   if (finished()) throw std::logic_error("MappingSession::finish: the map is already finished");
-  m.begin(SessionProgress::Phase::kFinalSearch);
+  m.begin(m.prior ? SessionProgress::Phase::kPriorSearch : SessionProgress::Phase::kFinalSearch);
   WorkClock clock(m.work_s);
   if (std::none_of(m.mapper->log().begin(), m.mapper->log().end(), has_return))
     throw UserError((m.log_path.empty() ? names_of(m.logs) : m.log_path.string()) + ": " +
@@ -196,17 +197,26 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   };
   FixedKnowledge knowledge = m.edits.knowledge();
   std::optional<std::string> refusal;
-  if (m.prior) refusal = m.prior->place(*m.mapper, knowledge);
+  StageClock prior_clock("align with prior map");
+  if (m.prior) {
+    prior_clock.time([&] { refusal = m.prior->place(*m.mapper, knowledge, progress); });
+    if (!m.prior->is_interrupted()) progress(1);
+    clock.stop();
+    m.begin(SessionProgress::Phase::kFinalSearch);
+    clock.resume();
+  }
   m.mapper->set_knowledge(std::move(knowledge));
   m.result = m.mapper->finish(progress, m.after_finish);
+  if (m.prior && m.prior->changed_text()) m.result.contradictions.push_back(*m.prior->changed_text());
   if (refusal) m.result.contradictions.push_back(*std::move(refusal));
   m.contradictions_of_mapping = m.result.contradictions.size();
   m.check_log();
   m.enter(Members::State::kFinished);
   if (m.after_finish == Mapper::AfterFinish::kNothing) m.mapper.reset();
   m.result.stages.insert(m.result.stages.begin(), m.reading_clock.timing());
+  if (m.prior) m.result.stages.push_back(prior_clock.timing());
   m.result.interrupted =
-      m.result.interrupted ||
+      m.result.interrupted || (m.prior && m.prior->is_interrupted()) ||
       std::any_of(m.logs.begin(), m.logs.end(), [](const RecordedLog& log) { return log.scans_left; });
   m.result.broken_off = m.broken_off;
   m.stages_of_mapping = m.result.stages.size();
@@ -340,6 +350,7 @@ void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
   const std::size_t first_node = m.mapper->graph().num_nodes();
   m.later_runs.push_back({m.scans, start});
   const auto& inner = run.recording();
+  if (inner && m.prior) m.prior->compare_with(inner->facts);
   if (inner)
     for (RecordedRun later : inner->facts.runs) {
       later.scan += m.scans;

@@ -65,6 +65,7 @@ void write_edits(const EditJournal& edits, const fs::path& file) {
 
 DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   Members& m = *m_;
+  if (folder) check_prior_apart(m.settings, folder->path());
   m.begin(SessionProgress::Phase::kWriting);
   WorkClock clock(m.work_s);
   m.result.stages.resize(m.stages_of_mapping);
@@ -183,6 +184,7 @@ SessionFacts MappingSession::Members::facts() const {
   facts.logs = is_replaying ? recording->facts.logs : logs;
   facts.runs = later_runs;
   facts.settings = settings_text;
+  if (prior) facts.prior = prior->recorded();
   // Without their frames, edits could lie beside their walls when the session is resumed.
   const bool states_frames = state == State::kFinished && !edits.map_edits().empty();
   facts.edits = states_frames ? edits.with_frames(export_T_start(result, settings.map_frame)) : edits;

@@ -31,6 +31,9 @@ using Line = std::vector<TPoint2D>;
 
 constexpr double kMargin_m = 1;  // free space around the drawing
 constexpr double kLargest_m = 5000;
+// Side of a cell. It does not depend on map.resolution_m, which changes no poses.
+constexpr double kLeastCell_m = 0.05;
+constexpr double kMostCell_m = 0.2;
 constexpr double kMostCells = 100e6;
 constexpr double kStepCells = 0.4;  // between points on a line
 
@@ -154,12 +157,13 @@ mrpt::maps::COccupancyGridMap2D read_plan_drawing(const std::filesystem::path& p
     }
   const double width_m = high.x - low.x;
   const double height_m = high.y - low.y;
-  const double cell_m = options.resolution_m;
+  double cell_m = kLeastCell_m;
+  while (width_m * height_m / (cell_m * cell_m) > kMostCells && cell_m < kMostCell_m) cell_m *= 2;
   if (!(std::max(width_m, height_m) <= kLargest_m) || !(std::max(width_m, height_m) >= 1) ||
       width_m * height_m / (cell_m * cell_m) > kMostCells)
     throw UserError(path.string() + ": the drawing measures " + fixed_text(width_m, 1) + " m x " +
                     fixed_text(height_m, 1) +
-                    " m, expected 1 m to 5000 m and at most 100 million cells of map.resolution_m. Correct "
+                    " m, expected 1 m to 5000 m and at most 4 square kilometres. Correct "
                     "prior.metres_per_unit, or choose layers with prior.layers");
   check_map_place(path, low, high);
   const auto cell = [&](double metres) { return std::llround(std::floor(metres / cell_m)); };

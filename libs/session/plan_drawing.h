@@ -11,7 +11,6 @@
 namespace psi_slam {
 
 struct PlanDrawingOptions {
-  double resolution_m = 0.05;             ///< side of a cell
   std::optional<double> metres_per_unit;  ///< empty: the unit that the drawing states, $INSUNITS
   std::string layers;                     ///< layers with walls, separated by commas; empty: all
 };
@@ -19,7 +18,8 @@ struct PlanDrawingOptions {
 /// Returns whether a file name ends in .dxf, in upper or lower case.
 bool is_plan_drawing(const std::filesystem::path& path);
 
-/// Draws the lines of a DXF file as walls into free space. The map has the drawing's origin and axes. Throws
+/// Draws the lines of a DXF file as walls into free space. The map has the drawing's origin and axes. Its
+/// cells have 0.05 m, or 0.1 or 0.2 m if the drawing has more than 100 million smaller cells. Throws
 /// UserError if the file is unreadable, if its unit is unknown, or if the chosen layers have no lines or an
 /// implausible extent.
 mrpt::maps::COccupancyGridMap2D read_plan_drawing(const std::filesystem::path& path,

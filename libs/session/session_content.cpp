@@ -3,6 +3,7 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -16,6 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 using mrpt::math::TPose2D;
 using Json = nlohmann::ordered_json;
+
+// Sessions of real logs unpack to less than 10 times their size. A small file may unpack to more.
+constexpr std::uint64_t kMostMemoryPerByte = 64;
+constexpr std::uint64_t kMemoryOfAnySession = std::uint64_t{1} << 28;
+constexpr std::uint64_t kMostBytesOfFacts = std::uint64_t{1}
+                                            << 24;  // JSON takes much more memory than its text
 
 constexpr std::uint32_t kFactsOfEachLog = 3;  // first version with the damage and skipped lines of every log
 
@@ -71,11 +78,13 @@ Json json_of(const SessionFacts& facts) {
                     {"node_T_robot", pose_json(run.start.node_T_robot)},
                     {"robot_T_found", pose_json(run.start.robot_T_found)}});
   }
-  return {{"program_version", facts.program_version},
-          {"logs", logs},
-          {"drives", runs},
-          {"settings", facts.settings},
-          {"edits", facts.edits.text()}};
+  Json json{{"program_version", facts.program_version},
+            {"logs", logs},
+            {"drives", runs},
+            {"settings", facts.settings},
+            {"edits", facts.edits.text()}};
+  if (facts.prior) json["prior"] = {{"map", facts.prior->map}, {"sha256", facts.prior->sha256}};
+  return json;
 }
 
 /// Reads the damage of a log, its skipped lines, and whether scans were left unread.
@@ -105,6 +114,10 @@ SessionFacts facts_of(const Json& json, std::uint32_t version, const fs::path& p
                            pose_of(run.at("robot_T_found"))}});
   facts.settings = json.at("settings").get<std::string>();
   facts.edits = EditJournal::parse(json.at("edits").get<std::string>(), path);
+  if (json.contains("prior")) {
+    const Json& prior = json.at("prior");
+    facts.prior = RecordedPrior{prior.at("map").get<std::string>(), prior.at("sha256").get<std::string>()};
+  }
   return facts;
 }
 
@@ -162,12 +175,30 @@ std::string SessionContentWriter::packed(const std::string& facts, const std::ve
   return bytes += small;
 }
 
+SessionContentReader::SessionContentReader(std::uint32_t version, fs::path path, std::size_t file_bytes)
+    : frames_(version),
+      version_(version),
+      path_(std::move(path)),
+      most_memory_bytes_(kMemoryOfAnySession + kMostMemoryPerByte * file_bytes) {}
+
+void SessionContentReader::count_memory(std::uint64_t bytes) {
+  memory_bytes_ += std::min(bytes, most_memory_bytes_ + 1);
+  if (memory_bytes_ > most_memory_bytes_)
+    throw MalformedBytes("it unpacks to more than " + std::to_string(most_memory_bytes_) +
+                         " bytes, which no session of its size needs");
+}
+
 void SessionContentReader::add(ByteCursor& packed, SessionRecording& recording) {
   const auto packed_size = packed.number<std::uint64_t>();
   const auto size = packed.number<std::uint64_t>();
+  count_memory(size);
   const std::string content = decompress("zstd", packed.take(packed_size), size);
   ByteCursor bytes(content);
-  const std::string_view facts = bytes.take(bytes.number<std::uint64_t>());
+  const auto size_of_facts = bytes.number<std::uint64_t>();
+  if (size_of_facts > kMostBytesOfFacts)
+    throw MalformedBytes("its description has " + std::to_string(size_of_facts) +
+                         " bytes, expected at most " + std::to_string(kMostBytesOfFacts));
+  const std::string_view facts = bytes.take(size_of_facts);
   try {
     if (!facts.empty()) recording.facts = facts_of(Json::parse(facts), version_, path_);
   } catch (const Json::exception&) {
@@ -176,6 +207,7 @@ void SessionContentReader::add(ByteCursor& packed, SessionRecording& recording) 
   const auto count = bytes.number<std::uint64_t>();
   for (std::uint64_t i = 0; i < count; ++i) {
     Frame frame = frames_.read(bytes);
+    count_memory(sizeof(Frame) + frame.companions.size() * sizeof(CompanionScan));
     frame.index = recording.frames.size();
     recording.frames.push_back(std::move(frame));
   }

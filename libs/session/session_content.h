@@ -43,18 +43,23 @@ class SessionContentWriter {
 /// Unpacks what a SessionContentWriter packed, in the same order.
 class SessionContentReader {
  public:
-  /// Reads content of this version of the format. `path` is for error messages.
-  SessionContentReader(std::uint32_t version, std::filesystem::path path)
-      : frames_(version), version_(version), path_(std::move(path)) {}
+  /// Reads content of this version of the format, from the file `path` of this size.
+  SessionContentReader(std::uint32_t version, std::filesystem::path path, std::size_t file_bytes);
 
   /// Replaces the facts of the recording, unless the part has none, and appends its frames. Throws
-  /// MalformedBytes, or UserError for malformed edits, if the bytes are damaged.
+  /// MalformedBytes, or UserError for malformed edits, if the bytes are damaged, and if all parts together
+  /// need far more memory than a session of this size.
   void add(ByteCursor& packed, SessionRecording& recording);
 
  private:
+  /// Counts bytes of memory. Throws MalformedBytes if there are too many.
+  void count_memory(std::uint64_t bytes);
+
   FrameReader frames_;
   std::uint32_t version_;
   std::filesystem::path path_;
+  std::uint64_t most_memory_bytes_;
+  std::uint64_t memory_bytes_ = 0;
 };
 
 }  // namespace psi_slam

@@ -32,7 +32,7 @@ PriorMapOptions prior_options(const Settings& settings, const PlacedMapFile& fil
 PlacedMapFile read_prior(const Settings& settings) {
   const PriorOptions& prior = settings.prior;
   if (!is_plan_drawing(prior.map)) return read_placed_map_file(prior.map);
-  return {read_plan_drawing(prior.map, {settings.map.resolution_m, prior.metres_per_unit, prior.layers})};
+  return {read_plan_drawing(prior.map, {prior.metres_per_unit, prior.layers})};
 }
 
 std::string place_text(const mrpt::math::TPoint2D& place) {
@@ -67,6 +67,11 @@ void check_prior(const Settings& settings, const FixedKnowledge& knowledge) {
   const PriorOptions& prior = settings.prior;
   if (prior.map.empty() && prior.extend)
     throw UserError("prior.extend needs a map to extend. Name it with prior.map=FILE");
+  if (!is_plan_drawing(prior.map) && (!prior.layers.empty() || prior.metres_per_unit))
+    throw UserError(std::string(prior.layers.empty() ? "prior.metres_per_unit" : "prior.layers") +
+                    " is for a drawing, but prior.map " +
+                    (prior.map.empty() ? std::string("names no file") : "is " + prior.map) +
+                    ". Remove this setting, or name a .dxf file with prior.map");
   if (prior.map.empty()) return;
   if (prior.extend && is_plan_drawing(prior.map))
     throw UserError(
@@ -84,25 +89,40 @@ void check_prior(const Settings& settings, const FixedKnowledge& knowledge) {
 }
 
 void check_prior_apart(const Settings& settings, const std::filesystem::path& results_folder) {
-  if (settings.prior.map.empty()) return;
+  if (settings.prior.map.empty() || is_plan_drawing(settings.prior.map)) return;
   namespace fs = std::filesystem;
   std::error_code ignored;
   const fs::path folder_of_map = fs::absolute(settings.prior.map).parent_path();
   if (!fs::equivalent(folder_of_map, results_folder, ignored)) return;
   throw UserError("prior.map is " + settings.prior.map + ", but the results in " + results_folder.string() +
-                  " would replace it. Choose another folder with -o");
+                  " may replace it. Choose another folder for the results");
 }
 
 SessionPrior::SessionPrior(const Settings& settings)
     : options_(settings.prior),
       file_(read_prior(settings)),
+      recorded_{options_.map, sha256_of_map_file(options_.map)},
       map_(file_.grid, prior_options(settings, file_)) {
   if (options_.extend) check_extendable(settings, file_);
 }
 
-std::optional<std::string> SessionPrior::place(const Mapper& mapper, FixedKnowledge& knowledge) {
-  PriorPlaces places = map_.places(mapper);
-  is_aligned_ = places.objection.empty();
+void SessionPrior::compare_with(const SessionFacts& facts) {
+  const auto& before = facts.prior;
+  if (!before || before->map != recorded_.map || before->sha256 == recorded_.sha256) return;
+  changed_text_ = options_.map +
+                  ": this prior map has changed since the session was saved, so the map can differ from that "
+                  "of the session. Restore the file to get the same map again";
+}
+
+std::optional<std::string> SessionPrior::place(const Mapper& mapper, FixedKnowledge& knowledge,
+                                               const std::function<bool(double)>& progress) {
+  PriorPlaces places = map_.places(mapper, {}, progress);
+  is_interrupted_ = places.is_interrupted;
+  is_aligned_ = places.objection.empty() && !is_interrupted_;
+  if (is_interrupted_)
+    return options_.map +
+           ": this map is left out, because the search for the run in it was interrupted. The exported map "
+           "has its own frame. Map the log again, or resume its saved session, to align it";
   if (!is_aligned_)
     return options_.map + ": this map is left out, because the run does not fit it: " + places.objection +
            ". The exported map has its own frame. Check that prior.map shows this building in its size";

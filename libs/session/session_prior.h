@@ -5,6 +5,7 @@
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,15 +14,16 @@
 #include "localization/reference_map.h"
 #include "psi_slam/fixed_knowledge.h"
 #include "psi_slam/mapper.h"
+#include "session/session_recording.h"
 #include "session/settings.h"
 
 namespace psi_slam {
 
 /// Throws UserError if a prior map contradicts other settings or the knowledge, because both state the frame
-/// of the map, or if prior.extend lacks a prior map.
+/// of the map, if prior.extend lacks a prior map, or if settings for drawings lack a drawing.
 void check_prior(const Settings& settings, const FixedKnowledge& knowledge);
 
-/// Throws UserError if the prior map lies in the folder of the results, which would replace it.
+/// Throws UserError if the prior map is a grid map in the folder of the results, which may replace it.
 void check_prior_apart(const Settings& settings, const std::filesystem::path& results_folder);
 
 class SessionPrior {
@@ -30,8 +32,20 @@ class SessionPrior {
   explicit SessionPrior(const Settings& settings);
 
   /// Adds the places of the run in the prior map to the knowledge. Returns why the run cannot be aligned, one
-  /// sentence; empty if it is aligned.
-  std::optional<std::string> place(const Mapper& mapper, FixedKnowledge& knowledge);
+  /// sentence; empty if it is aligned. `progress` gets the completed share of the search, in [0, 1]. If it
+  /// returns false, the run is not aligned.
+  std::optional<std::string> place(const Mapper& mapper, FixedKnowledge& knowledge,
+                                   const std::function<bool(double)>& progress = {});
+
+  /// Returns the prior map for the facts of a session.
+  const RecordedPrior& recorded() const { return recorded_; }
+  /// Notes the facts of a session from which this one continues. From then on, changed_text() returns a
+  /// sentence without full stop if the file of the prior map has changed since the session was saved.
+  void compare_with(const SessionFacts& facts);
+  const std::optional<std::string>& changed_text() const { return changed_text_; }
+
+  /// Returns whether the last call of place() was stopped by its `progress`.
+  bool is_interrupted() const { return is_interrupted_; }
 
   /// Returns the walls of the prior map that the finished map shows as free space, as sentences. Empty if the
   /// run is not aligned.
@@ -44,8 +58,11 @@ class SessionPrior {
  private:
   PriorOptions options_;
   PlacedMapFile file_;
+  RecordedPrior recorded_;  // after file_, which checks that the file is readable
+  std::optional<std::string> changed_text_;
   PriorMap map_;
   bool is_aligned_ = false;
+  bool is_interrupted_ = false;
 };
 
 }  // namespace psi_slam

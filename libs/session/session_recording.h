@@ -33,12 +33,19 @@ struct RecordedRun {
   RunStart start;
 };
 
+/// The prior map of a run.
+struct RecordedPrior {
+  std::string map;     ///< value of prior.map
+  std::string sha256;  ///< see sha256_of_map_file()
+};
+
 struct SessionFacts {
   std::string program_version;
   std::vector<RecordedLog> logs;  ///< in the order of their frames
   std::vector<RecordedRun> runs;
   std::string settings;  ///< text of a settings file with every option
   EditJournal edits;
+  std::optional<RecordedPrior> prior{};  ///< empty without a prior map, and in files of older versions
 };
 
 struct SessionRecording {

@@ -2,13 +2,12 @@
 // Tests whole runs of psi-slam with a prior map.
 #include <gmock/gmock.h>
 
-#include <mrpt/math/TPoint2D.h>
-
 #include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "../session/room_drawing.h"
 #include "../session/room_log.h"
 #include "app_run.h"
 #include "localization/reference_map.h"
@@ -87,6 +86,10 @@ TEST_F(PriorMapApp, the_run_gets_the_frame_of_the_prior_map_and_repeats_to_the_l
   expect_same_files("a", "b");
   ASSERT_EQ(map("c", {"--resume", path("s").string()}).code, 0);
   expect_same_files("a", "c");
+  write_file(path("prior") / "map.yaml", read_file(path("prior") / "map.yaml") + "# moved\n");
+  const AppRun changed = map("d", {"--resume", path("s").string()});
+  ASSERT_EQ(changed.code, 0);
+  EXPECT_THAT(changed.err, HasSubstr("this prior map has changed since the session was saved"));
 }
 
 TEST_F(PriorMapApp, walls_that_are_not_there_are_named_and_missing_furniture_is_not) {
@@ -100,33 +103,14 @@ TEST_F(PriorMapApp, walls_that_are_not_there_are_named_and_missing_furniture_is_
   EXPECT_LT(worst_m("a"), 0.06);
 }
 
-/// Place of the room's origin in the drawing.
-constexpr double kDrawingShift_m = 0.02;
-
-/// A DXF drawing of the room in millimetres, on the layer WALLS. A diagonal across the room is on DIMENSIONS.
-std::string room_drawing(const std::string& header) {
-  std::string dxf = header + "0\nSECTION\n2\nENTITIES\n";
-  const auto add = [&](const std::string& layer, double x0, double y0, double x1, double y1) {
-    const auto millimetres = [](double metres) { return std::to_string(1000 * (metres + kDrawingShift_m)); };
-    dxf += "0\nLINE\n8\n" + layer + "\n10\n" + millimetres(x0) + "\n20\n" + millimetres(y0) + "\n11\n" +
-           millimetres(x1) + "\n21\n" + millimetres(y1) + "\n";
-  };
-  const std::vector<mrpt::math::TPoint2D> walls{{0, 0},   {12, 0}, {12, 8}, {7, 8}, {7, 9.5},
-                                                {4, 9.5}, {4, 8},  {0, 8},  {0, 0}};
-  for (std::size_t i = 0; i + 1 < walls.size(); ++i)
-    add("WALLS", walls[i].x, walls[i].y, walls[i + 1].x, walls[i + 1].y);
-  add("DIMENSIONS", 0, 0, 12, 8);
-  return dxf + "0\nENDSEC\n0\nEOF\n";
-}
-
 TEST_F(PriorMapApp, a_drawing_without_the_pillar_states_the_frame) {
-  write_file(path("room.dxf"), room_drawing("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n"));
+  write_file(path("room.dxf"), room_drawing(kMillimetres));
   write_file(path("unitless.dxf"), room_drawing(""));
   const auto with = [&](const std::string& file) { return "prior.map=" + path(file).string(); };
   const AppRun run = map("a", {log_.string(), "--set", with("room.dxf"), "--set", "prior.layers=WALLS"});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.err, AllOf(Not(HasSubstr("left out")), Not(HasSubstr("contradict"))));
-  EXPECT_LT(worst_m("a"), 0.06 + std::hypot(kDrawingShift_m, kDrawingShift_m));
+  EXPECT_LT(worst_m("a"), 0.06 + std::hypot(kRoomDrawingShift_m, kRoomDrawingShift_m));
   const AppRun unitless = map("b", {log_.string(), "--set", with("unitless.dxf")});
   EXPECT_EQ(unitless.code, 2);
   EXPECT_THAT(unitless.err, HasSubstr("states no unit of length"));
@@ -205,7 +189,8 @@ TEST_F(PriorMapApp, results_never_replace_the_prior_map) {
   const std::string bytes = read_file(path("prior") / "map.pgm");
   const AppRun run = map("prior", {log_.string(), "--force", "--set", prior});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, AllOf(HasSubstr("would replace it"), HasSubstr("Choose another folder with -o")));
+  EXPECT_THAT(run.err,
+              AllOf(HasSubstr("may replace it"), HasSubstr("Choose another folder for the results")));
   EXPECT_EQ(read_file(path("prior") / "map.pgm"), bytes);
 }
 
@@ -223,16 +208,33 @@ TEST_F(PriorMapApp, a_map_far_from_the_origin_is_refused) {
 TEST_F(PriorMapApp, merged_runs_get_its_frame_too) {
   const std::string prior = prior_map("");
   write_lines(path("second.log"), room_log_lines(40, kScansOfRound));
-  const AppRun run = run_app(
-      {"merge", log_.string(), path("second.log").string(), "--set", prior, "-q", "-o", path("m").string()});
-  ASSERT_EQ(run.code, 0) << run.err;
-  const Trajectory trajectory = read_trajectory(path("m") / "trajectory.tum");
-  ASSERT_EQ(trajectory.size(), 100U);
-  for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    const std::size_t scan = i < 60 ? i : i - 60;
-    const mrpt::math::TPose2D truth = room_pose(2 * M_PI * static_cast<double>(scan) / kScansOfRound);
-    EXPECT_LT(std::hypot(trajectory[i].pose.x - truth.x, trajectory[i].pose.y - truth.y), 0.06) << i;
-  }
+  const auto merge = [&](const std::string& out, std::vector<std::string> inputs) {
+    inputs.insert(inputs.begin(), "merge");
+    inputs.insert(inputs.end(), {"-q", "-o", path(out).string()});
+    const AppRun run = run_app(inputs);
+    EXPECT_EQ(run.code, 0) << run.err;
+    const Trajectory trajectory = read_trajectory(path(out) / "trajectory.tum");
+    EXPECT_EQ(trajectory.size(), 100U);
+    for (std::size_t i = 0; i < trajectory.size(); ++i) {
+      const std::size_t scan = i < 60 ? i : i - 60;
+      const mrpt::math::TPose2D truth = room_pose(2 * M_PI * static_cast<double>(scan) / kScansOfRound);
+      EXPECT_LT(std::hypot(trajectory[i].pose.x - truth.x, trajectory[i].pose.y - truth.y), 0.06) << i;
+    }
+    return run.err;
+  };
+  const std::string second = path("second.log").string();
+  merge("logs", {log_.string(), second, "--set", prior});
+  merge("start", {log_.string(), second, "--set", prior, "--start", "10.2,4,90"});  // in the frame of the map
+  // The sessions of both runs were made with the same prior map, which changes later.
+  const auto session = [&](const std::string& name) { return path(name + ".session").string(); };
+  ASSERT_EQ(map("1", {log_.string(), "--set", prior, "--save-session", session("1")}).code, 0);
+  ASSERT_EQ(map("2", {second, "--set", prior, "--save-session", session("2")}).code, 0);
+  EXPECT_THAT(merge("sessions", {session("1"), session("2")}), Not(HasSubstr("prior map")));
+  expect_same_files("logs", "sessions");
+  write_file(path("prior") / "map.yaml", read_file(path("prior") / "map.yaml") + "# moved\n");
+  ASSERT_EQ(map("1b", {log_.string(), "--set", prior, "--save-session", session("1b")}).code, 0);
+  EXPECT_THAT(merge("changed", {session("1b"), session("2")}),
+              HasSubstr("this prior map has changed since the session was saved"));
 }
 
 TEST_F(PriorMapApp, contradicting_settings_and_edits_are_refused) {
@@ -247,6 +249,9 @@ TEST_F(PriorMapApp, contradicting_settings_and_edits_are_refused) {
           "prior.map states the frame of the map, but map.align");
   refused({"--set", prior, "--edits", path("prior.edits").string()},
           "and so do the lines pose and tag of the edits");
+  refused({"--set", prior, "--set", "prior.layers=WALLS"},
+          "prior.layers is for a drawing, but prior.map is ");
+  refused({"--set", prior, "--set", "prior.metres_per_unit=0.001"}, "prior.metres_per_unit is for a drawing");
   refused({"--set", "prior.extend=true"}, "prior.extend needs a map to extend");
   refused({"--set", "prior.map=" + path("none.yaml").string()}, "none.yaml");
   refused({"--set", prior, "--set", "prior.extend=true", "--set", "map.resolution_m=0.1"},

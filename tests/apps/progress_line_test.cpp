@@ -17,6 +17,8 @@ TEST(ProgressLine, shows_share_speed_and_time_left) {
   EXPECT_EQ(progress_text({Phase::kMapping, 0, 1, 10, 0.1, {}}), "  0 %   1 scans   10 scans/s");
   EXPECT_EQ(progress_text({Phase::kFinalSearch, 0.25, 5876, 10, 0.1, 61}),
             " 25 %   final loop search   1:01 left");
+  EXPECT_EQ(progress_text({Phase::kPriorSearch, 0.25, 5876, 10, 0.1, 61}),
+            " 25 %   aligning with the prior map   1:01 left");
   EXPECT_EQ(progress_text({Phase::kWriting, 0, 5876, 10, 0.1, {}}),
             "drawing the map and writing the results");
 }

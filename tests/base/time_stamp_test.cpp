@@ -33,5 +33,13 @@ TEST(TimeStamp, rejects_other_texts) {
     EXPECT_EQ(parse_seconds(text), std::nullopt) << text;
 }
 
+TEST(TimeStamp, rejects_milliseconds_that_are_written_as_seconds) {
+  for (const char* text : {"976052905167.303", "-976052905167", "9.7e11", "100000000000", "1e11"})
+    EXPECT_EQ(parse_seconds(text), std::nullopt) << text;
+  EXPECT_EQ(parse_seconds("99999999999.9999999"), kMostTimeUs);
+  EXPECT_TRUE(is_possible_time(-kMostTimeUs));
+  EXPECT_FALSE(is_possible_time(kMostTimeUs + 1));
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 
+#include "decompression_bombs.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 #include "zstd_files.h"
@@ -51,6 +52,16 @@ TEST_F(UnpackedFileTest, reads_any_bytes_in_any_order) {
     EXPECT_TRUE(read(file, offset, 1000) == bytes_.substr(offset, 1000)) << offset;
   EXPECT_TRUE(read(file, 2'999'900, 1000) == bytes_.substr(2'999'900));
   EXPECT_EQ(read(file, 5'000'000'000'000, 10), "");
+}
+
+TEST_F(UnpackedFileTest, refuses_to_fill_the_disk) {
+  write_file(path_, frame_of_zeros(3'000'000'000));
+  UnpackedFile file(path_);
+  EXPECT_EQ(read(file, 1'000'000, 10), std::string(10, '\0'));
+  EXPECT_THAT(
+      sentence_of([&] { file.unpack_rest(); }),
+      testing::HasSubstr("run.db3.zstd unpacks to more than 268435456 bytes, which no recording of its "
+                         "size does. Fetch it again"));
 }
 
 TEST_F(UnpackedFileTest, unpacks_no_more_than_is_needed) {

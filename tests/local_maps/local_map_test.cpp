@@ -223,6 +223,20 @@ TEST(LocalMap, growing_keeps_what_was_drawn) {
   EXPECT_GT(score_at(large, {-38, 31}), 0);
 }
 
+TEST(LocalMap, leaves_out_a_scan_that_needs_a_grid_of_gigabytes) {
+  LocalMap map(without_smoothing());
+  map.insert(beam(middle(0, 0), middle(20, 0)));
+  const std::size_t before_bytes = map.memory_bytes();
+  const Beams near = beam(middle(0, 3), middle(20, 3));
+  for (const double far_m : {2000.0, 1e7, 1e300, std::nan("")})
+    map.insert({near, beam({far_m, far_m}, {far_m + 1, far_m}), beam(middle(0, 0), {far_m, -far_m})});
+  map.insert(beam(middle(0, 0), {3000, 3000}));
+  EXPECT_EQ(map.memory_bytes(), before_bytes) << "the grid has not grown";
+  EXPECT_GT(score_at(map.scores(), middle(20, 3)), 0) << "the scan beside the far ones is drawn";
+  map.insert(beam(middle(0, 0), middle(3000, 3000)));
+  EXPECT_GT(score_at(map.scores(), middle(3000, 3000)), 0) << "150 m are not far";
+}
+
 TEST(LocalMap, scores_follow_scan_by_scan_what_drawing_at_once_gives) {
   LocalMap step_by_step({});
   LocalMap at_once({});

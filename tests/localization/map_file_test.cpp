@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include "base/file_checksum.h"
 #include "compression/compressed_file.h"
+#include "decompression_bombs.h"
 #include "exports/map_files.h"
 #include "exports/map_server_pair.h"
 #include "temporary_folder.h"
@@ -14,6 +16,7 @@ namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Map with free space, one wall and unknown cells at the top. The lower left corner is at (-1.5, 4) m.
 COccupancyGridMap2D small_map() {
@@ -38,6 +41,19 @@ TEST(MapFile, reads_both_formats_with_all_cells_in_place) {
     EXPECT_GT(read.getCell(31, 10), 0.65F) << name;
     EXPECT_NEAR(read.getCell(31, 55), 0.5F, 0.01F) << name << ": unknown cells stay unknown";
   }
+}
+
+TEST(MapFile, its_checksum_covers_the_image) {
+  const TemporaryFolder folder;
+  write_map_server_pair(folder.path() / "map.yaml", small_map());
+  write_mrpt_map(folder.path() / "map.gridmap.gz", small_map());
+  const auto checksum = [&](const char* name) { return sha256_of_map_file(folder.path() / name); };
+  EXPECT_EQ(checksum("map.gridmap.gz"), sha256_of_file(folder.path() / "map.gridmap.gz"));
+  const std::string before = checksum("map.yaml");
+  EXPECT_EQ(before, sha256_of_text(sha256_of_file(folder.path() / "map.yaml") + '\n' +
+                                   sha256_of_file(folder.path() / "map.pgm") + '\n'));
+  write_file(folder.path() / "map.pgm", read_file(folder.path() / "map.pgm") + ' ');
+  EXPECT_NE(checksum("map.yaml"), before);
 }
 
 TEST(MapFile, rejects_files_that_are_no_map) {
@@ -97,6 +113,27 @@ TEST(MapFile, checks_the_cell_counts_of_a_gridmap) {
   EXPECT_THAT(sentence_with(15, 0x70), HasSubstr("is damaged: it claims"));
   write_file(path, whole.substr(0, whole.size() / 2));
   EXPECT_THAT(sentence_of([&] { read_map_file(path); }), HasSubstr("is damaged: it claims"));
+}
+
+TEST(MapFile, refuses_small_files_of_countless_cells) {
+  const TemporaryFolder folder;
+  expect_little_memory([&] {
+    write_mrpt_map(folder.path() / "map.gridmap.gz", small_map());
+    write_gzipped_zeros(folder.path() / "map.gridmap.gz", "", 2'000'000'000);
+    EXPECT_THAT(sentence_of([&] { read_map_file(folder.path() / "map.gridmap.gz"); }),
+                HasSubstr("which no map of its size has. Export the map with a coarser resolution"));
+  });
+  write_map_server_pair(folder.path() / "map.yaml", small_map());
+  const auto sentence_with = [&](const std::string& image) {
+    write_file(folder.path() / "map.pgm", image);
+    return sentence_of([&] { read_map_file(folder.path() / "map.yaml"); });
+  };
+  expect_little_memory([&] {
+    EXPECT_THAT(sentence_with("P5 30000 30000 255\n"),
+                HasSubstr("map.pgm states 30000 x 30000 pixels, expected at most 100000000 for a file"));
+    EXPECT_THAT(sentence_with("GIF89a"), HasSubstr("map.pgm is not an image that is read, expected PNG"));
+    EXPECT_THAT(sentence_with("P5 9000 11000 255\n"), Not(HasSubstr("pixels")));
+  });
 }
 
 }  // namespace

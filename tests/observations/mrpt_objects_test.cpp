@@ -50,6 +50,17 @@ void expect_correct_bearings(const Frame& frame, double tolerance_rad) {
   EXPECT_EQ(beam, frame.scan.ranges_m.size());
 }
 
+TEST(TimeOfObservation, round_trips_up_to_the_largest_time_stamp) {
+  mrpt::obs::CObservationOdometry observation;
+  for (const TimeUs time :
+       {TimeUs{0}, TimeUs{976052905167303}, kMostTimeUs, TimeUs{-11'000'000'000'000'000}}) {
+    observation.timestamp = mrpt_clock_time(time);
+    EXPECT_EQ(time_us(observation), time);
+  }
+  observation.timestamp = mrpt::Clock::time_point(mrpt::Clock::duration(INT64_MAX));
+  EXPECT_EQ(time_us(observation), std::nullopt);
+}
+
 TEST(RangeObservation, even_beams_are_unchanged) {
   const Frame frame = frame_with(even_bearings(-90 * kDegree, 90 * kDegree, 181));
   const auto observation = range_observation(frame);

@@ -337,3 +337,19 @@ def test_a_second_ctrl_c_ends_without_a_map(log):
         psi_slam.map(log, progress=interrupt_in_each_phase)
     assert phases == ["mapping", "final search"]
     assert not isinstance(caught.value, psi_slam.Interrupted)
+
+
+def test_a_prior_map_has_a_phase_and_is_never_replaced(log, tmp_path):
+    psi_slam.map(log).save(tmp_path / "prior")
+    phases = []
+
+    def note_phase(progress):
+        if not phases or phases[-1] != progress.phase:
+            phases.append(progress.phase)
+
+    image = (tmp_path / "prior" / "map.pgm").read_bytes()
+    result = psi_slam.map(log, {"prior.map": tmp_path / "prior" / "map.yaml"}, progress=note_phase)
+    assert phases == ["mapping", "prior map", "final search"]
+    with pytest.raises(psi_slam.UserError, match="Choose another folder for the results"):
+        result.save(tmp_path / "prior", force=True)
+    assert (tmp_path / "prior" / "map.pgm").read_bytes() == image

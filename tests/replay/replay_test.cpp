@@ -317,6 +317,27 @@ TEST_F(HeldFinalSearch, waits_and_then_gives_the_same_results) {
   expect_same_results(out("headless"), out("held"));
 }
 
+TEST_F(ReplayTest, the_search_of_a_prior_map_can_be_paused_and_its_folder_is_kept) {
+  const auto path = log(room_log_lines(60, 50));
+  map_headless(path, "prior");
+  settings_.prior.map = (out("prior") / "map.yaml").string();
+  map_headless(path, "headless");
+  Replay replay(path, settings_);
+  replay.set_speed(0);
+  replay.play();
+  wait_for(replay, [](const ReplaySnapshot& now) { return now.phase >= ReplayPhase::kFinalSearch; });
+  replay.pause();
+  wait_for(replay, [](const ReplaySnapshot& now) { return now.final_search_held; });
+  replay.play();
+  wait_for(replay, ReplayPhase::kFinished);
+  replay.export_to(out("prior"), true);
+  EXPECT_THAT(wait_for_export(replay, 1)->exported->failure,
+              HasSubstr("Choose another folder for the results"));
+  replay.export_to(out("held"), false);
+  EXPECT_EQ(wait_for_export(replay, 2)->exported->failure, "");
+  expect_same_results(out("headless"), out("held"));
+}
+
 TEST_F(HeldFinalSearch, can_be_cut_at_once) {
   const auto replay = held();
   replay->cut_final_search();

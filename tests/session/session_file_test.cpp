@@ -6,9 +6,12 @@
 #include <cmath>
 
 #include "base/file_checksum.h"
+#include "decompression_bombs.h"
+#include "session/session_content.h"
 #include "small_recording.h"
 #include "temporary_folder.h"
 #include "test_files.h"
+#include "zstd_files.h"
 
 namespace psi_slam {
 namespace {
@@ -148,6 +151,14 @@ TEST_F(SessionFileTest, reports_contradictions_despite_a_valid_checksum) {
               HasSubstr("a log has more scans than the session"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].frame_T_robot.x = 1e300; }),
               HasSubstr("invalid pose"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].time_us = kMostTimeUs + 1; }),
+              HasSubstr("a scan has an impossible time stamp"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].time_us = INT64_MIN; }),
+              HasSubstr("a scan has an impossible time stamp"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].frame_T_robot.x = 2000; }),
+              HasSubstr("the robot moves by more than 100 m between the scans of a frame"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].scan.robot_T_laser.y = -1e6; }),
+              HasSubstr("a laser is more than 100 m from the robot's centre"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[0].odom_T_robot.phi = NAN; }),
               HasSubstr("invalid pose"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].imu_heading_rad = NAN; }),
@@ -164,6 +175,53 @@ TEST_F(SessionFileTest, reports_contradictions_despite_a_valid_checksum) {
               HasSubstr("another number of beams than its sensor"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].scan.ranges_m.pop_back(); }),
               HasSubstr("another number of beams than its sensor"));
+}
+
+TEST_F(SessionFileTest, refuses_content_that_unpacks_to_gigabytes) {
+  constexpr std::uint64_t kGigabytes = 3'000'000'000;
+  const std::string packed = frame_of_zeros(kGigabytes);
+  const auto with_size = [&](std::uint64_t size) {
+    std::string bytes = bytes_.substr(0, 20);  // the magic bytes and the version
+    append_number(bytes, std::uint64_t{packed.size()});
+    append_number(bytes, size);
+    return sealed(bytes + packed + std::string(64, ' '));
+  };
+  expect_little_memory([&] {
+    EXPECT_THAT(complaint_about(with_size(kGigabytes)),
+                HasSubstr("which no session of its size needs. Use a copy of it, or map the log again"));
+    EXPECT_THAT(complaint_about(with_size(200'000'000)),
+                HasSubstr("its data decompress to more than the expected 200000000 bytes"));
+  });
+}
+
+TEST_F(SessionFileTest, refuses_small_content_of_countless_empty_scans) {
+  SessionRecording recording = small_recording();
+  recording.facts.runs.clear();
+  Frame empty = recording.frames[0];
+  empty.companions.clear();
+  empty.scan.bearings_rad = std::make_shared<std::vector<float>>();
+  empty.scan.ranges_m.clear();
+  std::string frames;
+  FrameWriter writer;
+  writer.append(frames, empty);
+  const std::size_t first = frames.size();
+  writer.append(frames, empty);
+  constexpr std::uint64_t kScans = 4'000'000;
+  recording.facts.logs.resize(1);
+  recording.facts.logs[0].scans = kScans;
+  const std::string facts = facts_text(recording.facts);
+  std::string content;
+  append_number(content, std::uint64_t{facts.size()});
+  content += facts;
+  append_number(content, kScans);
+  content += frames.substr(0, first);
+  for (std::uint64_t i = 1; i < kScans; ++i) content += frames.substr(first);
+  const std::string packed = zstd_frame(content);
+  std::string bytes = bytes_.substr(0, 20);
+  append_number(bytes, std::uint64_t{packed.size()});
+  append_number(bytes, std::uint64_t{content.size()});
+  EXPECT_THAT(complaint_about(sealed(bytes + packed + std::string(64, ' '))),
+              HasSubstr("which no session of its size needs"));
 }
 
 }  // namespace

@@ -35,6 +35,9 @@ struct KnownPose {
       0;                 ///< first scan of the run that the time belongs to; 0: the first run with the time
   std::string source{};  ///< where this is stated, such as "my.edits:3", for messages
   bool is_matched = false;  ///< found by matching with a prior map, not stated by a person
+  /// Number of the scan at this pose, which must be a node. Empty: the scan follows from `time_us`, which is
+  /// not unique in logs with equal times or times that run backwards.
+  std::optional<std::size_t> scan{};
 };
 
 /// Known place of a tag: a mark at a fixed place that a sensor of the robot recognises.

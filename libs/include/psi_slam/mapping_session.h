@@ -43,6 +43,7 @@ struct SessionProgress {
   /// Part of the work.
   enum class Phase {
     kMapping,      ///< reading the log and mapping its scans
+    kPriorSearch,  ///< aligning the run with the prior map; only with prior.map
     kFinalSearch,  ///< final loop search, last optimisation and joint refinement
     kWriting,      ///< drawing the map and writing all files
   };
@@ -151,8 +152,8 @@ class MappingSession {
   void reopen();
 
   /// Ends the mapping and makes result(). Sets result().interrupted if readable scans of the log were left
-  /// unread or if `stop` became true and cut the final search short. Throws UserError if no scan has a
-  /// return.
+  /// unread or if `stop` became true and cut the final search, or the search in the prior map, short. Throws
+  /// UserError if no scan has a return.
   void finish(const std::atomic<bool>& stop);
   /// Ends the mapping like finish(stop), with a final search that cannot be cut short.
   void finish();

@@ -14,12 +14,22 @@ namespace psi_slam {
 /// Microseconds since the log's epoch.
 using TimeUs = std::int64_t;
 
+/// Largest magnitude of a time stamp: 3,169 years. Clocks of MRPT, ROS and GPS fit within it, and conversions
+/// to their units do not overflow. Readers of files reject larger time stamps, such as milliseconds that are
+/// written as seconds.
+constexpr TimeUs kMostTimeUs = 100'000'000'000'000'000;
+
+/// Returns whether a time stamp is within kMostTimeUs.
+constexpr bool is_possible_time(TimeUs time_us) {
+  return time_us >= -kMostTimeUs && time_us <= kMostTimeUs;
+}
+
 /// Returns the time in seconds with six decimals: "976052905.167303".
 std::string format_seconds(TimeUs time_us);
 
 /// Converts decimal seconds ("976052905.167303", "12", "1.5e9", "-0.25") to microseconds. Rounds to the
 /// nearest microsecond, exactly if the text has no exponent. Returns nothing if the text is not a number, or
-/// if its magnitude exceeds 4e12 seconds.
+/// if it is beyond kMostTimeUs.
 std::optional<TimeUs> parse_seconds(std::string_view text);
 
 /// Converts microseconds to seconds.

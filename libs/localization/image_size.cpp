@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localization/image_size.h"
+
+#include "base/byte_cursor.h"
+
+namespace psi_slam {
+namespace {
+
+bool is_space(char c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+/// Reads the next whole number of the header of a PNM file, after blanks and comments.
+std::uint64_t pnm_number(ByteCursor& cursor) {
+  constexpr std::uint64_t kMost = 1'000'000'000;
+  char c = cursor.number<char>();
+  while (is_space(c) || c == '#') {
+    if (c == '#')
+      while (c != '\n') c = cursor.number<char>();
+    c = cursor.number<char>();
+  }
+  std::uint64_t number = 0;
+  if (c < '0' || c > '9') throw MalformedBytes("expected a number");
+  for (; c >= '0' && c <= '9' && number <= kMost; c = cursor.number<char>())
+    number = 10 * number + static_cast<std::uint64_t>(c - '0');
+  return number;
+}
+
+ImageSize pnm_size(std::string_view bytes) {
+  ByteCursor cursor(bytes.substr(2));
+  const std::uint64_t width = pnm_number(cursor);
+  return {width, pnm_number(cursor)};
+}
+
+ImageSize png_size(std::string_view bytes) {
+  ByteCursor cursor(bytes, ByteOrder::kBigEndian);
+  if (cursor.take(16).substr(12) != "IHDR") throw MalformedBytes("expected the header of the image");
+  const auto width = cursor.number<std::uint32_t>();
+  return {width, cursor.number<std::uint32_t>()};
+}
+
+ImageSize bmp_size(std::string_view bytes) {
+  ByteCursor cursor(bytes);
+  cursor.take(18);
+  const auto magnitude = [&] {
+    const std::int64_t number = cursor.number<std::int32_t>();
+    return static_cast<std::uint64_t>(number < 0 ? -number : number);  // rows from the top: negative height
+  };
+  const std::uint64_t width = magnitude();
+  return {width, magnitude()};
+}
+
+/// Goes through the segments up to the one that begins the frame.
+ImageSize jpeg_size(std::string_view bytes) {
+  ByteCursor cursor(bytes, ByteOrder::kBigEndian);
+  cursor.take(2);
+  while (true) {
+    auto marker = cursor.number<std::uint8_t>();
+    while (marker == 0xFF) marker = cursor.number<std::uint8_t>();
+    const bool has_size =
+        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    const auto length = cursor.number<std::uint16_t>();
+    if (length < 2) throw MalformedBytes("expected a segment");
+    if (!has_size) {
+      cursor.take(length - 2U);
+      continue;
+    }
+    cursor.take(1);  // bits per sample
+    const auto height = cursor.number<std::uint16_t>();
+    return {cursor.number<std::uint16_t>(), height};
+  }
+}
+
+}  // namespace
+
+std::optional<ImageSize> image_size(std::string_view bytes) {
+  try {
+    if (bytes.substr(0, 8) == "\x89PNG\r\n\x1a\n") return png_size(bytes);
+    if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') return pnm_size(bytes);
+    if (bytes.substr(0, 2) == "BM") return bmp_size(bytes);
+    if (bytes.substr(0, 3) == "\xFF\xD8\xFF") return jpeg_size(bytes);
+  } catch (const MalformedBytes&) {  // the bytes end before the size
+  }
+  return std::nullopt;
+}
+
+}  // namespace psi_slam

@@ -150,8 +150,7 @@ MapAlignment alignment_of(const WallMatch& found, const Walls& walls, bool swapp
   alignment.centre = swapped ? walls.centre : TPoint2D(found.match.map_T_robot.x, found.match.map_T_robot.y);
   // A swapped match has its errors along the axes of B, with the opposite sign.
   Eigen::Matrix3d a_R_match = Eigen::Matrix3d::Identity();
-  if (swapped)
-    a_R_match.topLeftCorner<2, 2>() = rotation_matrix(alignment.a_T_b.phi);
+  if (swapped) a_R_match.topLeftCorner<2, 2>() = rotation_matrix(alignment.a_T_b.phi);
   alignment.covariance = a_R_match * found.match.covariance * a_R_match.transpose();
   alignment.agree = found.agreement.share();
   return alignment;

@@ -409,8 +409,7 @@ std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, con
       return {};
     }
   }
-  if (doubtful_corrections_.add_doubtful(rotation_matrix(-pose.phi) * correction))
-    return {};
+  if (doubtful_corrections_.add_doubtful(rotation_matrix(-pose.phi) * correction)) return {};
   Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
   across.topLeftCorner<2, 2>() -= along * along.transpose();
   held.information = Eigen::Matrix3d(across * held.information * across);
@@ -433,8 +432,7 @@ void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& mot
     if (step.matched) {
       // Rotation from the axes of the matched map to those of `active`.
       Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-      turn.topLeftCorner<2, 2>() =
-          rotation_matrix(active_.front().local_T_map.phi - active.local_T_map.phi);
+      turn.topLeftCorner<2, 2>() = rotation_matrix(active_.front().local_T_map.phi - active.local_T_map.phi);
       const Eigen::Matrix3d information = turn * step.information * turn.transpose();
       covariance = (Eigen::Matrix3d::Identity() + covariance * information).inverse() * covariance;
       covariance = Eigen::Matrix3d(0.5 * (covariance + covariance.transpose()));

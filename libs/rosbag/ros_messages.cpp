@@ -105,8 +105,8 @@ std::optional<mrpt::poses::CPose3D> pose(RosFields& fields) {
     return std::nullopt;
   const mrpt::math::CQuaternionDouble rotation(qw / norm, qx / norm, qy / norm, qz / norm);
   // From the matrix, because MRPT computes angles with the C library.
-  return mrpt::poses::CPose3D::FromRotationAndTranslation(rotation.rotationMatrix<mrpt::math::CMatrixDouble33>(),
-                                                          mrpt::math::TVector3D(x, y, z));
+  return mrpt::poses::CPose3D::FromRotationAndTranslation(
+      rotation.rotationMatrix<mrpt::math::CMatrixDouble33>(), mrpt::math::TVector3D(x, y, z));
 }
 
 /// Parses a header, the name of a frame and its pose. Empty if the pose is invalid.

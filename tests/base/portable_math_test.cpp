@@ -85,13 +85,13 @@ TEST(PortableMath, functions_of_one_number_are_accurate_to_the_last_place) {
     }
 }
 
-TEST(PortableMath, sine_and_cosine_are_those_of_the_single_functions) {
+TEST(PortableMath, sine_and_cosine_are_accurate_to_the_last_place) {
   Numbers numbers;
   for (int i = 0; i < 20'000; ++i) {
     const double angle_rad = numbers(-10, 10);
     const portable::SineCosine both = portable::sin_cos(angle_rad);
-    EXPECT_EQ(both.sin, portable::sin(angle_rad));
-    EXPECT_EQ(both.cos, portable::cos(angle_rad));
+    EXPECT_LE(units_in_last_place(both.sin, std::sin(static_cast<long double>(angle_rad))), 1.0) << angle_rad;
+    EXPECT_LE(units_in_last_place(both.cos, std::cos(static_cast<long double>(angle_rad))), 1.0) << angle_rad;
   }
 }
 
@@ -152,7 +152,8 @@ TEST(PortableMath, results_are_the_same_to_the_last_bit_everywhere) {
     digest.add(portable::hypot(x, y));
     digest.add(portable::pow(std::abs(x), y / 10));
   }
-  EXPECT_EQ(digest.value(), 0x0U);  // seen on Debian 12 (SLEEF 3.5.1) and on Debian 13 (SLEEF 3.6.1)
+  EXPECT_EQ(digest.value(),
+            0xcbf4caae739992b4U);  // seen on Debian 12 (SLEEF 3.5.1) and on Debian 13 (SLEEF 3.6.1)
 }
 
 TEST(PortableMath, lengths_of_floats_are_exact_where_they_are_floats) {

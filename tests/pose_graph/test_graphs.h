@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "frames/pose_operations.h"
 #include "pose_graph/constraint_error.h"
 #include "psi_slam/pose_graph.h"
 
@@ -22,13 +23,6 @@ inline TPose2D relative_pose(const TPose2D& a, const TPose2D& b) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
   return {c * dx + s * dy, c * dy - s * dx, wrap_to_pi(b.phi - a.phi)};
-}
-
-/// Composes two poses: returns the pose `b`, given relative to `a`, in the frame in which `a` is given.
-inline TPose2D compose(const TPose2D& a, const TPose2D& b) {
-  const double c = std::cos(a.phi);
-  const double s = std::sin(a.phi);
-  return {a.x + c * b.x - s * b.y, a.y + s * b.x + c * b.y, wrap_to_pi(a.phi + b.phi)};
 }
 
 /// A graph, and the true poses that its constraints were measured from.

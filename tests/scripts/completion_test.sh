@@ -75,11 +75,15 @@ expect "psi-graphslam -r my.l" "my.log|"
 expect "psi-graphslam --ini my.i" "my.ini|"
 expect "psi-graphslam --output-dir m" "maps|"
 expect "psi-graphslam --list-n" "--list-node-regs|"
-if [ -e "$build/completions/psi-slam-sweep-mpi" ]; then
-  expect "psi-slam-sweep-mpi my.l" "my.log|"
-  expect "psi-slam-sweep-mpi -o m" "maps|"
-  expect "psi-slam-sweep-mpi my.log --set map.write_d" "map.write_dxf=|"
-  expect "psi-slam-bench-mpi freiburg --see" "--seeds|"
+expect "psi-slam sweep --m" "--mpi|"
+expect "psi-slam-bench freiburg --mp" "--mpi|"
+if [ -e "$build/completions/psi-slam-mpi" ]; then
+  expect "psi-slam-mpi s" "sweep|"
+  expect "psi-slam-mpi sweep my.l" "my.log|"
+  expect "psi-slam-mpi sweep -o m" "maps|"
+  expect "psi-slam-mpi sweep my.log --set map.write_d" "map.write_dxf=|"
+  expect "psi-slam-mpi sweep --pro" "|"
+  expect "psi-slam-mpi freiburg --see" "--seeds|"
 fi
 expect "psi-slam --man" "|"
 

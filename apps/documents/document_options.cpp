@@ -163,7 +163,8 @@ std::string settings_man_page(const OptionTable& table, const std::string& versi
   return page + roff_section("SEE ALSO") + see_also("psi-slam.ini");
 }
 
-void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings) {
+void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings,
+                          const StartedPrograms& programs) {
   const auto add_hidden = [&app](const std::string& name, const std::function<std::string()>& text) {
     // CLI11 appends a newline to the text of --version, so the last newline of the document is removed.
     const auto print = [text] {
@@ -174,7 +175,8 @@ void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> sett
     app.add_flag_callback(name, print)->group("");
   };
   add_hidden("--man-page", [&app] { return man_page(app); });
-  add_hidden("--bash-completion", [&app, settings] { return bash_completion(app, settings.get()); });
+  add_hidden("--bash-completion",
+             [&app, settings, programs] { return bash_completion(app, settings.get(), programs); });
   if (settings)
     add_hidden("--settings-man-page",
                [&app, settings] { return settings_man_page(*settings, app.version()); });

@@ -183,6 +183,12 @@ std::vector<std::string> in_long_form(std::vector<std::string> arguments,
   return arguments;
 }
 
+StartedPrograms started_programs() {
+  StartedPrograms programs;
+  for (const OtherProgram& other : other_programs()) programs[other.command] = other.program;
+  return programs;
+}
+
 CLI::App* add_sweep(CLI::App& app, CommandLine& line) {
   CLI::App* const sweep =
       app.add_subcommand("sweep", "Map many logs with many settings and compare the results");
@@ -351,7 +357,7 @@ CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& 
   for (const auto& [command, kind] : commands) command->allow_extras();
   for (CLI::App* word : first_words) word->allow_extras();
   app.footer(kExamples);
-  add_document_options(app, default_settings());
+  add_document_options(app, default_settings(), started_programs());
   const std::vector<std::string> arguments = in_long_form(given, command_names(app));
   if (starts_other_program(arguments, line)) return line;
   // CLI11 expects the last argument first.

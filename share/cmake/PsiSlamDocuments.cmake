@@ -43,13 +43,34 @@ function(psi_slam_install_documents)
   if(TARGET psi_slam_python)
     install(DIRECTORY share/examples/python/
       DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-psi-slam/examples COMPONENT python FILES_MATCHING PATTERN "*.py")
-    psi_slam_install_legal_documents(python3-psi-slam python)
   endif()
-  psi_slam_install_legal_documents(psi-slam programs)
-  psi_slam_install_legal_documents(libpsi-slam-dev development)
+  psi_slam_list_packages(packages)
+  foreach(package IN LISTS packages)
+    psi_slam_component_of(component ${package})
+    psi_slam_install_legal_documents(${package} ${component})
+  endforeach()
+endfunction()
+
+# Sets OUTPUT to the names of all Debian packages that this build gives.
+function(psi_slam_list_packages output)
+  set(packages psi-slam psi-slam-bench libpsi-slam-dev)
   if(TARGET psi-slam-mpi)
-    psi_slam_install_legal_documents(psi-slam-mpi cluster)
+    list(APPEND packages psi-slam-mpi)
   endif()
+  if(TARGET psi_slam_python)
+    list(APPEND packages python3-psi-slam)
+  endif()
+  set(${output} ${packages} PARENT_SCOPE)
+endfunction()
+
+# Sets OUTPUT to the component that the package contains.
+function(psi_slam_component_of output package)
+  set(psi-slam programs)
+  set(psi-slam-bench bench)
+  set(libpsi-slam-dev development)
+  set(psi-slam-mpi cluster)
+  set(python3-psi-slam python)
+  set(${output} ${${package}} PARENT_SCOPE)
 endfunction()
 
 # Installs the licence and the changelog that every Debian package must contain.

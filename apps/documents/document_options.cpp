@@ -134,7 +134,9 @@ std::string man_page(const CLI::App& app) {
   page += roff_section("OPTIONS") + option_items(app);
   page += commands(app);
   page += roff_section("EXIT STATUS") + roff_item("0", "Success.") +
-          roff_item("1", "The system failed: a full disk, no memory, no display.") +
+          roff_item("1",
+                    "Something failed, such as a full disk. Commands that give 1 another meaning say so in "
+                    "their description.") +
           roff_item("2", "The arguments, the settings or the log are invalid.");
   page += footer(app);
   return page + roff_section("SEE ALSO") + see_also(name);

@@ -39,7 +39,8 @@ void refuse_processes(CLI::App& command) {
 /// Adds the command `sweep` and returns its work.
 std::function<int()> define_sweep(CLI::App& app, int ranks, const Streams& streams) {
   const auto arguments = std::make_shared<SweepArguments>();
-  CLI::App& sweep = *app.add_subcommand(kSweep, "Map many logs with many settings and compare the results");
+  CLI::App& sweep = *app.add_subcommand(
+      kSweep, "Map many logs with many settings and compare the results (exit code 1 if a run failed)");
   add_sweep_options(sweep, *arguments);
   refuse_processes(sweep);
   sweep.allow_extras();

@@ -190,8 +190,8 @@ StartedPrograms started_programs() {
 }
 
 CLI::App* add_sweep(CLI::App& app, CommandLine& line) {
-  CLI::App* const sweep =
-      app.add_subcommand("sweep", "Map many logs with many settings and compare the results");
+  CLI::App* const sweep = app.add_subcommand(
+      "sweep", "Map many logs with many settings and compare the results (exit code 1 if a run failed)");
   add_sweep_options(*sweep, line.sweep);
   add_processes_option(*sweep, line.sweep);
   add_mpi_option(*sweep, "psi-slam sweep");

@@ -41,9 +41,10 @@ TEST(OtherPrograms, a_program_that_is_not_installed_is_named_with_its_package) {
   fails({"eval"},
         "psi-slam: psi-slam eval runs psi-slam-eval, which is neither beside psi-slam nor in PATH. Debian's "
         "package psi-slam contains it\n");
-  fails({"bench", "match"},
-        "psi-slam: psi-slam bench runs psi-slam-bench, which is neither beside psi-slam nor in PATH. Debian's "
-        "package psi-slam-bench contains it\n");
+  fails(
+      {"bench", "match"},
+      "psi-slam: psi-slam bench runs psi-slam-bench, which is neither beside psi-slam nor in PATH. Debian's "
+      "package psi-slam-bench contains it\n");
   fails({"sweep", "my.log", "--mpi"},
         "psi-slam: psi-slam sweep --mpi runs psi-slam-mpi, which is neither beside psi-slam nor in PATH. "
         "Debian's package psi-slam-mpi contains it\n");

@@ -189,11 +189,22 @@ TEST_F(SweepCommand, two_sweeps_do_not_work_in_one_folder) {
   EXPECT_EQ(process.finish().code, 0);
 }
 
+TEST_F(SweepCommand, help_shows_no_internals) {
+  const AppRun help = run_app({"sweep", "--help"});
+  EXPECT_THAT(help.out, HasSubstr("--keep WHAT"));
+  EXPECT_THAT(help.out, HasSubstr("--processes N"));
+  for (const char* internal : {"->", "INT", "{", "["}) {
+    const std::string options = help.out.substr(help.out.find("\nOptions:"));
+    EXPECT_THAT(options, testing::Not(HasSubstr(internal)));
+  }
+}
+
 TEST_F(SweepCommand, wrong_usage_gives_one_sentence) {
   EXPECT_THAT(run_app({"sweep", "-o", (folder_.path() / "out").string()}).err, HasSubstr("name the logs"));
   EXPECT_THAT(run_app({"sweep", (folder_.path() / "room.log").string()}).err, HasSubstr("-o DIR"));
   EXPECT_THAT(run_app(words("out", {"--seds", "1"})).err, HasSubstr("did you mean \"--seeds\""));
-  EXPECT_EQ(run_app(words("out", {"--keep", "some"})).code, 2);
+  EXPECT_THAT(run_app(words("out", {"--keep", "some"})).err, HasSubstr("expected none, paths or maps"));
+  EXPECT_EQ(run_app(words("out", {"--processes", "0"})).code, 2);
   EXPECT_EQ(run_app(words("out", {"--seeds", "3-1"})).code, 2);
 }
 

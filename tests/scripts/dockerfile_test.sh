@@ -65,7 +65,8 @@ for step in "system share/scripts/build.sh" "robot share/scripts/install-depende
 done
 release=$(sed -n 's/^ARG DEBIAN=//p' "$dockerfile")
 grep --quiet "^  $release) release=" "$script" || fail "$dockerfile uses Debian $release, which check-debian.sh does not know"
-[ "$(grep --count '^FROM debian:${DEBIAN}-slim' "$dockerfile")" -eq 2 ] || fail "$dockerfile does not begin both stages with Debian"
+[ "$(grep --count '^FROM debian:${DEBIAN}-slim' "$dockerfile")" -eq 2 ] ||
+  fail "$dockerfile does not begin both stages with Debian"
 while IFS= read -r line; do
   [ -e "${line%% *}" ] || fail "$dockerfile copies ${line%% *}, which does not exist"
 done < <(sed -n 's/^COPY \([^-].*\)/\1/p' "$dockerfile")

@@ -37,6 +37,8 @@ if [ -e "$build/apps/psi-slam-mpi/psi-slam-mpi" ]; then
   expect psi-slam-mpi.1.gz "psi-slam-mpi freiburg [OPTION]..."
   expect psi-slam.1.gz "psi-slam-mpi(1)"
 fi
+expect psi-slam.1.gz "Commands that give 1 another meaning say so in their description"
+expect psi-slam.1.gz "compare the results (exit code 1 if a run failed)"
 expect psi-slam.ini.5.gz "m, between 0.005 and 10; default 0.05"
 if grep -q "freiburg-run\|man-page" <<<"$(shown psi-slam-bench.1.gz)"; then
   fail "psi-slam-bench.1.gz shows hidden commands or options"

@@ -28,7 +28,7 @@ constexpr const char* kBegin = R"(@FUNCTION@_answer() {
     [[ $line == *[[:space:]] ]] && words+=("")
   fi
   local last=$((${#words[@]} - 1))
-  local whole=${words[last]} current=${words[last]}
+@PROGRAMS@  local whole=${words[last]} current=${words[last]}
   for ((i = 1; i < last; ++i)); do
     word=${words[i]}
     if [[ -z $command && " @COMMANDS@ " == *" $word "* ]]; then command=$word; fi
@@ -41,6 +41,29 @@ constexpr const char* kBegin = R"(@FUNCTION@_answer() {
     current=${current#*=}
   fi
   COMPREPLY=()
+)";
+
+/// Completes the command line of another program, which the command $1 starts. $2 is the other program. The
+/// line is rewritten as if it began with that program.
+constexpr const char* kProgramFunction = R"(@FUNCTION@_folder=${BASH_SOURCE[0]:-}
+[[ -z ${ZSH_VERSION-} ]] || eval '@FUNCTION@_folder=${(%):-%x}'
+@FUNCTION@_folder=${@FUNCTION@_folder%/*}
+
+@FUNCTION@_program() {
+  local rest=${COMP_LINE#*[[:space:]]"$1"} script=$@FUNCTION@_folder/$2
+  COMP_POINT=$((COMP_POINT - ${#COMP_LINE} + ${#2} + ${#rest}))
+  COMP_LINE=$2$rest
+  COMP_WORDS=("$2" "${COMP_WORDS[@]:2}")
+  COMP_CWORD=$((COMP_CWORD - 1))
+  COMPREPLY=()
+  if ! declare -f "_${2//-/_}" >/dev/null; then
+    [[ -r $script ]] || return 0
+    # shellcheck disable=SC1090  # the script of the other program
+    source "$script"
+  fi
+  "_${2//-/_}"
+}
+
 )";
 
 constexpr const char* kEnd = R"(  local broken=${whole%"${whole##*[=:]}"}
@@ -75,6 +98,14 @@ std::vector<std::string> names_with_values(const CLI::App& app) {
   for (const CLI::App* command : shown_commands(app))
     for (const std::string& name : names_with_values(*command)) names.push_back(name);
   return names;
+}
+
+/// Lines that complete the arguments of other programs.
+std::string program_branches(const StartedPrograms& programs) {
+  std::string text;
+  for (const auto& [command, program] : programs)
+    text += "      " + command + ") @FUNCTION@_program " + command + ' ' + program + "; return ;;\n";
+  return text.empty() ? "" : "  if ((last > 1)); then\n    case ${words[1]} in\n" + text + "    esac\n  fi\n";
 }
 
 std::string answer(const std::string& compgen, const std::string& option = "") {
@@ -142,12 +173,15 @@ std::string setting_function(const OptionTable& settings, const std::string& fun
 
 }  // namespace
 
-std::string bash_completion(const CLI::App& app, const OptionTable* settings) {
+std::string bash_completion(const CLI::App& app, const OptionTable* settings,
+                            const StartedPrograms& programs) {
   const std::string function = '_' + replaced(app.get_name(), "-", "_");
   std::string script = "# bash completion for " + app.get_name() + ", generated from its command line\n\n";
   if (settings != nullptr) script += setting_function(*settings, function);
-  script += replaced(replaced(kBegin, "@COMMANDS@", command_names(app)), "@TAKE_VALUES@",
-                     joined(names_with_values(app), " "));
+  if (!programs.empty()) script += kProgramFunction;
+  std::string begin = replaced(kBegin, "@COMMANDS@", command_names(app));
+  begin = replaced(begin, "@TAKE_VALUES@", joined(names_with_values(app), " "));
+  script += replaced(begin, "@PROGRAMS@", program_branches(programs));
   script += "  case \"$command $previous\" in\n" + value_branches(app, "", function);
   for (const CLI::App* command : shown_commands(app))
     script += value_branches(*command, command->get_name(), function);

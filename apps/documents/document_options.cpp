@@ -134,7 +134,9 @@ std::string man_page(const CLI::App& app) {
   page += roff_section("OPTIONS") + option_items(app);
   page += commands(app);
   page += roff_section("EXIT STATUS") + roff_item("0", "Success.") +
-          roff_item("1", "The system failed: a full disk, no memory, no display.") +
+          roff_item("1",
+                    "Something failed, such as a full disk. Commands that give 1 another meaning say so in "
+                    "their description.") +
           roff_item("2", "The arguments, the settings or the log are invalid.");
   page += footer(app);
   return page + roff_section("SEE ALSO") + see_also(name);
@@ -163,7 +165,8 @@ std::string settings_man_page(const OptionTable& table, const std::string& versi
   return page + roff_section("SEE ALSO") + see_also("psi-slam.ini");
 }
 
-void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings) {
+void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings,
+                          const StartedPrograms& programs) {
   const auto add_hidden = [&app](const std::string& name, const std::function<std::string()>& text) {
     // CLI11 appends a newline to the text of --version, so the last newline of the document is removed.
     const auto print = [text] {
@@ -174,7 +177,8 @@ void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> sett
     app.add_flag_callback(name, print)->group("");
   };
   add_hidden("--man-page", [&app] { return man_page(app); });
-  add_hidden("--bash-completion", [&app, settings] { return bash_completion(app, settings.get()); });
+  add_hidden("--bash-completion",
+             [&app, settings, programs] { return bash_completion(app, settings.get(), programs); });
   if (settings)
     add_hidden("--settings-man-page",
                [&app, settings] { return settings_man_page(*settings, app.version()); });

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -18,9 +19,13 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, Member& member, 
   return app.add_option(names, member, help)->type_name(type);
 }
 
+/// Programs that commands of a program start, by the name of the command: "eval" starts "psi-slam-eval".
+using StartedPrograms = std::map<std::string, std::string>;
+
 /// Adds the hidden options --man-page, --bash-completion and, if `settings` are given, --settings-man-page.
 /// Each prints its document and ends the program, as --version does. `app` must outlive the parsing.
-void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings = nullptr);
+void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings = nullptr,
+                          const StartedPrograms& programs = {});
 
 /// Manual page of a program. The description of `app` may begin with the program's name and must go on with a
 /// verb, as in "psi-slam draws floor plans". The first clause of the description becomes the section NAME.
@@ -30,8 +35,9 @@ std::string man_page(const CLI::App& app);
 std::string settings_man_page(const OptionTable& table, const std::string& version);
 
 /// Completion script for bash, and for zsh through its bashcompinit. Completes commands, options, files,
-/// folders, and the keys and values of `settings` after --set. `settings` may be null. The script needs
-/// bash 4.
-std::string bash_completion(const CLI::App& app, const OptionTable* settings);
+/// folders, and the keys and values of `settings` after --set. `settings` may be null. After a command that
+/// starts another program, loads the script of that program from the same folder. The script needs bash 4.
+std::string bash_completion(const CLI::App& app, const OptionTable* settings,
+                            const StartedPrograms& programs = {});
 
 }  // namespace psi_slam

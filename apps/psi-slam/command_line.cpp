@@ -13,6 +13,7 @@
 #include "base/degrees.h"
 #include "config/nearest_name.h"
 #include "document_options.h"
+#include "mpi_option.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
 
@@ -182,12 +183,35 @@ std::vector<std::string> in_long_form(std::vector<std::string> arguments,
   return arguments;
 }
 
+StartedPrograms started_programs() {
+  StartedPrograms programs;
+  for (const OtherProgram& other : other_programs()) programs[other.command] = other.program;
+  return programs;
+}
+
 CLI::App* add_sweep(CLI::App& app, CommandLine& line) {
-  CLI::App* const sweep =
-      app.add_subcommand("sweep", "Map many logs with many settings and compare the results");
+  CLI::App* const sweep = app.add_subcommand(
+      "sweep", "Map many logs with many settings and compare the results (exit code 1 if a run failed)");
   add_sweep_options(*sweep, line.sweep);
   add_processes_option(*sweep, line.sweep);
+  add_mpi_option(*sweep, "psi-slam sweep");
   return sweep;
+}
+
+/// Fills `line` and returns true if the arguments are those of another program.
+bool starts_other_program(const std::vector<std::string>& arguments, CommandLine& line) {
+  const OtherProgram* const other = arguments.empty() ? nullptr : other_program(arguments.front());
+  if (other != nullptr) {
+    line.other_program = *other;
+    line.other_arguments.assign(arguments.begin() + 1, arguments.end());
+  } else if (const auto by_mpi = mpi_arguments(arguments, "sweep")) {
+    line.other_program = mpi_program("sweep --mpi");
+    line.other_arguments = *by_mpi;
+  } else {
+    return false;
+  }
+  line.command = CommandLine::Command::kOtherProgram;
+  return true;
 }
 
 /// Throws UserError for an argument that is neither the log nor a known option.
@@ -333,14 +357,9 @@ CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& 
   for (const auto& [command, kind] : commands) command->allow_extras();
   for (CLI::App* word : first_words) word->allow_extras();
   app.footer(kExamples);
-  add_document_options(app, default_settings());
+  add_document_options(app, default_settings(), started_programs());
   const std::vector<std::string> arguments = in_long_form(given, command_names(app));
-  line.other_program = arguments.empty() ? nullptr : other_program(arguments.front());
-  if (line.other_program != nullptr) {
-    line.command = Command::kOtherProgram;
-    line.other_arguments.assign(arguments.begin() + 1, arguments.end());
-    return line;
-  }
+  if (starts_other_program(arguments, line)) return line;
   // CLI11 expects the last argument first.
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
 

@@ -69,8 +69,8 @@ struct CommandLine {
   DiffArguments diff;
   LiveArguments live;
   SweepArguments sweep;
-  const OtherProgram* other_program = nullptr;  ///< program to start instead
-  std::vector<std::string> other_arguments;     ///< its arguments
+  std::optional<OtherProgram> other_program;  ///< program to start instead
+  std::vector<std::string> other_arguments;   ///< its arguments
 };
 
 /// Parses the arguments with `app`, which must be new. Throws CLI::ParseError for --help, --version and

@@ -5,6 +5,7 @@
 #include <ostream>
 #include <string_view>
 
+#include "base/exit_code.h"
 #include "commands.h"
 #include "config/settings_text.h"
 #include "psi_slam/user_error.h"

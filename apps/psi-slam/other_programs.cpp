@@ -31,10 +31,12 @@ void execute(const std::string& file, const std::string& name, const std::vector
 
 const std::vector<OtherProgram>& other_programs() {
   static const std::vector<OtherProgram> programs{
-      {"eval", "psi-slam-eval", "Measure the error of a trajectory over known relations"},
-      {"bench", "psi-slam-bench", "Measure accuracy and speed on benchmark logs and in simulations"},
-      {"gui", "psi-slam-gui", "Open the window, which replays logs and edits maps"},
-      {"graphslam", "psi-graphslam", "Map a rawlog with the deciders and optimisers of MRPT's graph SLAM"},
+      {"eval", "psi-slam-eval", "psi-slam", "Measure the error of a trajectory over known relations"},
+      {"bench", "psi-slam-bench", "psi-slam-bench",
+       "Measure accuracy and speed on benchmark logs and in simulations"},
+      {"gui", "psi-slam-gui", "psi-slam", "Open the window, which replays logs and edits maps"},
+      {"graphslam", "psi-graphslam", "psi-slam",
+       "Map a rawlog with the deciders and optimisers of MRPT's graph SLAM"},
   };
   return programs;
 }
@@ -46,9 +48,15 @@ const OtherProgram* other_program(std::string_view command) {
   return found == programs.end() ? nullptr : &*found;
 }
 
+OtherProgram mpi_program(const char* command) {
+  return {command, "psi-slam-mpi", "psi-slam-mpi", ""};
+}
+
 void become(const OtherProgram& other, const std::vector<std::string>& arguments) {
   std::error_code ignored;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  const fs::path own_file = fs::read_symlink("/proc/self/exe", ignored);
+  const fs::path folder = own_file.parent_path();
+  const std::string own_name = own_file.filename().string();
   const std::string program = other.program;
   // Installed programs share a folder; in the build tree, each has its own.
   for (const fs::path& file : {folder / program, folder.parent_path() / program / program})
@@ -59,7 +67,8 @@ void become(const OtherProgram& other, const std::vector<std::string>& arguments
   execute(program, program, arguments);
   if (errno == ENOENT)
     throw UserError(std::string("psi-slam ") + other.command + " runs " + program +
-                    ", which is neither beside psi-slam nor in PATH. Debian's package psi-slam contains it");
+                    ", which is neither beside " + own_name + " nor in PATH. Debian's package " +
+                    other.package + " contains it");
   throw SystemFailure("cannot start " + program + ": " + std::strerror(errno));
 }
 

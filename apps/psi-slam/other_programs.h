@@ -11,6 +11,7 @@ namespace psi_slam {
 struct OtherProgram {
   const char* command;      ///< "eval"
   const char* program;      ///< "psi-slam-eval"
+  const char* package;      ///< Debian package that contains the program
   const char* description;  ///< one line for the list of commands
 };
 
@@ -19,6 +20,9 @@ const std::vector<OtherProgram>& other_programs();
 
 /// The program that a command runs; null if the command is none of other_programs().
 const OtherProgram* other_program(std::string_view command);
+
+/// The program that `psi-slam COMMAND --mpi` runs; `command` is "sweep --mpi".
+OtherProgram mpi_program(const char* command);
 
 /// Replaces this process by the program, which is looked for beside this one and then in PATH. Never returns.
 /// Throws UserError if it is not installed, and SystemFailure if it cannot be started.

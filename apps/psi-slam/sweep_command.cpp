@@ -25,6 +25,21 @@ void add_repeated(CLI::App& command, const std::string& name, std::vector<std::s
   add_value(command, name, texts, help + ". May be repeated", type)->allow_extra_args(false);
 }
 
+/// Adds an option for a number from 1 to kMostThreads.
+void add_count(CLI::App& command, const std::string& name, int& number, const std::string& help) {
+  add_value(command, name, number, help, "N")
+      ->check(CLI::Range(1, kMostThreads).description(""))
+      ->capture_default_str();
+}
+
+SweepKeep parse_keep(const std::string& text) {
+  static const std::map<std::string, SweepKeep> kKeeps{
+      {"none", SweepKeep::kNone}, {"paths", SweepKeep::kPaths}, {"maps", SweepKeep::kMaps}};
+  const auto found = kKeeps.find(text);
+  if (found == kKeeps.end()) throw UserError("--keep " + text + ": expected none, paths or maps");
+  return found->second;
+}
+
 std::string closing_text(const SweepResult& result, const fs::path& folder) {
   const std::size_t made = result.made_now();
   const std::size_t finished = result.outcomes.size() - result.to_go() - result.failed();
@@ -54,26 +69,20 @@ void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
           "Seeds of the runs with each setting: N means 1 to N; or FIRST-LAST")
       ->default_str("1")
       ->type_name("SEEDS");
-  static const std::map<std::string, SweepKeep> kKeeps{
-      {"none", SweepKeep::kNone}, {"paths", SweepKeep::kPaths}, {"maps", SweepKeep::kMaps}};
-  add_value(
-      command, "--keep", arguments.keep,
-      "What to keep of each run: none (only summary and settings), paths (also tables), maps (everything)",
-      "WHAT")
-      ->transform(CLI::Transformer(kKeeps))
-      ->default_str("none");
-  command.add_option("--threads", request.threads, "Threads of each run")
-      ->check(CLI::Range(1, kMostThreads))
-      ->capture_default_str();
+  command
+      .add_option_function<std::string>(
+          "--keep", [&arguments](const std::string& text) { arguments.keep = parse_keep(text); },
+          "What to keep of each run: none (only summary and settings), paths (also tables), maps "
+          "(everything)")
+      ->default_str("none")
+      ->type_name("WHAT");
+  add_count(command, "--threads", request.threads, "Threads of each run");
   command.add_flag("-q,--quiet", arguments.quiet, "Print only warnings and errors");
 }
 
 void add_processes_option(CLI::App& command, SweepArguments& arguments) {
-  command
-      .add_option("--processes", arguments.processes,
-                  "Number of runs at a time. More runs than processors make the times unreliable")
-      ->check(CLI::Range(1, kMostThreads))
-      ->capture_default_str();
+  add_count(command, "--processes", arguments.processes,
+            "Number of runs at a time. More runs than processors make the times unreliable");
 }
 
 int run_sweep_command(const SweepArguments& arguments, const SweepWorkers& workers, const fs::path& program,

@@ -20,7 +20,7 @@ struct SweepArguments {
 };
 
 /// Adds the options that fill `arguments`, which must outlive `command`. --processes is added by
-/// add_processes_option(). Parsing throws UserError for invalid seeds.
+/// add_processes_option(). Parsing throws UserError for invalid seeds and for an unknown word after --keep.
 void add_sweep_options(CLI::App& command, SweepArguments& arguments);
 void add_processes_option(CLI::App& command, SweepArguments& arguments);
 

@@ -1,46 +1,65 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Debian packages that `cpack -G DEB` makes from a build:
-#   psi-slam          the programs
+#   psi-slam          the programs that make, show and evaluate maps
+#   psi-slam-bench    the benchmarks, for developers
+#   psi-slam-mpi      the program for clusters, if CMake found MPI. It is a package of its own, so that the others do not
+#                     depend on MPI.
 #   libpsi-slam-dev   the library
-#   psi-slam-mpi      the programs for clusters, if CMake found MPI. They are a package of their own, so that psi-slam does
-#                     not depend on MPI.
 #   python3-psi-slam  the Python module, if it is built
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME psi-slam)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_COMPONENTS_ALL programs development)
-if(TARGET psi-slam-sweep-mpi)
-  list(APPEND CPACK_COMPONENTS_ALL cluster)
-endif()
-if(TARGET psi_slam_python)
-  list(APPEND CPACK_COMPONENTS_ALL python)
-endif()
+psi_slam_list_packages(packages)
+set(CPACK_COMPONENTS_ALL)
+foreach(package IN LISTS packages)
+  psi_slam_component_of(component ${package})
+  list(APPEND CPACK_COMPONENTS_ALL ${component})
+endforeach()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_STRIP_FILES ON)
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 if(NOT CPACK_DEBIAN_PACKAGE_MAINTAINER)  # set it if you publish packages: -D ...="Name <address>"
-  set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The developers of psi-slam <psi-slam@localhost>")
+  file(READ ${PROJECT_SOURCE_DIR}/CITATION.cff citation)
+  if(NOT citation MATCHES "\ncontact:\n  - name: \"([^\"]+)\"\n    email: \"([^\"]+)\"\n")
+    message(FATAL_ERROR "CITATION.cff names no maintainer: expected an entry `contact` with name and email in quotes")
+  endif()
+  set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${CMAKE_MATCH_1} <${CMAKE_MATCH_2}>")
 endif()
-set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+if(NOT CPACK_DEBIAN_PACKAGE_RELEASE)
+  set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+endif()
+set(this_version "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME psi-slam)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "mrpt-apps")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "psi-slam-bench, psi-slam-mpi, python3-psi-slam")
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION
 "psi-slam makes floor plans from the logs of wheeled robots. It combines the
 scans of a 2D lidar and wheel odometry by graph SLAM with genetic loop
 matching. The package contains psi-slam, a window that shows how the map
-is built, and programs that measure the accuracy of maps.")
+is built, and a program that measures the accuracy of paths.")
+
+set(CPACK_DEBIAN_BENCH_PACKAGE_NAME psi-slam-bench)
+set(CPACK_DEBIAN_BENCH_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_BENCH_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_BENCH_PACKAGE_DEPENDS "psi-slam ${this_version}")
+set(CPACK_DEBIAN_BENCH_PACKAGE_SUGGESTS "mrpt-apps")  # baselines of the Freiburg benchmark
+# Earlier versions of psi-slam contained its files.
+set(CPACK_DEBIAN_BENCH_PACKAGE_BREAKS "psi-slam (<< ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+set(CPACK_DEBIAN_BENCH_PACKAGE_REPLACES "psi-slam (<< ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+set(CPACK_COMPONENT_BENCH_DESCRIPTION
+"Measures accuracy and speed of psi-slam and of its parts: on the logs of the
+Freiburg benchmark, on degraded logs and in simulated buildings.")
 
 set(CPACK_DEBIAN_CLUSTER_PACKAGE_NAME psi-slam-mpi)
 set(CPACK_DEBIAN_CLUSTER_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_CLUSTER_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_CLUSTER_PACKAGE_DEPENDS "psi-slam (= ${PROJECT_VERSION}-1), openmpi-bin")
+set(CPACK_DEBIAN_CLUSTER_PACKAGE_DEPENDS "psi-slam ${this_version}, psi-slam-bench ${this_version}, openmpi-bin")
 set(CPACK_COMPONENT_CLUSTER_DESCRIPTION
 "Maps many logs with many settings on the ranks of an MPI job. Runs the
 sweeps and the benchmark of psi-slam on a cluster.")
@@ -77,12 +96,10 @@ file(WRITE ${PROJECT_BINARY_DIR}/changelog.Debian
   "  * Packed by CPack; changelog.gz lists the changes.\n\n"
   " -- ${CPACK_DEBIAN_PACKAGE_MAINTAINER}  ${now}\n")
 execute_process(COMMAND gzip --force --best --no-name ${PROJECT_BINARY_DIR}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
-foreach(package psi-slam:programs libpsi-slam-dev:development psi-slam-mpi:cluster python3-psi-slam:python)
-  string(REPLACE ":" ";" package ${package})
-  list(GET package 0 name)
-  list(GET package 1 component)
+foreach(package IN LISTS packages)
+  psi_slam_component_of(component ${package})
   install(FILES ${PROJECT_BINARY_DIR}/changelog.Debian.gz
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${component})
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
 endforeach()
 
 include(CPack)

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Checks psi-slam on a bare Debian: installs the release with debootstrap in a folder, runs quickstart.sh and test.sh there,
-# and then runs the installed programs on a second bare Debian that has only the packages of the list `runtime`.
+# Checks psi-slam on a bare Debian: installs the release with debootstrap in a folder, runs quickstart.sh, build.sh and test.sh
+# there, and then runs the installed programs on a second bare Debian that has only the packages of the list `runtime`.
+# share/docker/Dockerfile has the same steps, without quickstart and tests.
 #
 #     share/scripts/check-debian.sh 12|13 [FOLDER]
 #
@@ -152,14 +153,17 @@ for unwanted in libopenmpi-dev xvfb python3-rosbag libgtest-dev; do
   inside "$system" dpkg-query --show "$unwanted" >/dev/null 2>&1 && fail "quickstart.sh installed $unwanted"
 done
 
+say "Debian $version: running build.sh"
+inside "$system" share/scripts/build.sh || fail "build.sh failed. Read its message above"
+
 say "Debian $version: running test.sh"
 status=0
 inside "$system" share/scripts/test.sh || status=$?
 
 say "Debian $version: running the installed programs with the packages of the list runtime"
 inside "$system" env DESTDIR=/tmp/installed cmake --install build/release >/dev/null || fail "cmake --install failed"
-cp --archive --no-target-directory "$system/tmp/installed/usr" "$robot/usr"
 inside "$robot" share/scripts/install-dependencies.sh runtime || fail "the packages of the list runtime cannot be installed"
+cp --archive --no-target-directory "$system/tmp/installed/usr" "$robot/usr"
 for program in psi-slam psi-slam-eval psi-slam-bench psi-graphslam psi-slam-gui; do
   inside "$robot" "$program" --version || fail "$program does not run with the packages of the list runtime"
 done

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Makes the Debian packages of a build and installs them with apt-get in a minimal Debian 12 system in a temporary folder.
-# Maps a log and builds the examples there.
+# Makes the Debian packages of a build and installs them with apt-get in a minimal system of the same Debian release, in a
+# temporary folder. Maps a log and builds the examples there. Checks the packages with lintian where it is installed.
 #
 #   share/scripts/check-package.sh [BUILD]        default: build/release, with all targets built
 #
 # Needs root, debootstrap and the network. If one is missing, prints a message and ends with exit code 77.
 # PSI_SLAM_DEBIAN_MIRROR names a mirror other than deb.debian.org. PSI_SLAM_BARE_DEBIAN names a folder with a system
-# that debootstrap made earlier. The script copies that folder and does not change it.
+# of this release that debootstrap made earlier. The script copies that folder and does not change it.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=$(realpath "${1:-build/release}")
@@ -24,8 +24,17 @@ fail() {
 }
 
 [ "$(id -u)" -eq 0 ] || skip "this check needs root to install a Debian system in a folder"
+# codename SYSTEM: prints the release of the Debian in the folder SYSTEM, such as bookworm.
+# shellcheck disable=SC1091  # the file is part of the system
+codename() { (. "$1/etc/os-release" 2>/dev/null && [ "${ID:-}" = debian ] && echo "${VERSION_CODENAME:-}"); }
+release=$(codename "") || skip "this system is not a Debian, so its packages fit no Debian"
+readonly release
 command -v dpkg-shlibdeps >/dev/null || skip "this check needs dpkg-shlibdeps (package dpkg-dev)"
-if [ -z "${PSI_SLAM_BARE_DEBIAN:-}" ]; then
+if [ -n "${PSI_SLAM_BARE_DEBIAN:-}" ]; then
+  [ "$(codename "$PSI_SLAM_BARE_DEBIAN")" = "$release" ] ||
+    fail "$PSI_SLAM_BARE_DEBIAN does not hold a Debian $release, for which this build is made. Make one with" \
+      "debootstrap --variant=minbase $release FOLDER"
+else
   command -v debootstrap >/dev/null || skip "this check needs debootstrap (package debootstrap)"
   # shellcheck disable=SC2016  # the inner shell expands $1
   timeout 20 bash -c 'exec 3<>"/dev/tcp/$1/80"' _ "$(cut -d/ -f3 <<<"$mirror")" 2>/dev/null ||
@@ -45,16 +54,26 @@ trap clean_up EXIT
 say "making the packages"
 (cd "$build" && cpack -G DEB -B "$work/packages" >"$work/cpack.log" 2>&1) || fail "cpack failed: $(cat "$work/cpack.log")"
 programs=$(find "$work/packages" -maxdepth 1 -name 'psi-slam_*.deb')
+bench=$(find "$work/packages" -maxdepth 1 -name 'psi-slam-bench_*.deb')
 library=$(find "$work/packages" -maxdepth 1 -name 'libpsi-slam-dev_*.deb')
 cluster=$(find "$work/packages" -maxdepth 1 -name 'psi-slam-mpi_*.deb')  # exists only if CMake found MPI
 python=$(find "$work/packages" -maxdepth 1 -name 'python3-psi-slam_*.deb')  # exists only if CMake found pybind11
-[ -f "$programs" ] && [ -f "$library" ] || fail "expected psi-slam and libpsi-slam-dev, found $(ls "$work/packages")"
+[ -f "$programs" ] && [ -f "$bench" ] && [ -f "$library" ] ||
+  fail "expected psi-slam, psi-slam-bench and libpsi-slam-dev, found $(ls "$work/packages")"
+if command -v lintian >/dev/null; then
+  lintian --allow-root --fail-on error "$work"/packages/*.deb >"$work/lintian.txt" ||
+    fail "lintian finds errors: $(grep '^E:' "$work/lintian.txt")"
+else
+  say "the packages are not checked by lintian, because it is not installed"
+fi
 # Use files instead of pipes: grep --quiet may end before dpkg-deb has written everything.
 dpkg-deb --field "$programs" Depends >"$work/depends.txt"
 dpkg-deb --contents "$programs" >"$work/programs.txt"
+dpkg-deb --contents "$bench" >"$work/bench.txt"
 dpkg-deb --contents "$library" >"$work/library.txt"
-for library_name in libc6 libmrpt-maps2.5 libwxgtk3.2-1 libgdal32; do
-  grep -q "\b$library_name\b" "$work/depends.txt" || fail "psi-slam does not depend on $library_name"
+# Names of libraries differ between releases.
+for library_name in libc6 'libmrpt-maps[0-9.]+' 'libwxgtk3[.]2-1(t64)?' 'libgdal[0-9]+(t64)?'; do
+  grep -Eq "(^|, )$library_name( |,|$)" "$work/depends.txt" || fail "psi-slam does not depend on $library_name"
 done
 if grep -q openmpi "$work/depends.txt"; then fail "psi-slam depends on Open MPI"; fi
 mapfile -t program_names < <(sed -n 's|.* ./usr/bin/\(..*\)$|\1|p' "$work/programs.txt")
@@ -66,22 +85,27 @@ done
 for file in "${files[@]}"; do
   grep -q " $file$" "$work/programs.txt" || fail "the package psi-slam lacks $file"
 done
+for file in ./usr/bin/psi-slam-bench ./usr/share/man/man1/psi-slam-bench.1.gz \
+  ./usr/share/bash-completion/completions/psi-slam-bench ./usr/share/doc/psi-slam-bench/copyright; do
+  grep -q " $file$" "$work/bench.txt" || fail "the package psi-slam-bench lacks $file"
+done
 grep -q "cmake/psi-slam/psi-slam-config.cmake$" "$work/library.txt" ||
   fail "the package libpsi-slam-dev lacks psi-slam-config.cmake"
 if grep -q " ./usr/bin/" "$work/library.txt"; then fail "the package libpsi-slam-dev contains programs"; fi
+if grep -q "psi-slam-bench\(.1.gz\)\?$" "$work/programs.txt"; then fail "the package psi-slam contains psi-slam-bench"; fi
 
 if [ -n "${PSI_SLAM_BARE_DEBIAN:-}" ]; then
   cp --archive --reflink=auto "$PSI_SLAM_BARE_DEBIAN" "$system"
 else
-  say "installing a minimal Debian 12"
-  debootstrap --variant=minbase bookworm "$system" "$mirror" >"$work/debootstrap.log" 2>&1 ||
+  say "installing a minimal Debian $release"
+  debootstrap --variant=minbase "$release" "$system" "$mirror" >"$work/debootstrap.log" 2>&1 ||
     fail "debootstrap failed: $(tail -5 "$work/debootstrap.log")"
 fi
 cp /etc/resolv.conf "$system/etc/resolv.conf" 2>/dev/null || true
 mount --bind /proc "$system/proc" 2>/dev/null && mounted+=("$system/proc")
 inside() { chroot "$system" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
 
-say "installing psi-slam in the minimal Debian 12"
+say "installing psi-slam in the minimal Debian $release"
 cp "$programs" "$system/tmp/psi-slam.deb"
 inside apt-get update --quiet --quiet || fail "apt-get update failed"
 inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/psi-slam.deb >"$work/install.log" 2>&1 ||
@@ -102,19 +126,26 @@ if [ -f "$log" ]; then
 else
   say "no log was mapped, because the package mrpt-common with the log is not installed here"
 fi
+if inside psi-slam bench match >"$work/no-bench.txt" 2>&1; then fail "psi-slam bench runs without the package psi-slam-bench"; fi
+grep -q "Debian's package psi-slam-bench contains it" "$work/no-bench.txt" ||
+  fail "psi-slam bench does not name its package: $(cat "$work/no-bench.txt")"
+say "installing psi-slam-bench in the minimal Debian $release"
+cp "$bench" "$system/tmp/psi-slam-bench.deb"
+inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/psi-slam-bench.deb >"$work/install-bench.log" 2>&1 ||
+  fail "the package psi-slam-bench cannot be installed: $(tail -5 "$work/install-bench.log")"
+inside psi-slam bench --version || fail "psi-slam bench does not run"
 if [ -n "$cluster" ]; then
-  say "installing psi-slam-mpi in the minimal Debian 12"
+  say "installing psi-slam-mpi in the minimal Debian $release"
   cp "$cluster" "$system/tmp/psi-slam-mpi.deb"
   inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/psi-slam-mpi.deb >"$work/install-mpi.log" 2>&1 ||
     fail "the package psi-slam-mpi cannot be installed: $(tail -5 "$work/install-mpi.log")"
-  for program in psi-slam-sweep-mpi psi-slam-bench-mpi; do
-    inside "$program" --version || fail "$program does not run"
-  done
+  inside psi-slam-mpi --version || fail "psi-slam-mpi does not run"
+  inside psi-slam sweep --mpi --help >"$work/mpi.txt" || fail "psi-slam sweep --mpi does not run"
   inside apt-get purge --quiet --quiet --yes psi-slam-mpi >"$work/purge-mpi.log" 2>&1 ||
     fail "the package psi-slam-mpi cannot be removed"
 fi
 if [ -n "$python" ]; then
-  say "installing python3-psi-slam in the minimal Debian 12"
+  say "installing python3-psi-slam in the minimal Debian $release"
   cp "$python" "$system/tmp/python3-psi-slam.deb"
   inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/python3-psi-slam.deb >"$work/install-python.log" 2>&1 ||
     fail "the package python3-psi-slam cannot be installed: $(tail -5 "$work/install-python.log")"

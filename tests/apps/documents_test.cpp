@@ -76,6 +76,9 @@ TEST_F(Documents, completion_knows_options_commands_and_values) {
   EXPECT_THAT(script, HasSubstr("\"pour --into\")"));
   EXPECT_THAT(script, Not(HasSubstr("secret")));
   EXPECT_THAT(bash_completion(app_, nullptr), Not(HasSubstr("_setting")));
+  EXPECT_THAT(bash_completion(app_, nullptr), Not(HasSubstr("_program")));
+  EXPECT_THAT(bash_completion(app_, nullptr, {{"pour", "teapot"}}),
+              HasSubstr("pour) _tea_program pour teapot; return ;;"));
 }
 
 TEST_F(Documents, hidden_options_work_without_required_arguments) {

@@ -31,14 +31,23 @@ TEST(OtherPrograms, a_program_that_is_not_installed_is_named_with_its_package) {
   const TemporaryFolder folder;
   const fs::path alone = folder.path() / "psi-slam";
   fs::copy_file(PSI_SLAM_PROGRAM, alone);
-  const AppRun run = AppProcess(
-                         {"eval"}, folder.path(), [] { ::setenv("PATH", "/nowhere", 1); }, alone.string())
-                         .finish();
-  EXPECT_EQ(run.code, 2);
-  EXPECT_EQ(
-      run.err,
-      "psi-slam: psi-slam eval runs psi-slam-eval, which is neither beside psi-slam nor in PATH. Debian's "
-      "package psi-slam contains it\n");
+  const auto fails = [&](const std::vector<std::string>& arguments, const std::string& sentence) {
+    const AppRun run = AppProcess(
+                           arguments, folder.path(), [] { ::setenv("PATH", "/nowhere", 1); }, alone.string())
+                           .finish();
+    EXPECT_EQ(run.code, 2);
+    EXPECT_EQ(run.err, sentence);
+  };
+  fails({"eval"},
+        "psi-slam: psi-slam eval runs psi-slam-eval, which is neither beside psi-slam nor in PATH. Debian's "
+        "package psi-slam contains it\n");
+  fails(
+      {"bench", "match"},
+      "psi-slam: psi-slam bench runs psi-slam-bench, which is neither beside psi-slam nor in PATH. Debian's "
+      "package psi-slam-bench contains it\n");
+  fails({"sweep", "my.log", "--mpi"},
+        "psi-slam: psi-slam sweep --mpi runs psi-slam-mpi, which is neither beside psi-slam nor in PATH. "
+        "Debian's package psi-slam-mpi contains it\n");
 }
 
 }  // namespace

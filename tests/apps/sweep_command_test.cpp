@@ -189,15 +189,26 @@ TEST_F(SweepCommand, two_sweeps_do_not_work_in_one_folder) {
   EXPECT_EQ(process.finish().code, 0);
 }
 
+TEST_F(SweepCommand, help_shows_no_internals) {
+  const AppRun help = run_app({"sweep", "--help"});
+  EXPECT_THAT(help.out, HasSubstr("--keep WHAT"));
+  EXPECT_THAT(help.out, HasSubstr("--processes N"));
+  for (const char* internal : {"->", "INT", "{", "["}) {
+    const std::string options = help.out.substr(help.out.find("\nOptions:"));
+    EXPECT_THAT(options, testing::Not(HasSubstr(internal)));
+  }
+}
+
 TEST_F(SweepCommand, wrong_usage_gives_one_sentence) {
   EXPECT_THAT(run_app({"sweep", "-o", (folder_.path() / "out").string()}).err, HasSubstr("name the logs"));
   EXPECT_THAT(run_app({"sweep", (folder_.path() / "room.log").string()}).err, HasSubstr("-o DIR"));
   EXPECT_THAT(run_app(words("out", {"--seds", "1"})).err, HasSubstr("did you mean \"--seeds\""));
-  EXPECT_EQ(run_app(words("out", {"--keep", "some"})).code, 2);
+  EXPECT_THAT(run_app(words("out", {"--keep", "some"})).err, HasSubstr("expected none, paths or maps"));
+  EXPECT_EQ(run_app(words("out", {"--processes", "0"})).code, 2);
   EXPECT_EQ(run_app(words("out", {"--seeds", "3-1"})).code, 2);
 }
 
-#ifdef PSI_SLAM_SWEEP_MPI_PROGRAM
+#ifdef PSI_SLAM_MPIRUN
 
 class SweepByMpi : public SweepCommand {
  protected:
@@ -208,11 +219,13 @@ class SweepByMpi : public SweepCommand {
     ::setpgid(0, 0);
   }
 
-  std::vector<std::string> mpi_words(const std::string& output) const {
-    std::vector<std::string> all{"--oversubscribe", "-n", "3", PSI_SLAM_SWEEP_MPI_PROGRAM};
-    const std::vector<std::string> own = words(output);
-    all.insert(all.end(), own.begin() + 1, own.end());
+  static std::vector<std::string> in_job(const std::vector<std::string>& arguments) {
+    std::vector<std::string> all{"--oversubscribe", "-n", "3", PSI_SLAM_PROGRAM};
+    all.insert(all.end(), arguments.begin(), arguments.end());
     return all;
+  }
+  std::vector<std::string> mpi_words(const std::string& output) const {
+    return in_job(words(output, {"--mpi"}));
   }
 };
 
@@ -227,10 +240,37 @@ TEST_F(SweepByMpi, gives_the_same_tables_as_processes) {
 }
 
 TEST_F(SweepByMpi, prints_help_and_version_once) {
-  const std::vector<std::string> words{"--oversubscribe", "-n", "3", PSI_SLAM_SWEEP_MPI_PROGRAM, "--version"};
-  const AppRun run = AppProcess(words, folder_.path(), prepare, PSI_SLAM_MPIRUN).finish();
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_THAT(run.out, ::testing::MatchesRegex("psi-slam-sweep-mpi [0-9.]+\n"));
+  const AppRun help =
+      AppProcess(in_job({"sweep", "--mpi", "--help"}), folder_.path(), prepare, PSI_SLAM_MPIRUN).finish();
+  EXPECT_EQ(help.code, 0) << help.err;
+  EXPECT_EQ(help.out.find("--seeds"), help.out.rfind("--seeds")) << help.out;
+  const fs::path program =
+      fs::path(PSI_SLAM_PROGRAM).parent_path().parent_path() / "psi-slam-mpi" / "psi-slam-mpi";
+  const std::vector<std::string> asks{"--oversubscribe", "-n", "3", program.string(), "--version"};
+  const AppRun version = AppProcess(asks, folder_.path(), prepare, PSI_SLAM_MPIRUN).finish();
+  EXPECT_EQ(version.code, 0) << version.err;
+  EXPECT_THAT(version.out, ::testing::MatchesRegex("psi-slam-mpi [0-9.]+\n"));
+}
+
+TEST_F(SweepByMpi, works_on_one_rank_without_mpirun) {
+  ASSERT_EQ(sweep("processes").code, 0);
+  const AppRun alone = AppProcess(words("mpi", {"--mpi"}), folder_.path(), prepare).finish();
+  ASSERT_EQ(alone.code, 0) << alone.err;
+  EXPECT_THAT(alone.out, HasSubstr("8 made now"));
+  EXPECT_EQ(table("mpi"), table("processes"));
+}
+
+TEST_F(SweepByMpi, reports_mistakes_once_with_exit_code_2) {
+  const auto fails = [&](const std::string& option, const std::string& sentence) {
+    const AppRun run =
+        AppProcess(in_job(words("mpi", {"--mpi", option, "2"})), folder_.path(), prepare, PSI_SLAM_MPIRUN)
+            .finish();
+    EXPECT_EQ(run.code, 2) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(sentence));
+    EXPECT_EQ(run.err.find("psi-slam-mpi: "), run.err.rfind("psi-slam-mpi: ")) << run.err;
+  };
+  fails("--processes", "--processes contradicts --mpi: each rank makes one run at a time");
+  fails("--seds", "did you mean \"--seeds\"");
 }
 
 TEST_F(SweepByMpi, a_killed_rank_keeps_finished_runs) {

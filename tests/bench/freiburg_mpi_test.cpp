@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifdef PSI_SLAM_BENCH_MPI_PROGRAM
+#ifdef PSI_SLAM_MPIRUN
 
 #include <cstdlib>
 #include <functional>
@@ -37,9 +37,10 @@ class FreiburgByMpi : public BenchCommand {
     return run_child({with_output({PSI_SLAM_BENCH_PROGRAM}, name)});
   }
   ChildEnd by_mpi(const std::string& name, const std::function<bool()>& stop = {}) const {
-    return run_child(
-        {with_output({PSI_SLAM_MPIRUN, "--oversubscribe", "-n", "3", PSI_SLAM_BENCH_MPI_PROGRAM}, name), 0,
-         stop});
+    ChildWords all =
+        with_output({PSI_SLAM_MPIRUN, "--oversubscribe", "-n", "3", PSI_SLAM_BENCH_PROGRAM}, name);
+    all.emplace_back("--mpi");
+    return run_child({all, 0, stop});
   }
 
   static bool is_being_written(const fs::path& file) { return file.filename().string().front() == '.'; }
@@ -92,14 +93,19 @@ TEST_F(FreiburgByMpi, the_same_command_continues_a_killed_job) {
 }
 
 TEST_F(FreiburgByMpi, mistakes_are_reported_once_with_exit_code_2) {
-  const ChildEnd end = run_child({{PSI_SLAM_MPIRUN, "--oversubscribe", "-n", "3", PSI_SLAM_BENCH_MPI_PROGRAM,
-                                   "freiburg", "--data", folder_.path().string() + "/none"}});
-  EXPECT_EQ(end.code, 2) << end.err;
-  const std::string sentence = "psi-slam-bench-mpi: ";
-  const auto first = end.err.find(sentence);
-  ASSERT_NE(first, std::string::npos) << end.err;
-  EXPECT_THAT(end.err, HasSubstr("none is not a folder"));
-  EXPECT_EQ(end.err.find(sentence, first + 1), std::string::npos) << end.err;
+  const auto fails = [](const ChildWords& arguments, const std::string& sentence) {
+    ChildWords all{PSI_SLAM_MPIRUN,        "--oversubscribe", "-n",   "3",
+                   PSI_SLAM_BENCH_PROGRAM, "freiburg",        "--mpi"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const ChildEnd end = run_child({all});
+    EXPECT_EQ(end.code, 2) << end.err;
+    EXPECT_THAT(end.err, HasSubstr(sentence));
+    EXPECT_EQ(end.err.find("psi-slam-mpi: "), end.err.rfind("psi-slam-mpi: ")) << end.err;
+  };
+  fails({"--data", folder_.path().string() + "/none"}, "none is not a folder");
+  fails({"--processes", "2"}, "--processes contradicts --mpi: each rank makes one run at a time");
+  fails({"--baselines"}, "--baselines contradicts --mpi: baselines run on one machine");
+  fails({"--baseline-limit-s", "5"}, "--baseline-limit-s contradicts --mpi");
 }
 
 }  // namespace

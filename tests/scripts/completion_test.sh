@@ -23,6 +23,8 @@ answers() {
   COMP_LINE=$1
   COMP_POINT=${#COMP_LINE}
   COMPREPLY=()
+  read -ra COMP_WORDS <<<"$1"
+  COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
   local program=${1%% *}
   "_${program//-/_}"
   printf '%s\n' "${COMPREPLY[@]}" | sort | tr '\n' '|'
@@ -75,13 +77,34 @@ expect "psi-graphslam -r my.l" "my.log|"
 expect "psi-graphslam --ini my.i" "my.ini|"
 expect "psi-graphslam --output-dir m" "maps|"
 expect "psi-graphslam --list-n" "--list-node-regs|"
-if [ -e "$build/completions/psi-slam-sweep-mpi" ]; then
-  expect "psi-slam-sweep-mpi my.l" "my.log|"
-  expect "psi-slam-sweep-mpi -o m" "maps|"
-  expect "psi-slam-sweep-mpi my.log --set map.write_d" "map.write_dxf=|"
-  expect "psi-slam-bench-mpi freiburg --see" "--seeds|"
+expect "psi-slam sweep --m" "--mpi|"
+expect "psi-slam ev" "eval|"
+expect "psi-slam eval --per-relation ma" "maps|"
+expect "psi-slam eval my.l" "my.log|"
+expect "psi-slam bench f" "false-loops|freiburg|"
+expect "psi-slam  bench  match --data ma" "maps|"
+expect "psi-slam bench freiburg --mp" "--mpi|"
+expect "psi-slam gui --set map.write_dxf=t" "true|"
+expect "psi-slam graphslam --ini my.i" "my.ini|"
+expect "psi-slam-bench freiburg --mp" "--mpi|"
+if [ -e "$build/completions/psi-slam-mpi" ]; then
+  expect "psi-slam-mpi s" "sweep|"
+  expect "psi-slam-mpi sweep my.l" "my.log|"
+  expect "psi-slam-mpi sweep -o m" "maps|"
+  expect "psi-slam-mpi sweep my.log --set map.write_d" "map.write_dxf=|"
+  expect "psi-slam-mpi sweep --pro" "|"
+  expect "psi-slam-mpi freiburg --see" "--seeds|"
 fi
 expect "psi-slam --man" "|"
+
+# The script of psi-slam loads those of the programs that its commands start.
+# shellcheck disable=SC2016  # the inner shell expands the variables
+found=$(bash -c 'set -u; source "$1/psi-slam"; COMP_LINE="psi-slam bench f"; COMP_POINT=${#COMP_LINE}
+  COMP_WORDS=(psi-slam bench f); COMP_CWORD=2; _psi_slam; echo "${COMPREPLY[*]}"' _ "$build/completions")
+if [ "$found" != "false-loops freiburg" ] && [ "$found" != "freiburg false-loops" ]; then
+  echo "completion_test.sh: psi-slam bench f offers \"$found\" before psi-slam-bench was completed" >&2
+  failures=$((failures + 1))
+fi
 
 # Completion offers every key of the settings file.
 count=$("$build/apps/psi-slam/psi-slam" --dump-config | grep -c '^[a-z_0-9]* = ')

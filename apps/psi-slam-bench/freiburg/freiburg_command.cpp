@@ -7,6 +7,7 @@
 #include "batch/kept_run.h"
 #include "common/bench_command.h"
 #include "interrupt_signals.h"
+#include "mpi_option.h"
 #include "psi_slam/user_error.h"
 #include "report/html_text.h"
 
@@ -79,8 +80,8 @@ void run_freiburg(FreiburgArguments arguments, const Streams& streams) {
 
 }  // namespace
 
-void add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgOptions& defaults,
-                          bool only_parsed) {
+CLI::App& add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgOptions& defaults,
+                               bool only_parsed) {
   const auto arguments = std::make_shared<FreiburgArguments>();
   FreiburgOptions& options = arguments->options;
   options = defaults;
@@ -116,10 +117,12 @@ void add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgO
         ->needs(baselines)
         ->check(CLI::Range(0.1, 1e6))
         ->capture_default_str();
+    add_mpi_option(freiburg, "psi-slam bench freiburg");
   }
   freiburg.callback([=, &streams] {
     if (!only_parsed) run_freiburg(*arguments, streams);
   });
+  return freiburg;
 }
 
 void add_freiburg_run_command(CLI::App& app, const Streams& streams) {

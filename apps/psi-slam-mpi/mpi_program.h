@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The main function of the programs for clusters. Rank 0 of an MPI job hands out orders, and all other ranks
+// The main function of a program for clusters. Rank 0 of an MPI job hands out orders, and all other ranks
 // carry them out. Orders and outcomes are sent as text.
 #pragma once
 

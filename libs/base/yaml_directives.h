@@ -17,7 +17,7 @@ inline bool has_yaml_directive(const std::filesystem::path& path) {
   int length = 0;
   for (char c = 0; file.get(c); begins_line = c == '\n' || c == '\r') {
     if (begins_line) length = 0;
-    if ((begins_line && c == '%') || ++length > kLongestLine) return true;
+    if ((begins_line && c == '%') || (c != '\n' && c != '\r' && ++length > kLongestLine)) return true;
   }
   return false;
 }

@@ -212,8 +212,7 @@ TEST_F(RosbagReaderTest, odometry_may_be_a_transform) {
   options.odom_frame = "wheels";
   EXPECT_THAT(sentence_about(recording, options), HasSubstr("base_footprint < odom"));
   options.odom_frame = "map";
-  EXPECT_EQ(read(recording, options).front().odom_T_robot, TPose2D(7, 7, 1))
-      << "the odometry is the pose of odom in map";
+  expect_near(read(recording, options).front().odom_T_robot, {7, 7, 1});  // the pose of odom in map
 }
 
 TEST_F(RosbagReaderTest, the_odometry_topic_may_be_a_topic_of_transforms) {

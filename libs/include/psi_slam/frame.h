@@ -15,7 +15,6 @@
 #include <optional>
 #include <vector>
 
-#include "frames/pose_operations.h"
 #include "psi_slam/time_stamp.h"
 
 namespace psi_slam {
@@ -58,6 +57,10 @@ struct Frame {
   std::vector<CompanionScan> companions{};  ///< scans of other lasers, sorted by LaserScan::laser
 };
 
+/// Returns the robot's pose at the time of a companion scan. The parameter `map_T_robot` is the robot's pose
+/// at the frame's time.
+mrpt::math::TPose2D companion_pose(const CompanionScan& companion, const mrpt::math::TPose2D& map_T_robot);
+
 /// Calls `take(scan, map_T_robot)` for each scan of a frame, with the robot's pose at the time of that scan.
 /// The parameter `map_T_robot` is the robot's pose at the frame's time. The beams of a scan start at the
 /// position of map_T_robot + scan.robot_T_laser.
@@ -65,7 +68,7 @@ template <class Take>
 void for_each_scan(const Frame& frame, const mrpt::math::TPose2D& map_T_robot, Take take) {
   take(frame.scan, map_T_robot);
   for (const CompanionScan& companion : frame.companions)
-    take(companion.scan, compose(map_T_robot, companion.frame_T_robot));
+    take(companion.scan, companion_pose(companion, map_T_robot));
 }
 
 }  // namespace psi_slam

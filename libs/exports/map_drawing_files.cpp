@@ -33,6 +33,9 @@ class DxfText {
 void write_header(DxfText& dxf, const MapRectangle& extent) {
   dxf.pair(999, "Floor plan by psi-slam; one unit is a metre");
   dxf.pair(0, "SECTION").pair(2, "HEADER").pair(9, "$ACADVER").pair(1, "AC1009");
+  constexpr int kMetres = 6;
+  constexpr int kMetric = 1;
+  dxf.pair(9, "$INSUNITS").pair(70, kMetres).pair(9, "$MEASUREMENT").pair(70, kMetric);
   dxf.pair(9, "$EXTMIN").point(extent.x_min_m, extent.y_min_m);
   dxf.pair(9, "$EXTMAX").point(extent.x_max_m, extent.y_max_m);
   dxf.pair(0, "ENDSEC");

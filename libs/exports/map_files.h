@@ -51,7 +51,8 @@ mrpt::maps::CSimpleMap simple_map(const MappingResult& result);
 void write_mrpt_map(const std::filesystem::path& path, const mrpt::serialization::CSerializable& map);
 
 /// Returns the drawing as DXF release 12, which every CAD program reads, in metres in the map's frame. Layer
-/// WALLS has closed polylines, layer TRAJECTORY open polylines. Outlines of two points become lines.
+/// WALLS has closed polylines, layer TRAJECTORY open polylines. Outlines of two points become lines. The
+/// header states the unit ($INSUNITS), which later releases define and programs for release 12 skip.
 std::string map_dxf(const MapDrawing& drawing);
 
 /// Returns the drawing as SVG that prints at 1:`scale`, with scale bar and axes below the map. Width and

@@ -69,7 +69,9 @@ TEST_F(MapFiles, cad_reader_finds_the_walls_in_place) {
   expect_room(numbers, kClose_m);
   EXPECT_GE(numbers[4], 1) << "outlines on the layer WALLS";
   EXPECT_EQ(numbers[5], 1) << "one line on the layer TRAJECTORY";
-  EXPECT_EQ(numbers[6], 0) << "errors found by the reader";
+  EXPECT_EQ(numbers[6], 0) << "errors that the reader's audit found or mended";
+  EXPECT_EQ(numbers[7], 6) << "metres in $INSUNITS";
+  EXPECT_EQ(numbers[8], 1) << "metric in $MEASUREMENT";
 }
 
 TEST_F(MapFiles, gdal_reads_the_drawing) {

@@ -61,11 +61,13 @@ def measure_dxf(path):
     from ezdxf import bbox
 
     drawing = ezdxf.readfile(path)
-    errors = drawing.audit().errors
+    audit = drawing.audit()
     walls = drawing.modelspace().query('*[layer=="WALLS"]')
     paths = drawing.modelspace().query('POLYLINE[layer=="TRAJECTORY"]')
     box = bbox.extents(walls)
-    report(box.extmin.x, box.extmax.x, box.extmin.y, box.extmax.y, len(walls), len(paths), len(errors))
+    faults = audit.errors + audit.fixes
+    report(box.extmin.x, box.extmax.x, box.extmin.y, box.extmax.y, len(walls), len(paths), len(faults),
+           drawing.units, drawing.header["$MEASUREMENT"])
 
 
 def measure_tif(path):

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
-#include <cpl_vsi.h>
 #include <gdal_frmts.h>
 #include <gdal_priv.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <array>
@@ -17,7 +14,7 @@
 
 #include "base/atomic_file.h"
 #include "base/portable_math.h"
-#include "exports/map_files.h"
+#include "exports/gdal_files.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -26,43 +23,6 @@ namespace {
 using mrpt::maps::COccupancyGridMap2D;
 
 constexpr std::uint8_t kNotSeen = 255;
-
-/// A file in the memory of GDAL, deleted by the destructor.
-class MemoryFile {
- public:
-  MemoryFile()
-      : name_("/vsimem/psi-slam-" + std::to_string(reinterpret_cast<std::uintptr_t>(this)) + ".tif") {}
-  ~MemoryFile() { VSIUnlink(name_.c_str()); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  const std::string& name() const { return name_; }
-  std::string_view bytes() const {
-    vsi_l_offset size = 0;
-    const void* bytes = VSIGetMemFileBuffer(name_.c_str(), &size, FALSE);
-    return {static_cast<const char*>(bytes), bytes == nullptr ? 0 : static_cast<std::size_t>(size)};
-  }
-
- private:
-  std::string name_;
-};
-
-OGRSpatialReference spatial_reference(int epsg) {
-  const std::string what = "map.epsg = " + std::to_string(epsg);
-  OGRSpatialReference system;
-  if (epsg == 0) {
-    system.SetLocalCS("psi-slam map");
-    system.SetLinearUnits(SRS_UL_METER, 1);
-    return system;
-  }
-  if (system.importFromEPSG(epsg) != OGRERR_NONE)
-    throw UserError(what +
-                    ": no such coordinate system. Give the EPSG number of a projected system in metres");
-  if (system.IsProjected() == 0 || std::abs(system.GetLinearUnits() - 1) > 1e-12)
-    throw UserError(what + " (" + system.GetName() +
-                    "): expected a projected coordinate system in metres, such as UTM");
-  return system;
-}
 
 /// Rounds a length to the precision of map.yaml, 0.1 mm. MRPT stores lengths as floats.
 double to_tenth_of_a_millimetre(float length_m) {
@@ -76,8 +36,8 @@ std::array<double, 6> geo_transform(const COccupancyGridMap2D& grid, const GeoRe
   const double cell_m = std::round(static_cast<double>(grid.getResolution()) * 1e7) / 1e7;
   const double x = to_tenth_of_a_millimetre(grid.getXMin());
   const double y = to_tenth_of_a_millimetre(grid.getYMin()) + cell_m * static_cast<double>(grid.getSizeY());
-  return {reference.easting_m + c * x - s * y,  c * cell_m, s * cell_m,
-          reference.northing_m + s * x + c * y, s * cell_m, -c * cell_m};
+  const auto corner = on_earth({x, y}, reference);
+  return {corner.x, c * cell_m, s * cell_m, corner.y, s * cell_m, -c * cell_m};
 }
 
 std::vector<std::uint8_t> occupancy_percent(const COccupancyGridMap2D& grid, int row_from_top) {
@@ -112,7 +72,7 @@ bool write_to(const std::string& name, const COccupancyGridMap2D& grid, const Ge
                                                          static_cast<int>(grid.getSizeY()), 1, GDT_Byte,
                                                          options.List()));
   if (!file) return false;
-  const OGRSpatialReference system = spatial_reference(reference.epsg);
+  const OGRSpatialReference system = spatial_reference(reference.epsg, "psi-slam map");
   std::array<double, 6> transform = geo_transform(grid, reference);
   GDALRasterBand& band = *file->GetRasterBand(1);
   band.SetDescription("occupancy [percent]");
@@ -125,16 +85,11 @@ bool write_to(const std::string& name, const COccupancyGridMap2D& grid, const Ge
 
 }  // namespace
 
-void check_epsg(int epsg) {
-  const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
-  spatial_reference(epsg);
-}
-
 void write_geo_tiff(const std::filesystem::path& path, const COccupancyGridMap2D& grid,
                     const GeoReference& reference) {
   const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
   CPLErrorReset();
-  const MemoryFile memory;
+  const MemoryFile memory(".tif");
   if (!write_to(memory.name(), grid, reference))
     throw SystemFailure("cannot write " + path.string() + ": " + CPLGetLastErrorMsg());
   write_text_atomically(path, memory.bytes());

@@ -46,7 +46,8 @@ void write_mrpt_map(const std::filesystem::path& path, const mrpt::serialization
 }
 
 void write_map_files(const std::filesystem::path& folder, const MappingResult& result,
-                     const COccupancyGridMap2D& grid, const MapFileOptions& options) {
+                     const COccupancyGridMap2D& grid, const std::vector<MapEdit>& edits,
+                     const MapFileOptions& options) {
   const auto remove = [&](const char* name) {
     std::error_code ignored;
     std::filesystem::remove(folder / name, ignored);
@@ -64,11 +65,15 @@ void write_map_files(const std::filesystem::path& folder, const MappingResult& r
   file(options.mrpt, "map.gridmap.gz", [&](const auto& path) { write_mrpt_map(path, grid); });
   file(options.mrpt, "map.simplemap.gz", [&](const auto& path) { write_mrpt_map(path, simple_map(result)); });
   MapDrawing drawing;
-  if (options.svg || options.dxf) drawing = draw_map_lines(grid, paths_of_runs(result), options.lines);
+  if (options.svg || options.dxf || options.gpkg)
+    drawing = draw_map_lines(grid, paths_of_runs(result), options.lines);
   text_file(options.svg, "map.svg", [&] { return map_svg(drawing, options.print_scale); });
   text_file(options.dxf, "map.dxf", [&] { return map_dxf(drawing); });
   text_file(options.print, "map_print.png", [&] { return print_map(grid, options); });
   file(options.geotiff, "map.tif", [&](const auto& path) { write_geo_tiff(path, grid, options.earth); });
+  file(options.gpkg, "map.gpkg", [&](const auto& path) {
+    write_geo_package(path, drawing.walls, trajectories_of_runs(result), edits, options.earth);
+  });
 }
 
 }  // namespace psi_slam

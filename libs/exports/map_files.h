@@ -11,6 +11,8 @@
 
 #include "psi_slam/mapping_result.h"
 #include "rendering/map_drawing.h"
+#include "rendering/map_edits.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 
@@ -31,16 +33,20 @@ struct MapFileOptions {
   bool dxf = true;           ///< map.dxf: walls and path as lines, for CAD programs
   bool print = false;        ///< map_print.png, true to scale
   bool geotiff = false;      ///< map.tif
+  bool gpkg = false;         ///< map.gpkg: walls, path and zones for geographic information systems
   double print_scale = 100;  ///< scale of map_print.png and map.svg; 100 means 1:100
   int print_dpi = 300;       ///< resolution of map_print.png, pixels per inch of paper
-  MapDrawingOptions lines;   ///< lines of map.svg and map.dxf
-  GeoReference earth;        ///< place of map.tif on the earth, and direction of north in map_print.png
+  MapDrawingOptions lines;   ///< lines of map.svg, map.dxf and map.gpkg
+  /// Place of map.tif and map.gpkg on the earth, and direction of north in map_print.png.
+  GeoReference earth;
 };
 
 /// Writes the selected files. Deletes map files that are not selected, since they would show an older map.
-/// `grid` is the grid map of `result` by draw_grid_map().
+/// `grid` is the grid map of `result` by draw_grid_map(). `edits` are those of the grid, with their points in
+/// its frame; map.gpkg shows the zones among them.
 void write_map_files(const std::filesystem::path& folder, const MappingResult& result,
-                     const mrpt::maps::COccupancyGridMap2D& grid, const MapFileOptions& options = {});
+                     const mrpt::maps::COccupancyGridMap2D& grid, const std::vector<MapEdit>& edits,
+                     const MapFileOptions& options = {});
 
 /// Returns MRPT's simple map: the nodes of the graph with their scans. Each pose has the covariance (1 mm)^2,
 /// (1 mrad)^2 as a placeholder that MRPT can invert, because the marginals of the graph are not computed.
@@ -73,5 +79,19 @@ void check_epsg(int epsg);
 /// cells. Throws UserError like check_epsg().
 void write_geo_tiff(const std::filesystem::path& path, const mrpt::maps::COccupancyGridMap2D& grid,
                     const GeoReference& reference = {});
+
+/// Writes a GeoPackage, a database that geographic information systems read, with four layers:
+///
+///     walls     the outlines as lines, closed unless they have two points
+///     path      a line for each run of at least two poses: `run`, counted from 1; `start` and `end`, UTC. M
+///               of its points is the time in seconds, as in the log.
+///     keep_out  polygons: `zone`, its number as in zones.txt
+///     slow      polygons: `zone`; `percent` of the largest speed or `max_speed_mps`, the other is null
+///
+/// Without EPSG number, the system is the undefined Cartesian one (srs_id -1). The file states the time of
+/// the last pose as its date, so that equal maps give equal bytes. Throws UserError like check_epsg().
+void write_geo_package(const std::filesystem::path& path, const std::vector<MapLine>& walls,
+                       const std::vector<Trajectory>& runs, const std::vector<MapEdit>& edits,
+                       const GeoReference& reference = {});
 
 }  // namespace psi_slam

@@ -19,6 +19,15 @@ inline Trajectory trajectory_of(const std::vector<FrameRecord>& frames) {
   return trajectory;
 }
 
+/// Returns trajectory_of() the frames of each run.
+inline std::vector<Trajectory> trajectories_of_runs(const MappingResult& result) {
+  const Trajectory whole = trajectory_of(result.frames);
+  const auto at = [&](std::size_t i) { return whole.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::vector<Trajectory> trajectories;
+  for (const FrameSpan& run : runs_of(result)) trajectories.emplace_back(at(run.begin), at(run.end));
+  return trajectories;
+}
+
 /// Returns the robot pose in the map for each frame, in the order of the log.
 inline std::vector<mrpt::math::TPose2D> mapped_poses(const MappingResult& result) {
   std::vector<mrpt::math::TPose2D> poses;

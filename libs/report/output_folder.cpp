@@ -87,14 +87,15 @@ OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
 }
 
 void export_results(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
-                    const OutputFolder& folder, const MapFileOptions& map_files) {
+                    const OutputFolder& folder, const std::vector<MapEdit>& edits,
+                    const MapFileOptions& map_files) {
   const auto file = [&](const char* name) { return folder.path() / name; };
   write_tum(file("trajectory.tum"), trajectory_of(result.frames));
   write_runs(folder.path(), result);
   write_text_atomically(file("frames.csv"), frames_csv(result.frames));
   write_text_atomically(file("trajectory.csv"), trajectory_csv(result));
   write_text_atomically(file("loops.csv"), loops_csv(result.loops));
-  write_map_files(folder.path(), result, grid, map_files);
+  write_map_files(folder.path(), result, grid, edits, map_files);
 }
 
 void export_account(const MappingResult& result, const RunInfo& info, const RunSummary& summary,

@@ -43,9 +43,10 @@ class OutputFolder {
 };
 
 /// Writes the maps, trajectories and tables, each file atomically. `grid` is the map of `result`, drawn by
-/// draw_grid_map(). Throws SystemFailure naming the file that cannot be written.
+/// draw_grid_map(), with its `edits`. Throws SystemFailure naming the file that cannot be written.
 void export_results(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
-                    const OutputFolder& folder, const MapFileOptions& map_files = {});
+                    const OutputFolder& folder, const std::vector<MapEdit>& edits = {},
+                    const MapFileOptions& map_files = {});
 
 /// Writes summary.json and report.html. Call it after export_results(), so that the times in both files
 /// include the export. Throws SystemFailure naming the file that cannot be written.

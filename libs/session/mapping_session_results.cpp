@@ -101,7 +101,7 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
     writing_clock.time([&] {
       write_g2o(m.result.graph, folder->path() / "graph.g2o");
       write_edits(edits, folder->path() / "loops.edits");
-      export_results(m.result, *grid, *folder, m.settings.map_files);
+      export_results(m.result, *grid, *folder, placed.edits, m.settings.map_files);
       write_zone_files(folder->path(), *grid, placed.edits);
     });
     m.result.stages.push_back(writing_clock.timing());

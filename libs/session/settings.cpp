@@ -130,23 +130,27 @@ void describe_map_files(OptionTable& table, MapFileOptions& files) {
       .flag("write_dxf", files.dxf, "Writes map.dxf: walls and path for CAD programs, in metres.")
       .flag("write_print", files.print, "Writes map_print.png, an image that prints at print_scale.")
       .flag("write_geotiff", files.geotiff, "Writes map.tif for geographic information systems.")
+      .flag("write_gpkg", files.gpkg,
+            "Writes map.gpkg: walls, path with times, and zones for geographic information systems.")
       .number("print_scale", files.print_scale, above(0).at_most(1e6), "",
               "Scale of map_print.png and map.svg. 100 means 1:100, one centimetre of paper for one metre.")
       .integer("print_dpi", files.print_dpi, between(1, 10'000), "dpi",
                "Resolution of map_print.png. It is lowered if the image would exceed 150 million pixels.")
-      .number("line_tolerance_m", files.lines.tolerance_m, at_least(0).at_most(10), "m",
-              "Largest deviation of the lines in map.svg and map.dxf from the outlines of the cells.")
+      .number(
+          "line_tolerance_m", files.lines.tolerance_m, at_least(0).at_most(10), "m",
+          "Largest deviation of the lines in map.svg, map.dxf and map.gpkg from the outlines of the cells.")
       .number("min_wall_m", files.lines.min_wall_m, at_least(0).at_most(100), "m",
-              "Occupied spots smaller than this are left out of map.svg and map.dxf.")
+              "Occupied spots smaller than this are left out of map.svg, map.dxf and map.gpkg.")
       .integer(
           "epsg", files.earth.epsg, between(0, 1'000'000), "",
-          "EPSG code of the projected coordinate system of map.tif, in metres. 0: the map's own coordinates.")
+          "EPSG code of the projected coordinate system of map.tif and map.gpkg, in metres. 0: the map's own "
+          "coordinates.")
       .number("origin_easting_m", files.earth.easting_m, between(-1e9, 1e9), "m",
-              "Easting of the map's origin in the coordinate system of map.tif.")
+              "Easting of the map's origin in the coordinate system of map.tif and map.gpkg.")
       .number("origin_northing_m", files.earth.northing_m, between(-1e9, 1e9), "m",
-              "Northing of the map's origin in the coordinate system of map.tif.")
+              "Northing of the map's origin in the coordinate system of map.tif and map.gpkg.")
       .angle_deg("origin_heading_deg", files.earth.heading_rad, between(-360, 360),
-                 "Direction of the map's x axis in map.tif, counter-clockwise from east.");
+                 "Direction of the map's x axis in map.tif and map.gpkg, counter-clockwise from east.");
 }
 
 void describe_map_frame(OptionTable& table, MapFrameOptions& frame) {

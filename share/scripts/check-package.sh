@@ -119,8 +119,8 @@ log=${PSI_SLAM_LOG:-"/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty
 if [ -f "$log" ]; then
   cp "$log" "$system/tmp/a.rawlog"
   inside psi-slam -c /usr/share/psi-slam/ini/psi-slam.ini /tmp/a.rawlog -o /tmp/out --set map.write_geotiff=true \
-    --set map.epsg=25832 || fail "the installed psi-slam cannot map $log"
-  for file in report.html map.png map.yaml map.svg map.dxf map.tif trajectory.tum; do
+    --set map.write_gpkg=true --set map.epsg=25832 || fail "the installed psi-slam cannot map $log"
+  for file in report.html map.png map.yaml map.svg map.dxf map.tif map.gpkg trajectory.tum; do
     [ -s "$system/tmp/out/$file" ] || fail "the installed psi-slam wrote no $file"
   done
 else

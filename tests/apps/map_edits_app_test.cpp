@@ -41,14 +41,15 @@ TEST_F(MapEditsApp, edits_change_all_files_and_repeat_to_the_last_byte) {
              "keep_out polygon=-1,0;-0.5,0;-0.5,0.5\nslow polygon=-2,0;-1.5,0;-1.5,0.5 percent=30\n"
              "erase polygon=90,90;91,90;91,91\n");
   const std::string edits = path("my.edits").string();
-  const AppRun run = map("a", {log, "--edits", edits, "--save-session", path("s").string()});
+  const std::string gpkg = "map.write_gpkg=true";
+  const AppRun run = map("a", {log, "--edits", edits, "--save-session", path("s").string(), "--set", gpkg});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("an edit was not made: erase at 90,90: no cell of the map lies there"));
-  ASSERT_EQ(map("b", {log, "--edits", (path("a") / "loops.edits").string()}).code, 0);
-  ASSERT_EQ(map("c", {"--resume", path("s").string()}).code, 0);
-  for (const char* name :
-       {"map.pgm", "map.yaml", "map.gridmap.gz", "map.png", "map.svg", "map.dxf", "keepout_mask.pgm",
-        "keepout_mask.yaml", "speed_mask.pgm", "speed_mask.yaml", "zones.txt", "loops.edits"}) {
+  ASSERT_EQ(map("b", {log, "--edits", (path("a") / "loops.edits").string(), "--set", gpkg}).code, 0);
+  ASSERT_EQ(map("c", {"--resume", path("s").string(), "--set", gpkg}).code, 0);
+  for (const char* name : {"map.pgm", "map.yaml", "map.gridmap.gz", "map.png", "map.svg", "map.dxf",
+                           "map.gpkg", "keepout_mask.pgm", "keepout_mask.yaml", "speed_mask.pgm",
+                           "speed_mask.yaml", "zones.txt", "loops.edits"}) {
     const std::string bytes = read_file(path("a") / name);
     EXPECT_FALSE(bytes.empty()) << name;
     EXPECT_EQ(read_file(path("b") / name), bytes) << name;

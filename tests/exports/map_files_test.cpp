@@ -32,7 +32,7 @@ class MapFiles : public testing::Test {
   }
 
   std::filesystem::path write(const std::string& name) {
-    write_map_files(folder_.path(), result_, *grid_, options_);
+    write_map_files(folder_.path(), result_, *grid_, {}, options_);
     return folder_.path() / name;
   }
 
@@ -65,7 +65,7 @@ TEST_F(MapFiles, cad_reader_finds_the_walls_in_place) {
   options_.dxf = true;
   MEASURE_OR_SKIP(run, write("map.dxf"));
   const std::vector<double> numbers = run.numbers();
-  ASSERT_EQ(numbers.size(), 7U) << run.out;
+  ASSERT_EQ(numbers.size(), 9U) << run.out;
   expect_room(numbers, kClose_m);
   EXPECT_GE(numbers[4], 1) << "outlines on the layer WALLS";
   EXPECT_EQ(numbers[5], 1) << "one line on the layer TRAJECTORY";
@@ -154,11 +154,11 @@ TEST_F(MapFiles, writes_only_the_files_asked_for) {
 }
 
 TEST_F(MapFiles, reports_a_missing_folder) {
-  for (bool MapFileOptions::*wanted :
-       {&MapFileOptions::svg, &MapFileOptions::dxf, &MapFileOptions::print, &MapFileOptions::geotiff}) {
+  for (bool MapFileOptions::*wanted : {&MapFileOptions::svg, &MapFileOptions::dxf, &MapFileOptions::print,
+                                       &MapFileOptions::geotiff, &MapFileOptions::gpkg}) {
     MapFileOptions options = options_;
     options.*wanted = true;
-    EXPECT_THROW(write_map_files(folder_.path() / "missing", result_, *grid_, options), SystemFailure);
+    EXPECT_THROW(write_map_files(folder_.path() / "missing", result_, *grid_, {}, options), SystemFailure);
   }
 }
 

@@ -89,8 +89,22 @@ def measure_tif(path):
            system.GetAuthorityCode(None) or "local", system.GetLinearUnitsName(), band.GetNoDataValue())
 
 
+def measure_gpkg(path):
+    """Compares the file with the specification, without GDAL's driver, and measures the walls."""
+    from osgeo import ogr
+    from osgeo_utils.samples import validate_gpkg
+
+    ogr.UseExceptions()
+    validate_gpkg.check(path, extra_checks=True, warning_as_error=True)
+    data = ogr.Open(path)
+    box = data.GetLayer("walls").GetExtent()
+    system = data.GetLayer("walls").GetSpatialRef()
+    report(*box, system.GetAuthorityCode(None) or system.GetName().replace(" ", "_"), "%g" % system.GetLinearUnits(),
+           *("%s:%d" % (layer.GetName(), layer.GetFeatureCount()) for layer in data))
+
+
 if __name__ == "__main__":
-    measure = {"png": measure_png, "svg": measure_svg, "dxf": measure_dxf, "tif": measure_tif}
+    measure = {"png": measure_png, "svg": measure_svg, "dxf": measure_dxf, "tif": measure_tif, "gpkg": measure_gpkg}
     try:
         measure[sys.argv[1].rsplit(".", 1)[1]](sys.argv[1])
     except ImportError as missing:

@@ -17,6 +17,7 @@ ALL_FORMATS = {
     "map.align": "walls",
     "map.resolution_m": 0.1,
     "map.write_geotiff": True,
+    "map.write_gpkg": True,
     "map.write_dxf": True,
     "run.seed": 3,
     "run.threads": 2,

@@ -39,8 +39,8 @@ test=(
 documentation=(doxygen python3)
 test+=("${documentation[@]}")
 
-# Part of the list `test`. Tests that need a package of these are skipped where the release has none.
-optional=(python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs)
+# Part of the list `test`. Where the release has no package of these, tests do without it or are skipped.
+optional=(python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs libg2o-dev python3-gtsam)
 test+=("${optional[@]}")
 
 say() { echo "install-dependencies.sh: $*" >&2; }
@@ -142,7 +142,7 @@ else
   needed=()
   for package in "${unavailable[@]}"; do
     if [[ " ${optional[*]} " == *" $package "* ]]; then
-      say "$(system_name) has no package $package. The tests that need it are skipped"
+      say "$(system_name) has no package $package. Tests do without it or are skipped"
     else
       needed+=("$package")
     fi

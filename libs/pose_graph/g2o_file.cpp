@@ -172,6 +172,9 @@ Contents read_lines(const std::filesystem::path& path) {
   return contents;
 }
 
+/// Information of a heading that is not known: a standard deviation of 1000 rad. GTSAM refuses files with 0.
+constexpr double kNoHeading = 1e-6;
+
 std::string place(const std::filesystem::path& path, std::size_t line) {
   return path.string() + ":" + std::to_string(line);
 }
@@ -257,7 +260,8 @@ void write_g2o(const PoseGraph& graph, const std::filesystem::path& path) {
     const Constraint& constraint = graph.constraint(i);
     text += "EDGE_SE2 " + std::to_string(constraint.from) + ' ' + std::to_string(constraint.to);
     append_pose(constraint.from_T_to);
-    const Eigen::Matrix3d information = turned(constraint.information, -constraint.from_T_to.phi);
+    Eigen::Matrix3d information = turned(constraint.information, -constraint.from_T_to.phi);
+    if (information(2, 2) == 0) information(2, 2) = kNoHeading;
     for (const auto& [row, column] : kG2oEdge.entries) append(text, information(row, column));
     text += '\n';
   }

@@ -33,8 +33,9 @@ struct PoseGraphFile {
 PoseGraphFile read_pose_graph(const std::filesystem::path& path);
 
 /// Writes all nodes, FIX for the root, and the enabled constraints. Numbers have the fewest digits that read
-/// back as the same number. The file appears complete or not at all. Throws SystemFailure if it cannot be
-/// written.
+/// back as the same number. A constraint that knows no heading gets the information 1e-6 per rad^2 for it,
+/// because GTSAM refuses singular matrices. The file appears complete or not at all. Throws SystemFailure if
+/// it cannot be written.
 void write_g2o(const PoseGraph& graph, const std::filesystem::path& path);
 
 }  // namespace psi_slam

@@ -158,6 +158,20 @@ TEST(G2oFile, is_written_as_the_format_says) {
             "EDGE_SE2 0 1 0.25 0 0 100 2 4 90 5 80\n");
 }
 
+TEST(G2oFile, known_position_has_no_singular_matrix) {
+  const TemporaryFolder folder;
+  PoseGraph graph;
+  graph.add_node({0, 0, 0});
+  graph.add_node({1, 0, 0});
+  Constraint position;
+  position.to = 1;
+  position.from_T_to = {1, 0, 0};
+  position.information = Eigen::Vector3d(100, 90, 0).asDiagonal();
+  graph.add_constraint(position);
+  write_g2o(graph, folder.path() / "a.g2o");
+  EXPECT_THAT(contents(folder.path() / "a.g2o"), HasSubstr("EDGE_SE2 0 1 1 0 0 100 0 0 90 0 1e-06\n"));
+}
+
 TEST(G2oFile, says_what_is_wrong_and_where) {
   const std::string two(kTwoVertices);
   EXPECT_THAT(

@@ -20,7 +20,6 @@
 #include "report/output_folder.h"
 #include "session/drawn_map.h"
 #include "session/edit_journal.h"
-#include "session/map_edit_line.h"
 #include "session/plan_drawing.h"
 #include "session/settings.h"
 #include "temporary_folder.h"
@@ -35,6 +34,14 @@ using Numbers = std::vector<double>;
 constexpr const char* kRealLog =
     "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
 constexpr double kSlowPercent = 40;
+/// Zones, a mark that is seen once, and positions without heading of the first and the last scan.
+constexpr const char* kEdits =
+    "keep_out polygon=-1,-1;-0.5,-1;-0.5,1;-1,1\n"
+    "slow polygon=1,-1;2,-1;2,1;1,1 percent=40\n"
+    "tag name=A x_m=1.5 y_m=0.2 sigma_m=0.02\n"
+    "seen name=A time_s=1137834225.713386 ahead_m=1.5 left_m=0.2 sigma_m=0.03\n"
+    "pose time_s=1137834225.713386 x_m=0 y_m=0 sigma_m=0.02\n"
+    "pose time_s=1137834284.788331 x_m=4.22 y_m=-18.49 sigma_m=0.05\n";
 
 /// A run, and what it exported.
 struct ExportedRun {
@@ -46,8 +53,7 @@ struct ExportedRun {
     Settings settings;
     settings.map_files.gpkg = true;
     MappingSession session(kRealLog, settings);
-    session.edit(*parse_map_edit_line("keep_out polygon=-1,-1;-0.5,-1;-0.5,1;-1,1"));
-    session.edit(*parse_map_edit_line("slow polygon=1,-1;2,-1;2,1;1,1 percent=40"));
+    session.add_edits(EditJournal::parse(kEdits, "my.edits"));
     while (session.step()) {
     }
     session.finish();
@@ -124,8 +130,11 @@ struct ReadGraph {
   }
 };
 
-/// Expects that a program reads the graph that the session has.
-void expect_graph(const PoseGraph& graph, const ReadGraph& read) {
+/// Expects that a program reads the graph that the session has, with the frame of the known positions as
+/// root.
+void expect_graph(const MappingResult& result, const ReadGraph& read) {
+  const PoseGraph& graph = result.graph;
+  ASSERT_GT(graph.num_nodes(), result.node_frames.size());
   ASSERT_EQ(read.poses.size(), graph.num_nodes());
   for (std::size_t node = 0; node < graph.num_nodes(); ++node) {
     const auto& pose = graph.pose(node);
@@ -152,7 +161,7 @@ void expect_graph(const PoseGraph& graph, const ReadGraph& read) {
 }
 
 TEST_F(ForeignReaders, gtsam_reads_the_graph) {
-  expect_graph(run_->result.graph, ReadGraph(read_as("gtsam", "graph.g2o").out));
+  expect_graph(run_->result, ReadGraph(read_as("gtsam", "graph.g2o").out));
 }
 
 TEST_F(ForeignReaders, g2o_reads_the_graph_with_its_fixed_pose) {
@@ -161,7 +170,7 @@ TEST_F(ForeignReaders, g2o_reads_the_graph_with_its_fixed_pose) {
 #else
   const ReadGraph read(read_as("g2o", "graph.g2o").out);
 #endif
-  expect_graph(run_->result.graph, read);
+  expect_graph(run_->result, read);
   EXPECT_THAT(read.fixed, testing::ElementsAre(Numbers{static_cast<double>(run_->result.graph.root())}));
 }
 

@@ -7,6 +7,7 @@
 #include <ogrsf_frmts.h>
 
 #include <cstdio>
+#include <ctime>
 #include <functional>
 #include <memory>
 #include <string>
@@ -79,7 +80,8 @@ class GeoPackage {
   }
 
   /// Adds a feature to the last layer. `fill` sets its fields.
-  void add(const OGRGeometry& geometry, const std::function<void(OGRFeature&)>& fill) {
+  void add(
+      const OGRGeometry& geometry, const std::function<void(OGRFeature&)>& fill = [](OGRFeature&) {}) {
     OGRFeature feature(layer_->GetLayerDefn());
     fill(feature);
     require(feature.SetGeometry(&geometry) == OGRERR_NONE);
@@ -92,6 +94,7 @@ class GeoPackage {
     line.addPoint(point.x, point.y);
   }
 
+  /// Appends the position of a pose in the map, and its time as M.
   void append(const StampedPose& stamped, OGRLineString& line) const {
     const TPoint2D point = on_earth({stamped.pose.x, stamped.pose.y}, reference_);
     line.addPointM(point.x, point.y, seconds(stamped.time_us));
@@ -116,7 +119,7 @@ void add_walls(const std::vector<MapLine>& walls, GeoPackage& package) {
     OGRLineString line;
     for (const TPoint2D& point : wall) package.append(point, line);
     if (wall.size() > 2) package.append(wall.front(), line);
-    package.add(line, [](OGRFeature&) {});
+    package.add(line);
   }
 }
 

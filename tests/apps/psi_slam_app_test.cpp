@@ -109,9 +109,10 @@ TEST_F(PsiSlamApp, maps_the_quickstart_log) {
 
 TEST_F(PsiSlamApp, gives_the_same_bytes_with_any_number_of_threads) {
   if (!fs::exists(kQuickstartLog)) GTEST_SKIP() << kNeedsQuickstartLog;
-  ASSERT_EQ(map(kQuickstartLog, "first", {"--threads", "1"}).code, 0);
-  ASSERT_EQ(map(kQuickstartLog, "again", {"--threads", "1"}).code, 0);
-  ASSERT_EQ(map(kQuickstartLog, "two", {"--threads", "2"}).code, 0);
+  const std::string gpkg = "map.write_gpkg=true";
+  ASSERT_EQ(map(kQuickstartLog, "first", {"--threads", "1", "--set", gpkg}).code, 0);
+  ASSERT_EQ(map(kQuickstartLog, "again", {"--threads", "1", "--set", gpkg}).code, 0);
+  ASSERT_EQ(map(kQuickstartLog, "two", {"--threads", "2", "--set", gpkg}).code, 0);
   expect_same_bytes("first", "again");
   expect_same_bytes("first", "two");
 }

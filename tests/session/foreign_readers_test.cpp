@@ -10,11 +10,16 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "foreign_program.h"
+#include "psi_slam/mapping_result.h"
 #include "psi_slam/mapping_session.h"
 #include "rendering/map_image.h"
 #include "report/output_folder.h"

@@ -57,12 +57,6 @@ bool is_carmen(std::string_view head) {
   return false;
 }
 
-/// Returns the name of a file without the ending that zstd programs add: "run_0.db3" for "run_0.db3.zstd".
-fs::path without_zstd(fs::path path) {
-  if (path.extension() == ".zstd" || path.extension() == ".zst") path.replace_extension();
-  return path;
-}
-
 /// Returns the file that metadata.yaml of a folder lists under `name`. rosbag2 lists compressed files, which
 /// the user may have unpacked. The unpacked file takes precedence, because a recorder that was killed leaves
 /// an incomplete compressed file beside it.
@@ -117,9 +111,19 @@ bool is_bag(LogFormat format) {
   return format != LogFormat::kCarmen && format != LogFormat::kMrptRawlog;
 }
 
+fs::path without_zstd(fs::path path) {
+  if (path.extension() == ".zstd" || path.extension() == ".zst") path.replace_extension();
+  return path;
+}
+
 std::vector<fs::path> files_of_bag_folder(const fs::path& folder) {
   std::error_code ignored;
   if (fs::exists(folder / "metadata.yaml", ignored)) return files_listed(folder / "metadata.yaml");
+  return numbered_bag_files(folder);
+}
+
+std::vector<fs::path> numbered_bag_files(const fs::path& folder) {
+  std::error_code ignored;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const fs::path unpacked = without_zstd(entry.path());

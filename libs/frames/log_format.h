@@ -21,9 +21,15 @@ bool is_bag(LogFormat format);
 LogFormat detect_log_format(const std::filesystem::path& path);
 
 /// Files in the folder of a ROS 2 bag, in the order of its metadata.yaml. Without metadata.yaml, which a
-/// killed recorder does not write: the .db3 and .mcap files in the order of the numbers in their names.
-/// Either kind may be compressed by zstd (.db3.zstd). An unpacked file takes precedence over the compressed
-/// one. Empty if the folder has no such files. Throws UserError if metadata.yaml is damaged.
+/// killed recorder does not write: numbered_bag_files(). Empty if the folder has no such files. Throws
+/// UserError if metadata.yaml is damaged.
 std::vector<std::filesystem::path> files_of_bag_folder(const std::filesystem::path& folder);
+
+/// The .db3 and .mcap files in a folder, in the order of the numbers in their names. Either kind may be
+/// compressed by zstd (.db3.zstd). An unpacked file takes precedence over the compressed one.
+std::vector<std::filesystem::path> numbered_bag_files(const std::filesystem::path& folder);
+
+/// Returns a path without the ending that zstd programs add: "run_0.db3" for "run_0.db3.zstd".
+std::filesystem::path without_zstd(std::filesystem::path path);
 
 }  // namespace psi_slam

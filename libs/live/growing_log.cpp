@@ -23,6 +23,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostBytes = std::size_t{64} * 1024;  // bytes received at once
 constexpr std::chrono::milliseconds kWait{100};
+constexpr std::chrono::seconds kClosing{
+    10};  // a recorder writes its last bytes so long after it closed a bag
 
 class GrowingLines : public LineStream {
  public:
@@ -44,17 +46,18 @@ class GrowingLines : public LineStream {
 
 class GrowingBytes : public ByteSource {
  public:
-  GrowingBytes(const fs::path& file, LiveControl control, std::optional<double> idle_s)
-      : file_(file), control_(std::move(control)), idle_s_(idle_s) {}
+  GrowingBytes(const fs::path& file, BagRecorder recorder) : file_(file), recorder_(std::move(recorder)) {}
 
   std::size_t read(char* bytes, std::size_t size) override {
     const Clock::time_point began = Clock::now();
-    while (!ended_ && !control_.should_stop()) {
+    while (!ended_) {
+      ended_ = recorder_.should_stop();
+      if (ended_) break;
+      const bool is_closed = recorder_.is_closed();
       if (const std::size_t got = file_.read(bytes, size); got > 0) return got;
-      if (idle_s_ && std::chrono::duration<double>(Clock::now() - began).count() >= *idle_s_) break;
-      std::this_thread::sleep_for(kWait);
+      const std::chrono::duration<double> waited = Clock::now() - began;
+      ended_ = (is_closed && waited > kClosing) || !recorder_.wait(waited.count());
     }
-    ended_ = true;
     return 0;
   }
 
@@ -63,8 +66,7 @@ class GrowingBytes : public ByteSource {
 
  private:
   GrowingFile file_;
-  LiveControl control_;
-  std::optional<double> idle_s_;
+  BagRecorder recorder_;
   bool ended_ = false;
 };
 
@@ -92,24 +94,41 @@ LogFormat growing_format(const fs::path& file) {
   std::error_code ignored;
   if (!fs::exists(file, ignored))
     throw UserError(file.string() + " does not exist, expected a log that is being recorded. Check the path");
-  const std::string remedy =
-      " cannot be followed, expected a CARMEN log, a rawlog, a ROS 1 bag or an MCAP file. Record one of "
-      "these, or map the log when it is complete";
-  if (fs::is_directory(file, ignored)) throw UserError(file.string() + " is a folder and" + remedy);
+  if (fs::is_directory(file, ignored)) {
+    if (fs::is_empty(file, ignored) || !numbered_bag_files(file).empty()) return LogFormat::kRos2Folder;
+    throw UserError(file.string() +
+                    " has no .db3 or .mcap files, expected the folder of a ROS 2 bag, or a log that is being "
+                    "recorded. Check the path");
+  }
   // Looking at the first bytes of a pipe would take them from the stream.
   if (!fs::is_regular_file(file, ignored))
     throw UserError(file.string() +
                     " is no regular file, expected a log that is being recorded. Pipe it to "
                     "--stdin");
-  if (is_zstd(head_of(file))) throw UserError(file.string() + " is compressed by zstd and" + remedy);
+  const std::string head = head_of(file);
   LogFormat format = format_by_name(file);
   try {
     format = detect_log_format(file);
   } catch (const UserError&) {  // it is empty, or its first lines are comments
   }
-  if (format == LogFormat::kRos2Sqlite)
-    throw UserError(file.string() + " is a " + std::string(name_of(format)) + " and" + remedy);
+  const bool is_packed_database = format == LogFormat::kRos2Sqlite && !head.empty() && head != "SQLi";
+  if (is_zstd(head) || is_packed_database)
+    throw UserError(
+        file.string() +
+        " is a compressed file and cannot be followed, expected a file that grows. Map it without "
+        "--follow, or follow the folder of its bag");
   return format;
+}
+
+BagRecorder patient_recorder(LiveControl control, std::optional<double> idle_s) {
+  BagRecorder recorder;
+  recorder.should_stop = control.should_stop;
+  recorder.wait = [should_stop = std::move(control.should_stop), idle_s](double waited_s) {
+    if (should_stop() || (idle_s && waited_s >= *idle_s)) return false;
+    std::this_thread::sleep_for(kWait);
+    return true;
+  };
+  return recorder;
 }
 
 std::unique_ptr<LineStream> growing_lines(const fs::path& file, LiveControl control,
@@ -117,9 +136,8 @@ std::unique_ptr<LineStream> growing_lines(const fs::path& file, LiveControl cont
   return std::make_unique<GrowingLines>(file, std::move(control), idle_s);
 }
 
-std::unique_ptr<ByteSource> growing_bytes(const fs::path& file, LiveControl control,
-                                          std::optional<double> idle_s) {
-  return std::make_unique<GrowingBytes>(file, std::move(control), idle_s);
+std::unique_ptr<ByteSource> growing_bytes(const fs::path& file, BagRecorder recorder) {
+  return std::make_unique<GrowingBytes>(file, std::move(recorder));
 }
 
 }  // namespace psi_slam

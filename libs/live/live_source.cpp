@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "carmen/carmen_stream.h"
+#include "live/growing_folder.h"
 #include "live/growing_log.h"
 #include "live/line_streams.h"
 #include "live/sensor_set.h"
@@ -59,6 +60,17 @@ LogFormat format_of(const LiveInput& input) {
   return input.kind == LiveInput::Kind::kSensors ? LogFormat::kMrptRawlog : LogFormat::kCarmen;
 }
 
+std::unique_ptr<BagRecording> follow_messages(const LiveInput& input, LogFormat format,
+                                              const LiveControl& control) {
+  const std::filesystem::path path = input.file;
+  BagRecorder recorder = patient_recorder(control, input.idle_s);
+  if (format == LogFormat::kRos2Folder)
+    return std::make_unique<BagRecording>(
+        BagRecording{path, std::make_unique<GrowingFolder>(path, std::move(recorder))});
+  recorder.is_closed = [path] { return is_closed_bag(path.parent_path(), path); };
+  return std::make_unique<BagRecording>(BagRecording{path, follow_sqlite_bag(path, std::move(recorder))});
+}
+
 std::unique_ptr<LineStream> open_lines(const LiveInput& input, const LiveControl& control) {
   if (input.kind == LiveInput::Kind::kTcp) return tcp_input(input.address, input.port, control, input.idle_s);
   if (input.kind == LiveInput::Kind::kFollow) return growing_lines(input.file, control, input.idle_s);
@@ -77,7 +89,8 @@ std::string name_of(const LiveInput& input) {
     case LiveInput::Kind::kSensors:
       break;
   }
-  return std::filesystem::path(input.file).filename().string();
+  const std::filesystem::path path(input.file);
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
 std::unique_ptr<FrameSource> open_live(const LiveInput& input, const LogOptions& options,
@@ -96,8 +109,11 @@ std::unique_ptr<FrameSource> open_live(const LiveInput& input, const LogOptions&
   if (format == LogFormat::kCarmen)
     return std::make_unique<AwaitedSource<ByteSource>>(open_lines(input, control), open_carmen_stream, format,
                                                        options, input.look_over_s);
+  if (format == LogFormat::kRos2Sqlite || format == LogFormat::kRos2Folder)
+    return std::make_unique<AwaitedSource<BagRecording>>(
+        follow_messages(input, format, control), open_followed_bag, format, options, input.look_over_s);
   return std::make_unique<AwaitedSource<ByteSource>>(
-      growing_bytes(input.file, control, input.idle_s),
+      growing_bytes(input.file, patient_recorder(control, input.idle_s)),
       format == LogFormat::kMrptRawlog ? open_rawlog_stream : open_rosbag_stream, format, options,
       input.look_over_s);
 }

@@ -18,14 +18,14 @@ struct LiveInput {
   enum class Kind {
     kStandardInput,  ///< CARMEN lines on standard input
     kTcp,            ///< CARMEN lines that a client sends to a TCP port
-    kFollow,         ///< a log that grows: CARMEN lines, a rawlog, a ROS 1 bag or an MCAP file
+    kFollow,         ///< a log that grows: CARMEN lines, a rawlog, a bag, or the folder of a ROS 2 bag
     kSensors,        ///< sensors with drivers of MRPT, described by a settings file of rawlog-grabber
   };
 
   Kind kind = Kind::kStandardInput;
   std::uint16_t port = 0;             ///< kTcp: port; 0: the system chooses one
   std::string address = "127.0.0.1";  ///< kTcp: IPv4 address of this computer that is listened on
-  std::string file;                   ///< kFollow: the log; kSensors: the settings file
+  std::string file;                   ///< kFollow: the log or folder; kSensors: the settings file
   std::optional<double> idle_s;       ///< ends the frames after so many seconds without data; empty: never
   /// Seconds of the stream, by its time stamps, after its first scan. They decide what a log is looked over
   /// for: the lasers, their mounts and maximum range, whether there is odometry, and the robot's own body.
@@ -34,7 +34,7 @@ struct LiveInput {
 };
 
 /// Returns the name of the source for messages and reports: "standard input", "TCP port 5000", or the name
-/// of the file.
+/// of the file or folder.
 std::string name_of(const LiveInput& input);
 
 /// Returns the frames of a live source, numbered from 0. next() waits for the next frame, and returns nothing

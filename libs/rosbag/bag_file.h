@@ -13,6 +13,7 @@
 
 #include "compression/byte_source.h"
 #include "psi_slam/time_stamp.h"
+#include "rosbag/bag_recorder.h"
 
 namespace psi_slam {
 
@@ -62,7 +63,8 @@ class BagFile {
   /// its readable part.
   virtual std::vector<BagTopic> topics() = 0;
 
-  /// Selects the topics whose messages next() returns; by default all topics. Call before the first next().
+  /// Selects the topics whose messages next() returns; by default all topics. Call before the first next(),
+  /// or at any time for a bag that is still being recorded.
   virtual void want(const std::vector<std::string>& topics) { wanted_ = topics; }
 
   /// Reads the next message. Returns false at the end. Throws UserError, with file and place, where the bag
@@ -106,6 +108,11 @@ std::unique_ptr<BagFile> open_mcap_bag(const std::filesystem::path& path);
 /// bag that is still being recorded must not be compressed: next() throws UserError then.
 std::unique_ptr<BagFile> follow_ros1_bag(std::unique_ptr<ByteSource> recording);
 std::unique_ptr<BagFile> follow_mcap_bag(std::unique_ptr<ByteSource> recording);
+
+/// Reads an SQLite file (.db3) while rosbag2 writes it, without a lock, so that the recorder never waits. The
+/// bag ends as `recorder` says. topics() and progress() must not be called. Throws UserError if the file
+/// cannot be opened.
+std::unique_ptr<BagFile> follow_sqlite_bag(const std::filesystem::path& path, BagRecorder recorder);
 
 /// Opens an SQLite file (.db3) of ROS 2, which has a table of topics and a table of messages. Messages are
 /// read in the order in which they were written. A compressed file is unpacked into a temporary file while it

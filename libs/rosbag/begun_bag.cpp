@@ -51,6 +51,11 @@ class BegunBag : public BagFile {
 
   std::vector<BagTopic> topics() override { return beginning_->topics; }
 
+  void want(const std::vector<std::string>& topics) override {
+    BagFile::want(topics);
+    if (rest_) rest_->want(topics);
+  }
+
   bool next(BagMessage& message) override {
     while (beginning_) {
       if (next_ == beginning_->messages.size()) {

@@ -276,21 +276,34 @@ std::unique_ptr<LogReader> open_bag_log(const std::filesystem::path& path, const
                                         false);
 }
 
-std::unique_ptr<LogReader> open_rosbag_stream(std::unique_ptr<ByteSource> recording,
-                                              const LogOptions& options, double look_over_s) {
+std::unique_ptr<BagFile> follow_record_bag(std::unique_ptr<ByteSource> recording) {
   const std::filesystem::path path = recording->path();
   auto first = std::make_shared<std::string>(1, '\0');
   first->resize(recording->read(first->data(), 1));
-  if (first->empty())
-    throw UserError(
-        path.string() +
-        " is empty: its recorder has written nothing yet. Start the recorder, and follow it again");
+  if (first->empty()) return nullptr;
   const bool is_ros1 = *first == "#";
   auto bytes = std::make_unique<TextSource>(first, path, std::move(recording));
-  auto bag = is_ros1 ? follow_ros1_bag(std::move(bytes)) : follow_mcap_bag(std::move(bytes));
-  const auto beginning = std::make_shared<const BeginningOfBag>(read_beginning(*bag, options, look_over_s));
-  BagPlan plan = plan_bag(begun_bag(beginning), path, options);
-  return std::make_unique<RosbagReader>(std::move(plan), begun_bag(beginning, std::move(bag)), options, true);
+  return is_ros1 ? follow_ros1_bag(std::move(bytes)) : follow_mcap_bag(std::move(bytes));
+}
+
+std::unique_ptr<LogReader> open_followed_bag(std::unique_ptr<BagRecording> recording,
+                                             const LogOptions& options, double look_over_s) {
+  const auto beginning =
+      std::make_shared<const BeginningOfBag>(read_beginning(*recording->bag, options, look_over_s));
+  BagPlan plan = plan_bag(begun_bag(beginning), recording->path, options);
+  return std::make_unique<RosbagReader>(std::move(plan), begun_bag(beginning, std::move(recording->bag)),
+                                        options, true);
+}
+
+std::unique_ptr<LogReader> open_rosbag_stream(std::unique_ptr<ByteSource> recording,
+                                              const LogOptions& options, double look_over_s) {
+  BagRecording followed{recording->path(), nullptr};
+  followed.bag = follow_record_bag(std::move(recording));
+  if (!followed.bag)
+    throw UserError(
+        followed.path.string() +
+        " is empty: its recorder has written nothing yet. Start the recorder, and follow it again");
+  return open_followed_bag(std::make_unique<BagRecording>(std::move(followed)), options, look_over_s);
 }
 
 }  // namespace psi_slam

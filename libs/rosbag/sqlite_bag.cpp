@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sqlite3.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
@@ -11,15 +9,11 @@
 #include "base/byte_cursor.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_file.h"
+#include "rosbag/sqlite_connection.h"
 #include "rosbag/unpacked_database.h"
 
 namespace psi_slam {
 namespace {
-
-std::string text_at(sqlite3_stmt* row, int column) {
-  const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
-  return text == nullptr ? std::string() : std::string(text);
-}
 
 std::string uri_of(const std::filesystem::path& path) {
   std::string uri = "file:";
@@ -47,22 +41,19 @@ bool is_compressed(const std::filesystem::path& path) {
 
 class SqliteBag : public BagFile {
  public:
-  explicit SqliteBag(const std::filesystem::path& path)
-      : path_(path), database_(nullptr, &sqlite3_close), messages_(nullptr, &sqlite3_finalize) {
+  explicit SqliteBag(const std::filesystem::path& path) : path_(path), messages_(nullptr, &sqlite3_finalize) {
     if (is_compressed(path)) unpacked_.emplace(path);
-    sqlite3* database = nullptr;
-    const int code =
-        sqlite3_open_v2(unpacked_ ? "bag" : uri_of(path).c_str(), &database,
-                        SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, unpacked_ ? unpacked_->vfs_name() : nullptr);
-    database_.reset(database);
-    if (code != SQLITE_OK) fail();
     std::error_code ignored;
-    const auto bytes = unpacked_ ? kMaxRecordBytes : std::filesystem::file_size(path, ignored);
-    sqlite3_limit(database, SQLITE_LIMIT_LENGTH,
-                  static_cast<int>(std::clamp<std::uintmax_t>(bytes, 1 << 20, kMaxRecordBytes)));
-    // Without this setting, SQLite rejects a truncated file as a whole.
-    sqlite3_exec(database, "PRAGMA writable_schema = ON", nullptr, nullptr, nullptr);
-    read_topics();
+    try {
+      if (unpacked_) {
+        database_.emplace("bag", unpacked_->vfs_name(), kMaxRecordBytes);
+      } else {
+        database_.emplace(uri_of(path), nullptr, std::filesystem::file_size(path, ignored));
+      }
+      topics_ = database_->topics();
+    } catch (const SqliteError& error) {
+      fail(error.what());
+    }
   }
 
   std::vector<BagTopic> topics() override {
@@ -72,15 +63,19 @@ class SqliteBag : public BagFile {
   }
 
   bool next(BagMessage& message) override {
-    if (!messages_) begin_messages();
-    if (!step(messages_)) {
-      if (unpacked_) unpacked_->unpack_rest();  // damage there may have changed the messages
-      return false;
+    try {
+      if (!messages_) begin_messages();
+      if (!database_->step(messages_)) {
+        if (unpacked_) unpacked_->unpack_rest();  // damage there may have changed the messages
+        return false;
+      }
+    } catch (const SqliteError& error) {
+      fail(error.what());
     }
     sqlite3_stmt* row = messages_.get();
     id_ = sqlite3_column_int64(row, 0);
     const auto topic = topics_.find(sqlite3_column_int64(row, 1));
-    if (topic == topics_.end()) fail();
+    if (topic == topics_.end()) fail("it states no topic for message " + std::to_string(id_));
     const auto* data = static_cast<const char*>(sqlite3_column_blob(row, 3));
     const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row, 3));
     message = {&topic->second, sqlite3_column_int64(row, 2) / 1000, std::string_view(data, data ? size : 0)};
@@ -101,47 +96,23 @@ class SqliteBag : public BagFile {
   std::string place() const override { return path_.string() + ": message " + std::to_string(id_); }
 
  private:
-  using Statement = std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)>;
-
-  Statement prepare(const std::string& query) const {
-    sqlite3_stmt* statement = nullptr;
-    if (sqlite3_prepare_v2(database_.get(), query.c_str(), -1, &statement, nullptr) != SQLITE_OK) fail();
-    return {statement, &sqlite3_finalize};
-  }
-
-  bool step(const Statement& statement) const {
-    const int code = sqlite3_step(statement.get());
-    if (code != SQLITE_ROW && code != SQLITE_DONE) fail();
-    return code == SQLITE_ROW;
-  }
-
-  void read_topics() {
-    const Statement rows = prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id");
-    while (step(rows)) {
-      const BagEncoding encoding = text_at(rows.get(), 3) == "cdr" ? BagEncoding::kCdr : BagEncoding::kOther;
-      topics_[sqlite3_column_int64(rows.get(), 0)] = {text_at(rows.get(), 1),
-                                                      ros1_type_name(text_at(rows.get(), 2)), encoding};
-    }
-  }
-
   void begin_messages() {
     std::string ids;
     for (const auto& [id, topic] : topics_)
       if (is_wanted(topic)) ids += (ids.empty() ? "" : ",") + std::to_string(id);
-    messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages WHERE topic_id IN (" + ids +
-                        ") ORDER BY id");
+    messages_ = database_->prepare("SELECT id, topic_id, timestamp, data FROM messages WHERE topic_id IN (" +
+                                   ids + ") ORDER BY id");
     if (unpacked_) return;  // the last message is at the end of the file, which is not unpacked yet
     try {
-      const Statement last = prepare("SELECT max(id) FROM messages");
-      if (step(last)) last_id_ = sqlite3_column_int64(last.get(), 0);
-    } catch (const UserError&) {
+      const SqliteStatement last = database_->prepare("SELECT max(id) FROM messages");
+      if (database_->step(last)) last_id_ = sqlite3_column_int64(last.get(), 0);
+    } catch (const SqliteError&) {
       last_id_ = 0;  // the end of the file is missing, so progress is unknown
     }
   }
 
-  [[noreturn]] void fail() const {
+  [[noreturn]] void fail(const std::string& reason) const {
     if (unpacked_) unpacked_->rethrow_failure();
-    const std::string reason = database_ ? sqlite3_errmsg(database_.get()) : "out of memory";
     const std::string where =
         id_ > 0 ? path_.string() + ": after message " + std::to_string(id_) : path_.string();
     throw UserError(where + ": the bag is cut off or damaged, or is not a ROS 2 bag (" + reason +
@@ -150,8 +121,8 @@ class SqliteBag : public BagFile {
 
   std::filesystem::path path_;
   std::optional<UnpackedDatabase> unpacked_;  // for a compressed file
-  std::unique_ptr<sqlite3, int (*)(sqlite3*)> database_;
-  Statement messages_;
+  std::optional<SqliteConnection> database_;
+  SqliteStatement messages_;
   std::map<std::int64_t, BagTopic> topics_;
   std::string unpacked_message_;
   std::int64_t id_ = 0;  // number of the last message read

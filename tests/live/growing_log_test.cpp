@@ -50,7 +50,7 @@ TEST_F(GrowingLogTest, lines_come_when_they_are_complete) {
 TEST_F(GrowingLogTest, bytes_come_at_once) {
   const auto file = folder_.path() / "my.bag";
   write_file(file, "");
-  ReadingThread reader(growing_bytes(file, control(), std::nullopt), stop_);
+  ReadingThread reader(growing_bytes(file, patient_recorder(control(), std::nullopt)), stop_);
   std::ofstream recorder(file, std::ios::app);
   recorder << "one\ntw" << std::flush;
   EXPECT_TRUE(soon([&] { return reader.text() == "one\ntw"; }));
@@ -65,7 +65,8 @@ TEST_F(GrowingLogTest, a_file_that_stops_growing_ends_as_a_log) {
   write_file(file, "FLASER one\nFLASER two");
   EXPECT_EQ(ReadingThread(growing_lines(file, control(), 0.0), stop_).rest(), "FLASER one\nFLASER two");
   stop_ = false;  // the first reader has stopped
-  EXPECT_EQ(ReadingThread(growing_bytes(file, control(), 0.0), stop_).rest(), "FLASER one\nFLASER two");
+  EXPECT_EQ(ReadingThread(growing_bytes(file, patient_recorder(control(), 0.0)), stop_).rest(),
+            "FLASER one\nFLASER two");
 }
 
 TEST_F(GrowingLogTest, knows_formats_by_content_and_before_that_by_name) {
@@ -86,18 +87,21 @@ TEST_F(GrowingLogTest, knows_formats_by_content_and_before_that_by_name) {
   EXPECT_EQ(format_of("run.rawlog"), LogFormat::kMrptRawlog);
   EXPECT_EQ(format_of("run.rawlog.gz", "\x1f\x8b\x08"), LogFormat::kMrptRawlog);
   EXPECT_EQ(format_of("run.log"), LogFormat::kCarmen);
+  EXPECT_EQ(format_of("any", std::string("SQLite format 3\0", 16)), LogFormat::kRos2Sqlite);
+  EXPECT_EQ(format_of("run_0.db3"), LogFormat::kRos2Sqlite);
+  EXPECT_EQ(growing_format(folder_.path()), LogFormat::kRos2Folder) << "it has a .db3 file";
+  EXPECT_EQ(growing_format(TemporaryFolder().path()), LogFormat::kRos2Folder) << "it is empty";
 }
 
 TEST_F(GrowingLogTest, says_which_files_cannot_be_followed) {
-  EXPECT_THAT(complaint_about(std::string("SQLite format 3\0", 16)),
-              HasSubstr("log is a ROS 2 bag (SQLite) and cannot be followed"));
+  const std::string database("SQLite format 3\0", 16);
   EXPECT_THAT(complaint_about("\x28\xb5\x2f\xfd"),
-              HasSubstr("log is compressed by zstd and cannot be followed"));
-  write_file(folder_.path() / "run_0.db3", "");
-  EXPECT_THAT(sentence_of([&] { growing_format(folder_.path() / "run_0.db3"); }),
-              HasSubstr("run_0.db3 is a ROS 2 bag (SQLite) and cannot be followed"));
+              HasSubstr("log is a compressed file and cannot be followed"));
+  write_gzipped(folder_.path() / "run_0.db3.gz", database);
+  EXPECT_THAT(sentence_of([&] { growing_format(folder_.path() / "run_0.db3.gz"); }),
+              HasSubstr("run_0.db3.gz is a compressed file and cannot be followed"));
   EXPECT_THAT(sentence_of([&] { growing_format(folder_.path()); }),
-              HasSubstr("is a folder and cannot be followed"));
+              HasSubstr("has no .db3 or .mcap files, expected the folder of a ROS 2 bag"));
   const auto pipe = folder_.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), S_IRUSR | S_IWUSR), 0);
   EXPECT_THAT(sentence_of([&] { growing_format(pipe); }),

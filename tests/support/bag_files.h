@@ -14,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -299,39 +300,71 @@ inline std::string cdr(const Recorded& message, bool little_endian = true) {
 
 // ---- SQLite ----
 
-/// `compresses_messages`: rosbag2's compression mode "message".
-inline void write_db3(const std::filesystem::path& path, const Recording& recording,
-                      bool little_endian = true, bool compresses_messages = false) {
-  std::filesystem::remove(path);
-  sqlite3* database = nullptr;
-  if (sqlite3_open(path.c_str(), &database) != SQLITE_OK)
-    throw std::runtime_error("cannot write " + path.string());
-  const auto run = [&](const std::string& text, const std::string& blob = {}) {
-    sqlite3_stmt* statement = nullptr;
-    if (sqlite3_prepare_v2(database, text.c_str(), -1, &statement, nullptr) != SQLITE_OK)
-      throw std::runtime_error(sqlite3_errmsg(database));
-    sqlite3_bind_blob(statement, 1, blob.data(), static_cast<int>(blob.size()), SQLITE_STATIC);
-    if (sqlite3_step(statement) != SQLITE_DONE) throw std::runtime_error(sqlite3_errmsg(database));
-    sqlite3_finalize(statement);
-  };
-  run("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
-      "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL)");
-  run("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL, "
-      "data BLOB NOT NULL)");
-  run("CREATE INDEX timestamp_idx ON messages (timestamp ASC)");
-  run("BEGIN");
-  std::map<std::string, std::size_t> ids;
-  for (const Recorded& message : recording) {
-    const auto [id, is_new] = ids.emplace(topic_of(message), ids.size() + 1);
+/// Writes the database of a ROS 2 bag. As rosbag2, it does not wait for the locks of other programs: a lock
+/// is an exception.
+class Db3Writer {
+ public:
+  /// Creates the file. Each of `pragmas` is a setting such as "journal_mode=MEMORY".
+  explicit Db3Writer(const std::filesystem::path& path, const std::vector<std::string>& pragmas = {})
+      : database_(nullptr, &sqlite3_close) {
+    std::filesystem::remove(path);
+    sqlite3* database = nullptr;
+    const int code = sqlite3_open(path.c_str(), &database);
+    database_.reset(database);
+    if (code != SQLITE_OK) throw std::runtime_error("cannot write " + path.string());
+    for (const std::string& pragma : pragmas)
+      if (sqlite3_exec(database, ("PRAGMA " + pragma).c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+        fail();
+  }
+
+  void create_tables() {
+    run("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
+        "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL)");
+    run("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT "
+        "NULL, data BLOB NOT NULL)");
+    run("CREATE INDEX timestamp_idx ON messages (timestamp ASC)");
+  }
+
+  void begin() { run("BEGIN"); }
+  void commit() { run("COMMIT"); }
+
+  /// Adds a message, and before the first one of a topic the topic. `bytes` are those of the message.
+  void add(const Recorded& message, const std::string& bytes) {
+    const auto [id, is_new] = ids_.emplace(topic_of(message), ids_.size() + 1);
     if (is_new)
       run("INSERT INTO topics VALUES (" + std::to_string(id->second) + ", '" + id->first + "', '" +
           ros2_type_of(message) + "', 'cdr', '')");
     run("INSERT INTO messages (topic_id, timestamp, data) VALUES (" + std::to_string(id->second) + ", " +
             std::to_string(time_of(message) * 1000) + ", ?)",
-        compresses_messages ? zstd_frame(cdr(message, little_endian)) : cdr(message, little_endian));
+        bytes);
   }
-  run("COMMIT");
-  sqlite3_close(database);
+
+ private:
+  void run(const std::string& text, const std::string& blob = {}) {
+    sqlite3_stmt* prepared = nullptr;
+    if (sqlite3_prepare_v2(database_.get(), text.c_str(), -1, &prepared, nullptr) != SQLITE_OK) fail();
+    const std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> statement(prepared, &sqlite3_finalize);
+    sqlite3_bind_blob(prepared, 1, blob.data(), static_cast<int>(blob.size()), SQLITE_STATIC);
+    if (sqlite3_step(prepared) != SQLITE_DONE) fail();
+  }
+
+  [[noreturn]] void fail() const { throw std::runtime_error(sqlite3_errmsg(database_.get())); }
+
+  std::unique_ptr<sqlite3, int (*)(sqlite3*)> database_;
+  std::map<std::string, std::size_t> ids_;  // of the topics
+};
+
+/// `compresses_messages`: rosbag2's compression mode "message".
+inline void write_db3(const std::filesystem::path& path, const Recording& recording,
+                      bool little_endian = true, bool compresses_messages = false) {
+  Db3Writer writer(path);
+  writer.create_tables();
+  writer.begin();
+  for (const Recorded& message : recording) {
+    const std::string bytes = cdr(message, little_endian);
+    writer.add(message, compresses_messages ? zstd_frame(bytes) : bytes);
+  }
+  writer.commit();
 }
 
 // ---- MCAP ----

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rosbag/unpacked_database.h"
+#include "rosbag/database_bytes.h"
 
 #include <cstring>
 
@@ -7,13 +7,13 @@ namespace psi_slam {
 namespace {
 
 /// Size of the database that SQLite receives. It only has to exceed the number of pages in the header of the
-/// database, because the true size is unknown before all is unpacked.
+/// database, because the true size may be unknown.
 constexpr sqlite3_int64 kSizeForSqlite = sqlite3_int64{1} << 40;
 
 /// The open database, as SQLite holds it.
 struct OpenDatabase {
   sqlite3_file base;
-  UnpackedDatabase* database;
+  DatabaseBytes* database;
 };
 
 int close_database(sqlite3_file* /*file*/) {
@@ -82,7 +82,7 @@ int open_database(sqlite3_vfs* vfs, const char* /*name*/, sqlite3_file* file, in
   if ((flags & SQLITE_OPEN_MAIN_DB) == 0) return SQLITE_CANTOPEN;
   auto* const opened = reinterpret_cast<OpenDatabase*>(file);
   opened->base.pMethods = &kMethods;
-  opened->database = static_cast<UnpackedDatabase*>(vfs->pAppData);
+  opened->database = static_cast<DatabaseBytes*>(vfs->pAppData);
   if (flags_done != nullptr) *flags_done = SQLITE_OPEN_READONLY;
   return SQLITE_OK;
 }
@@ -99,9 +99,8 @@ int keep_name(sqlite3_vfs* /*vfs*/, const char* name, int room, char* full_name)
 
 }  // namespace
 
-UnpackedDatabase::UnpackedDatabase(const std::filesystem::path& path)
-    : file_(path),
-      name_("psi-slam-" + std::to_string(reinterpret_cast<std::uintptr_t>(this))),
+DatabaseBytes::DatabaseBytes()
+    : name_("psi-slam-" + std::to_string(reinterpret_cast<std::uintptr_t>(this))),
       vfs_(*sqlite3_vfs_find(nullptr)) {
   vfs_.zName = name_.c_str();
   vfs_.pAppData = this;
@@ -112,11 +111,11 @@ UnpackedDatabase::UnpackedDatabase(const std::filesystem::path& path)
   sqlite3_vfs_register(&vfs_, 0);
 }
 
-int UnpackedDatabase::read(void* bytes, int size, sqlite3_int64 offset) {
+int DatabaseBytes::read(void* bytes, int size, sqlite3_int64 offset) {
   const auto wanted = static_cast<std::size_t>(size);
   auto* const room = static_cast<char*>(bytes);
   try {
-    const std::size_t got = file_.read(static_cast<std::uint64_t>(offset), room, wanted);
+    const std::size_t got = read_at(static_cast<std::uint64_t>(offset), room, wanted);
     if (got == wanted) return SQLITE_OK;
     std::memset(room + got, 0, wanted - got);  // as SQLite asks for the bytes after the end
     return SQLITE_IOERR_SHORT_READ;

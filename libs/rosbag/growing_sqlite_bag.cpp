@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sqlite3.h>
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "base/byte_cursor.h"
+#include "psi_slam/user_error.h"
+#include "rosbag/bag_file.h"
+#include "rosbag/growing_database.h"
+#include "rosbag/sqlite_connection.h"
+
+namespace psi_slam {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Topics = std::map<std::int64_t, BagTopic>;  // by their numbers
+
+// Limits of one reading, so that the recorder rarely writes meanwhile.
+constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+constexpr std::size_t kMostRows = 1000;
+// Readings in a row, until the reader waits for the recorder.
+constexpr int kAttempts = 25;
+constexpr std::chrono::milliseconds kBetweenAttempts{2};
+
+struct Row {
+  std::int64_t id = 0;
+  std::int64_t topic = 0;
+  std::int64_t recorded_ns = 0;
+  std::string data;
+};
+
+class GrowingSqliteBag : public BagFile {
+ public:
+  GrowingSqliteBag(std::filesystem::path path, BagRecorder recorder)
+      : path_(std::move(path)), recorder_(std::move(recorder)), database_(path_) {}
+
+  std::vector<BagTopic> topics() override {
+    std::vector<BagTopic> topics;
+    for (const auto& [id, topic] : topics_) add_topic(topics, topic);
+    return topics;
+  }
+
+  bool next(BagMessage& message) override {
+    const Clock::time_point began = Clock::now();
+    while (rows_.empty()) {
+      if (recorder_.should_stop()) return false;
+      const bool is_closed = recorder_.is_closed();
+      const Reading reading = read_rows();
+      if (reading == Reading::kRows) continue;
+      const double waited_s = std::chrono::duration<double>(Clock::now() - began).count();
+      const bool is_over = is_closed && reading == Reading::kNoRows;
+      if (is_over || !recorder_.wait(waited_s)) return false;
+    }
+    row_ = std::move(rows_.front());
+    rows_.pop_front();
+    message = {&topics_.at(row_.topic), row_.recorded_ns / 1000, row_.data};
+    try {
+      unpack_message(message, unpacked_message_);
+    } catch (const MalformedBytes& error) {
+      throw UserError(place() + ": the bag is damaged: " + error.what() + ". Record the bag again");
+    }
+    return true;
+  }
+
+  double progress() const override { return 0; }
+  std::string place() const override { return path_.string() + ": message " + std::to_string(row_.id); }
+
+ private:
+  enum class Reading {
+    kRows,    ///< there were more rows, perhaps only unwanted ones
+    kNoRows,  ///< there were none
+    kBusy     ///< the recorder was always writing
+  };
+
+  /// Reads the next rows. Throws UserError if the database is damaged.
+  Reading read_rows() {
+    std::optional<SqliteError> failure;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      if (attempt > 0) std::this_thread::sleep_for(kBetweenAttempts);
+      failure.reset();
+      if (!database_.begin()) continue;
+      if (database_.is_empty()) return Reading::kNoRows;
+      std::deque<Row> rows;
+      Topics topics;
+      try {
+        rows = query(topics);
+      } catch (const SqliteError& error) {
+        failure = error;
+      }
+      if (!database_.is_unchanged()) {
+        failure.reset();
+        continue;
+      }
+      const bool has_no_tables = failure && failure->code() == SQLITE_ERROR;
+      if (has_no_tables) return Reading::kNoRows;
+      if (failure) continue;
+      topics_ = std::move(topics);
+      if (rows.empty()) return Reading::kNoRows;
+      last_id_ = rows.back().id;
+      for (Row& row : rows)
+        if (is_wanted(topics_.at(row.topic))) rows_.push_back(std::move(row));
+      return Reading::kRows;
+    }
+    if (failure) fail(*failure);
+    return Reading::kBusy;
+  }
+
+  /// Reads rows after the last one, and the topics. The data of unwanted rows are empty.
+  std::deque<Row> query(Topics& topics) {
+    const SqliteConnection connection("bag", database_.vfs_name(), kMaxRecordBytes);
+    topics = connection.topics();
+    std::string ids;
+    for (const auto& [id, topic] : topics)
+      if (is_wanted(topic)) ids += (ids.empty() ? "" : ",") + std::to_string(id);
+    const SqliteStatement messages = connection.prepare(
+        "SELECT id, topic_id, timestamp, CASE WHEN topic_id IN (" + ids +
+        ") THEN data END FROM messages WHERE id > " + std::to_string(last_id_) + " ORDER BY id");
+    std::deque<Row> rows;
+    std::size_t bytes = 0;
+    while (bytes < kMostBytes && rows.size() < kMostRows && connection.step(messages)) {
+      sqlite3_stmt* const row = messages.get();
+      const std::int64_t topic = sqlite3_column_int64(row, 1);
+      if (topics.count(topic) == 0) throw SqliteError(SQLITE_CORRUPT, "it states no topic for a message");
+      const auto* const data = static_cast<const char*>(sqlite3_column_blob(row, 3));
+      const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row, 3));
+      rows.push_back({sqlite3_column_int64(row, 0), topic, sqlite3_column_int64(row, 2),
+                      data == nullptr ? std::string() : std::string(data, size)});
+      bytes += size;
+    }
+    return rows;
+  }
+
+  [[noreturn]] void fail(const SqliteError& error) const {
+    database_.rethrow_failure();
+    throw UserError(path_.string() + ": after message " + std::to_string(last_id_) +
+                    ": the bag is damaged, or is not a ROS 2 bag (" + error.what() +
+                    "). Record the bag again");
+  }
+
+  std::filesystem::path path_;
+  BagRecorder recorder_;
+  GrowingDatabase database_;
+  Topics topics_;
+  std::deque<Row> rows_;  // that next() returns
+  Row row_;               // that next() returned last
+  std::string unpacked_message_;
+  std::int64_t last_id_ = 0;  // number of the last row that was read
+};
+
+}  // namespace
+
+std::unique_ptr<BagFile> follow_sqlite_bag(const std::filesystem::path& path, BagRecorder recorder) {
+  return std::make_unique<GrowingSqliteBag>(path, std::move(recorder));
+}
+
+}  // namespace psi_slam

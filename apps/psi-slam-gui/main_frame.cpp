@@ -267,7 +267,8 @@ void MainFrame::enable_commands() {
   const bool live = open && run_.snapshot->live;
   const bool connected = is_connected();
   wxMenuBar& menu = *GetMenuBar();
-  for (const int command : {kConnectTcp, kConnectLog, kConnectSensors}) menu.Enable(command, !connected);
+  for (const int command : {kConnectTcp, kConnectLog, kConnectFolder, kConnectSensors})
+    menu.Enable(command, !connected);
   menu.Enable(kDisconnect, connected);
   menu.Enable(kPlayOrPause, (mapping && !live) || searching);
   menu.Enable(kStep, mapping && !live);

@@ -32,7 +32,8 @@ using Path = std::filesystem::path;
 const char* const kLogFiles =
     "Logs and sessions|*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz;*.zst;*.zstd;*.session;*.journal|All "
     "files|*";
-const char* const kGrowingFiles = "Logs and bags|*.log;*.clf;*.rawlog;*.gz;*.bag;*.active;*.mcap|All files|*";
+const char* const kGrowingFiles =
+    "Logs and bags|*.log;*.clf;*.rawlog;*.gz;*.bag;*.active;*.db3;*.mcap|All files|*";
 const char* const kSettingsFiles = "Settings (*.ini)|*.ini|All files|*";
 
 }  // namespace
@@ -100,6 +101,8 @@ void MainFrame::bind_file_commands() {
     };
   };
   on_file(kConnectLog, {Ask::kOpen, "Follow a log or bag that is being recorded", kGrowingFiles, ""},
+          connect_to(LiveInput::Kind::kFollow));
+  on_file(kConnectFolder, {Ask::kFolder, "Follow the folder of a ROS 2 bag that is being recorded", "", ""},
           connect_to(LiveInput::Kind::kFollow));
   on_file(kConnectSensors,
           {Ask::kOpen, "Open the settings of the sensors, as for rawlog-grabber", kSettingsFiles, ""},

@@ -36,7 +36,8 @@ wxMenu* file_menu(wxMenu* recent) {
   menu->AppendSubMenu(recent, "&Recent logs");
   menu->AppendSeparator();
   menu->AppendSubMenu(append(new wxMenu, {{kConnectTcp, "Receive CARMEN lines on a TCP &port…"},
-                                          {kConnectLog, "Follow a &growing CARMEN log…"},
+                                          {kConnectLog, "Follow a &growing log or bag…"},
+                                          {kConnectFolder, "Follow the growing &folder of a ROS 2 bag…"},
                                           {kConnectSensors, "Read &sensors of a settings file…"}}),
                       "&Connect");
   return append(menu, {{kDisconnect, "&Disconnect and finish map"},

@@ -49,6 +49,7 @@ enum Command : int {
   kOpenFolder,
   kConnectTcp,
   kConnectLog,
+  kConnectFolder,
   kConnectSensors,
   kDisconnect,
   kSaveSession,

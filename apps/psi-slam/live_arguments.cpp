@@ -35,7 +35,8 @@ void add_source_options(CLI::App& command, LiveArguments& arguments) {
             "Address of this computer to listen on with --tcp. Default: 127.0.0.1, which only this computer "
             "reaches",
             "ADDRESS");
-  add_value(command, "--follow", arguments.follow, "Read a log or bag that is still being recorded", "FILE");
+  add_value(command, "--follow", arguments.follow,
+            "Read a log or bag that is still being recorded: a file, or the folder of a ROS 2 bag", "LOG");
   add_value(
       command, "--sensors", arguments.sensors,
       "Read sensors by the drivers of MRPT, with the settings that rawlog-grabber and icp-slam-live use",

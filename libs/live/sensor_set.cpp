@@ -7,6 +7,7 @@
 #include <mrpt/core/exceptions.h>
 #include <mrpt/hwdrivers/C2DRangeFinderAbstract.h>
 #include <mrpt/hwdrivers/CGenericSensor.h>
+#include <mrpt/hwdrivers/CRoboPeakLidar.h>
 #include <mrpt/hwdrivers/registerAllClasses.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -20,6 +21,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/degrees.h"
 #include "base/text_parts.h"
 #include "psi_slam/user_error.h"
 
@@ -63,6 +65,20 @@ bool is_empty_scan(const CSerializable& object) {
   return scan != nullptr && scan->getScanSize() == 0;
 }
 
+/// Corrects a scan of CRoboPeakLidar. This driver (MRPT 2.5.8 and 2.14) takes the angles of the laser, in
+/// units of 90/16384 degrees, for units of 1/128 degree. So reading k is of k * 45/64 degrees, not of k
+/// degrees, and the readings beyond 253 degrees are lost.
+void correct_rplidar(mrpt::obs::CObservation2DRangeScan& scan) {
+  constexpr std::size_t kReadings = 512;  // in a turn, of which the driver keeps the first
+  const std::size_t kept = scan.getScanSize();
+  scan.resizeScan(kReadings);
+  for (std::size_t i = kept; i < kReadings; ++i) {
+    scan.setScanRange(i, 0);
+    scan.setScanRangeValidity(i, false);
+  }
+  scan.aperture = static_cast<float>((kReadings - 1) * radians_from_degrees(45.0L / 64));
+}
+
 /// Makes the driver of a section and loads its settings. Throws std::exception for invalid settings.
 CGenericSensor::Ptr make_driver(const mrpt::config::CConfigFile& settings, const std::string& section) {
   const std::string name = settings.read_string(section, "driver", "");
@@ -85,13 +101,19 @@ class SensorSet::Sensor {
  public:
   Sensor(const std::filesystem::path& settings, const std::string& section)
       : driver_(make_driver(mrpt::config::CConfigFile(settings.string()), section)),
-        is_laser_(dynamic_cast<const mrpt::hwdrivers::C2DRangeFinderAbstract*>(driver_.get()) != nullptr) {
+        is_laser_(dynamic_cast<const mrpt::hwdrivers::C2DRangeFinderAbstract*>(driver_.get()) != nullptr),
+        is_rplidar_(dynamic_cast<const mrpt::hwdrivers::CRoboPeakLidar*>(driver_.get()) != nullptr) {
     driver_->initialize();
     last_object_ = Clock::now();  // some drivers take long to start
   }
 
   std::chrono::duration<double> period() const {
     return std::chrono::duration<double>(1 / driver_->getProcessRate());
+  }
+
+  /// A remark for users on what the driver gives.
+  const char* remark() const {
+    return is_rplidar_ ? ", but the driver loses the readings from 73 to 180 degrees to the right" : "";
   }
 
   /// Reads the sensor once. Throws std::exception if it has failed for some time.
@@ -102,7 +124,9 @@ class SensorSet::Sensor {
     bool fails = driver_->getState() == CGenericSensor::ssError;
     for (const auto& [stamp, object] : observations) {
       fails = fails || is_empty_scan(*object);
-      if (is_wanted(*object) && !is_empty_scan(*object)) objects.push_back(object);
+      if (!is_wanted(*object) || is_empty_scan(*object)) continue;
+      if (is_rplidar_) correct_rplidar(dynamic_cast<mrpt::obs::CObservation2DRangeScan&>(*object));
+      objects.push_back(object);
     }
     watch(!objects.empty(), fails);
     return objects;
@@ -121,6 +145,7 @@ class SensorSet::Sensor {
 
   CGenericSensor::Ptr driver_;
   bool is_laser_;
+  bool is_rplidar_;
   Clock::time_point last_object_;
   std::optional<Clock::time_point> failing_since_;
 };
@@ -211,7 +236,7 @@ void SensorSet::read(const std::string& section, bool& works) {
     const Clock::time_point began = Clock::now();
     const auto objects = sensor.read();
     if (!objects.empty() && !std::exchange(works, true))
-      control_.notify("sensor [" + section + "] sends data");
+      control_.notify("sensor [" + section + "] sends data" + sensor.remark());
     keep(objects);
     pause(began + sensor.period() - Clock::now());
   }

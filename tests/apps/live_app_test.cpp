@@ -12,6 +12,7 @@
 #include "../live/hokuyo_emulator.h"
 #include "../session/room_log.h"
 #include "app_run.h"
+#include "bag_files.h"
 #include "same_results.h"
 #include "sender.h"
 #include "session/session_file.h"
@@ -350,6 +351,63 @@ TEST_F(LiveApp, maps_what_a_laser_measures) {
   EXPECT_NEAR(poses.back().pose.x, end.x, 0.05);
   EXPECT_NEAR(poses.back().pose.y, end.y, 0.05);
   EXPECT_NEAR(poses.back().pose.phi, end.phi, 0.02);
+}
+
+/// A drive through the room as messages of ROS 2.
+Recording recorded_room(std::size_t scans) {
+  Recording recording{static_mount("laser", {})};
+  for (std::size_t i = 0; i < scans; ++i) {
+    const mrpt::math::TPose2D pose = room_pose(0.02 * static_cast<double>(i));
+    const TimeUs time_us = 1'600'000'000'000'000 + static_cast<TimeUs>(i) * 200'000;
+    recording.emplace_back(
+        RecordedPose{"/odom", time_us, "odom", "base_link", {pose.x, pose.y, 0, pose.phi, 0, 0}});
+    RecordedScan scan;
+    scan.time_us = time_us;
+    scan.angle_min_rad = static_cast<float>(-M_PI / 2);
+    scan.angle_increment_rad = static_cast<float>(M_PI / (kRoomBeams - 1));
+    scan.ranges_m.clear();
+    for (int beam = 0; beam < kRoomBeams; ++beam)
+      scan.ranges_m.push_back(static_cast<float>(
+          room_range_m(pose.x, pose.y, pose.phi - M_PI / 2 + M_PI * beam / (kRoomBeams - 1))));
+    recording.emplace_back(scan);
+  }
+  return recording;
+}
+
+TEST_F(LiveApp, maps_the_folder_of_a_bag_while_rosbag2_records_it) {
+  const Recording recording = recorded_room(2 * kScans);
+  const auto bag = folder("run");
+  std::filesystem::create_directory(bag);
+  const AppProcess process(live({"--follow", bag.string(), "--poses", "tum", "--look-over-s", "1"}),
+                           folder_.path());
+  std::size_t recorded = 0;
+  for (const char* name : {"run_0.db3", "run_1.db3"}) {
+    Db3Writer writer(bag / name, {"journal_mode=MEMORY", "synchronous=OFF"});
+    writer.create_tables();
+    const std::size_t end = recorded == 0 ? recording.size() / 2 : recording.size();
+    while (recorded < end) {
+      writer.begin();
+      for (const std::size_t next = std::min(recorded + 5, end); recorded < next; ++recorded)
+        writer.add(recording[recorded], cdr(recording[recorded]));
+      writer.commit();
+    }
+    const std::size_t fewest = recorded < recording.size() ? 20 : 2 * kScans - 1;
+    EXPECT_TRUE(soon([&] { return lines_in(out()) >= fewest; })) << "poses while the bag grows: " << err();
+  }
+  write_file(bag / "metadata.yaml",
+             "rosbag2_bagfile_information:\n  relative_file_paths:\n    - run_0.db3\n    - run_1.db3\n");
+  const AppRun run = process.finish();
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(lines_in(run.out), 2 * kScans);
+  ASSERT_EQ(run_app({bag.string(), "-q", "-o", folder("bag").string()}).code, 0);
+  for (const char* name : {"map.pgm", "map.yaml", "trajectory.tum", "graph.g2o"})
+    EXPECT_EQ(bytes_of(folder("live") / name), bytes_of(folder("bag") / name)) << name;
+
+  const std::string map = (folder("bag") / "map.yaml").string();
+  const AppRun of_bag = run_app({"localize", map, bag.string(), "--json"});
+  const AppRun of_stream = run_app({"localize", map, "--follow", bag.string(), "--json"});
+  EXPECT_EQ(of_stream.code, of_bag.code) << of_stream.err;
+  EXPECT_EQ(of_stream.out, of_bag.out);
 }
 
 TEST_F(LiveApp, localizes_while_the_robot_drives) {

@@ -114,6 +114,22 @@ TEST_F(LiveWindow, follows_the_log_of_the_command_line_and_asks_before_the_map_i
   EXPECT_EQ(gui_.run({"--follow", log, "--idle-s", "0.2"}), 0);
 }
 
+TEST_F(LiveWindow, follows_the_folder_of_a_bag) {
+  const std::filesystem::path bag = gui_.folder() / "run";
+  std::filesystem::create_directory(bag);
+  gui_.then([&](MainFrame& frame) {
+        frame.set_ask_for_file([&](const FileQuestion& question) {
+          return question.kind == FileQuestion::Kind::kFolder ? bag : gui_.folder() / "session.journal";
+        });
+      })
+      .command(kConnectFolder)
+      .when("a live source",
+            [](MainFrame& frame) { return frame.replay() && frame.replay()->live_figures().has_value(); })
+      .then([](MainFrame& frame) { EXPECT_FALSE(frame.GetMenuBar()->IsEnabled(kConnectFolder)); })
+      .close();
+  EXPECT_EQ(gui_.run({}), 0);
+}
+
 TEST_F(LiveWindow, closes_at_once_while_a_source_is_silent) {
   gui_.when("a port",
             [](MainFrame& frame) {

@@ -2,23 +2,17 @@
 // A Hokuyo laser on a pseudo-terminal that speaks SCIP 2.0, as far as mrpt::hwdrivers::CHokuyoURG needs it.
 #pragma once
 
-#include <fcntl.h>
-#include <poll.h>
-#include <stdlib.h>
-#include <termios.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <stdexcept>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "base/descriptor.h"
+#include "pseudo_terminal.h"
 
 namespace psi_slam {
 
@@ -35,24 +29,10 @@ class HokuyoEmulator {
   };
 
   HokuyoEmulator(std::filesystem::path port, std::vector<Message> messages)
-      : port_(std::move(port)), messages_(std::move(messages)), master_(::posix_openpt(O_RDWR | O_NOCTTY)) {
-    if (!master_.is_open() || ::grantpt(master_.number()) != 0 || ::unlockpt(master_.number()) != 0)
-      throw std::runtime_error("no pseudo-terminal");
-    const std::string terminal = ::ptsname(master_.number());
-    held_open_ = Descriptor(::open(terminal.c_str(), O_RDWR | O_NOCTTY));
-    termios raw = {};
-    ::tcgetattr(held_open_.number(), &raw);
-    ::cfmakeraw(&raw);
-    ::tcsetattr(held_open_.number(), TCSANOW, &raw);
-    ::fcntl(master_.number(), F_SETFL, O_NONBLOCK);
-    std::filesystem::remove(port_);
-    std::filesystem::create_symlink(terminal, port_);
-    thread_ = std::thread([this] { run(); });
-  }
+      : messages_(std::move(messages)), terminal_(std::move(port)), thread_([this] { run(); }) {}
   ~HokuyoEmulator() {
     unplugged_ = true;
     thread_.join();
-    std::filesystem::remove(port_);
   }
   HokuyoEmulator(const HokuyoEmulator&) = delete;
   HokuyoEmulator& operator=(const HokuyoEmulator&) = delete;
@@ -83,13 +63,8 @@ class HokuyoEmulator {
     return reply + '\n';
   }
 
-  void send(const std::string& text) {
-    for (std::size_t sent = 0; sent < text.size() && !unplugged_;) {
-      pollfd waited{master_.number(), POLLOUT, 0};
-      if (::poll(&waited, 1, 10) <= 0) continue;
-      const ssize_t done = ::write(master_.number(), text.data() + sent, text.size() - sent);
-      if (done > 0) sent += static_cast<std::size_t>(done);
-    }
+  void send(std::string text) const {
+    while (!text.empty() && !unplugged_) text.erase(0, terminal_.send(text));
   }
 
   void answer(const std::string& command) {
@@ -110,12 +85,10 @@ class HokuyoEmulator {
   void run() {
     std::string received;
     while (!unplugged_) {
-      pollfd waited{master_.number(), POLLIN, 0};
-      char c = 0;
       const bool is_playing = !streamed_.empty() && played_ < messages_.size();
-      if (::poll(&waited, 1, is_playing ? 0 : 5) > 0 && ::read(master_.number(), &c, 1) == 1) {
-        received += c;
-        if (c == '\n') answer(std::exchange(received, ""));
+      if (const std::optional<char> c = terminal_.receive(is_playing ? 0 : 5)) {
+        received += *c;
+        if (*c == '\n') answer(std::exchange(received, ""));
       } else if (is_playing) {
         const Message& message = messages_[played_];
         send(message.raw.empty() ? scan_reply(message.ranges_m) : message.raw);
@@ -124,10 +97,8 @@ class HokuyoEmulator {
     }
   }
 
-  std::filesystem::path port_;
   std::vector<Message> messages_;
-  Descriptor master_;
-  Descriptor held_open_;  // the driver's end, so that the terminal lives before the driver opens it
+  PseudoTerminal terminal_;
   std::string streamed_;  // command whose scans are sent
   std::atomic<std::size_t> played_ = 0;
   std::atomic<bool> unplugged_ = false;

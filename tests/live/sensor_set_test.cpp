@@ -7,6 +7,7 @@
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -17,7 +18,10 @@
 #include "hokuyo_emulator.h"
 #include "live/live_source.h"
 #include "lms100_emulator.h"
+#include "psi_slam/open_log.h"
+#include "rplidar_emulator.h"
 #include "sender.h"
+#include "shared_logs.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 
@@ -124,6 +128,11 @@ class SensorSetTest : public testing::Test {
            std::to_string(port) + '\n';
   }
 
+  std::string rplidar_settings() const {
+    return "[ROUND]\ndriver = CRoboPeakLidar\nprocess_rate = 500\nsensorLabel = ROUND\nCOM_port_LIN = " +
+           port_.string() + '\n';
+  }
+
   /// Reads scans until one has this number, and returns the numbers of all.
   static std::vector<std::size_t> numbers_until(SensorSet& sensors, std::size_t last) {
     std::vector<std::size_t> numbers;
@@ -207,6 +216,141 @@ TEST_F(SensorSetTest, reads_an_lms100_that_is_switched_off_and_on) {
   laser = std::make_unique<Lms100Emulator>(Messages{{numbered_ranges(7, kBeams), ""}}, port);
   numbers_until(sensors, 7);
   stop_ = true;
+}
+
+// The driver keeps only the newest scan, so scans may be missing on a busy computer. Garbage between two
+// scans makes some false readings, and may cut a scan in two.
+TEST_F(SensorSetTest, reads_an_rplidar_with_garbage_and_repeated_scans_that_may_be_unplugged) {
+  const auto message = [](float range_m) {
+    return RplidarEmulator::Message{std::vector<float>(RplidarEmulator::kBeams, range_m), ""};
+  };
+  const auto expect_scans_until = [](SensorSet& sensors, const std::vector<float>& ranges_m) {
+    std::size_t last_readings = 0;  // of the last scan
+    for (float range_m = 0; last_readings < 250;) {
+      const auto object = sensors.next();
+      const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(object.get());
+      ASSERT_NE(scan, nullptr) << "no scan of " << ranges_m.back() << " m";
+      std::size_t false_readings = 0;
+      last_readings = 0;
+      for (std::size_t i = 0; i < scan->getScanSize(); ++i) {
+        if (!scan->getScanRangeValidity(i)) continue;
+        const float reading_m = scan->getScanRange(i);
+        if (std::count(ranges_m.begin(), ranges_m.end(), reading_m) == 0) {
+          ++false_readings;
+        } else {
+          EXPECT_GE(reading_m, range_m) << "scans come in their order";
+          range_m = std::max(range_m, reading_m);
+          if (reading_m == ranges_m.back()) ++last_readings;
+        }
+      }
+      EXPECT_LE(false_readings, 4U) << "after " << range_m << " m";
+    }
+  };
+  auto laser = std::make_unique<RplidarEmulator>(
+      port_, std::vector<RplidarEmulator::Message>{message(1),
+                                                   message(2),
+                                                   {{}, "garbage \x01\x7f\n\xff\xa5\x5a"},
+                                                   message(3),
+                                                   message(3),
+                                                   {{}, "\xa5\x5a\x05"},
+                                                   message(4)});
+  SensorSet sensors(settings(rplidar_settings()), control(), kIdle_s);
+  expect_scans_until(sensors, {1, 2, 3, 4});
+  EXPECT_THAT(notices_.text(), HasSubstr("sensor [ROUND] sends data, but the driver loses the readings"));
+  laser.reset();
+  EXPECT_TRUE(soon([&] { return notices_.text().find("sensor [ROUND] failed") != std::string::npos; }))
+      << notices_.text();
+  laser = std::make_unique<RplidarEmulator>(port_, std::vector<RplidarEmulator::Message>{message(5)});
+  expect_scans_until(sensors, {4, 5});
+  stop_ = true;
+}
+
+TEST_F(SensorSetTest, gives_the_readings_of_an_rplidar_their_bearings) {
+  std::vector<float> ranges_m(RplidarEmulator::kBeams);
+  for (std::size_t degree = 0; degree < ranges_m.size(); ++degree)
+    ranges_m[degree] = 1.0F + 0.01F * static_cast<float>(degree);
+  LiveInput input;
+  input.kind = LiveInput::Kind::kSensors;
+  input.file = settings(rplidar_settings()).string();
+  input.look_over_s = 0;
+  input.idle_s = kIdle_s;
+  const RplidarEmulator laser(port_, {{ranges_m, ""}});
+  const auto frame = open_live(input, {}, control())->next();
+  stop_ = true;
+  ASSERT_TRUE(frame);
+  std::size_t readings = 0;
+  for (std::size_t i = 0; i < frame->scan.ranges_m.size(); ++i) {
+    if (std::isnan(frame->scan.ranges_m[i])) continue;
+    const double clockwise_deg = (static_cast<double>(frame->scan.ranges_m[i]) - 1) * 100;
+    const double bearing_deg = 180 - clockwise_deg;  // the driver puts the laser's 0 degrees behind
+    EXPECT_NEAR(static_cast<double>((*frame->scan.bearings_rad)[i]) * 180 / M_PI, bearing_deg, 0.4) << i;
+    ++readings;
+  }
+  EXPECT_EQ(readings, 254U) << "from 0 to 253 degrees";
+}
+
+/// The first scans of a real log. Readings that a laser without a return sends are 0.
+class PlayedLog : public SensorSetTest {
+ protected:
+  void SetUp() override {
+    const auto log = shared_file("mit-csail.clf.gz");
+    if (!log) GTEST_SKIP() << kNeedsData;
+    const auto frames = open_log(*log);
+    for (std::size_t i = 0; i < 25; ++i) scans_.push_back(frames->next().value().scan.ranges_m);
+    for (std::vector<float>& ranges_m : scans_)
+      for (float& range_m : ranges_m)
+        if (!(range_m > 0 && range_m < 16.0F)) range_m = 0;
+  }
+
+  template <class Emulator>
+  std::vector<typename Emulator::Message> messages(std::size_t beams) const {
+    std::vector<typename Emulator::Message> messages;
+    for (const std::vector<float>& ranges_m : scans_)
+      messages.push_back({{ranges_m.begin(), ranges_m.begin() + static_cast<std::ptrdiff_t>(beams)}, ""});
+    return messages;
+  }
+
+  /// Expects scans of the log, up to the last one. `beams`: those whose readings the driver gives.
+  void expect_scans(const std::string& text, std::size_t beams) {
+    const auto add = [](std::vector<long>& readings_mm, float range_m) {
+      if (range_m > 0) readings_mm.push_back(std::lround(range_m * 1000));
+    };
+    std::vector<std::vector<long>> played;
+    for (const std::vector<float>& ranges_m : scans_) {
+      played.emplace_back();
+      for (std::size_t i = 0; i < beams; ++i) add(played.back(), ranges_m[i]);
+    }
+    SensorSet sensors(settings(text), control(), kIdle_s);
+    std::size_t different = 0;
+    for (std::vector<long> readings_mm; readings_mm != played.back(); ++different) {
+      const auto object = sensors.next();
+      const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(object.get());
+      ASSERT_NE(scan, nullptr) << different << " scans came";
+      readings_mm.clear();
+      for (std::size_t i = 0; i < scan->getScanSize(); ++i)
+        add(readings_mm, scan->getScanRangeValidity(i) ? scan->getScanRange(i) : 0);
+      EXPECT_THAT(played, testing::Contains(readings_mm)) << "scan " << different;
+    }
+    EXPECT_GT(different, scans_.size() / 2);
+    stop_ = true;
+  }
+
+  std::vector<std::vector<float>> scans_;
+};
+
+TEST_F(PlayedLog, by_a_hokuyo) {
+  const HokuyoEmulator laser(port_, messages<HokuyoEmulator>(HokuyoEmulator::kBeams));
+  expect_scans(hokuyo_settings(), HokuyoEmulator::kBeams);
+}
+
+TEST_F(PlayedLog, by_an_lms100) {
+  const Lms100Emulator laser(messages<Lms100Emulator>(361));
+  expect_scans(lms100_settings(laser.port()), 361);
+}
+
+TEST_F(PlayedLog, by_an_rplidar) {
+  const RplidarEmulator laser(port_, messages<RplidarEmulator>(RplidarEmulator::kBeams));
+  expect_scans(rplidar_settings(), 254);
 }
 
 TEST_F(SensorSetTest, gives_frames_of_a_laser_and_odometry) {

@@ -23,8 +23,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostBytes = std::size_t{64} * 1024;  // bytes received at once
 constexpr std::chrono::milliseconds kWait{100};
-constexpr std::chrono::seconds kClosing{
-    10};  // a recorder writes its last bytes so long after it closed a bag
+// A recorder writes its last bytes at most so long after it has closed a bag.
+constexpr std::chrono::seconds kClosing{10};
 
 class GrowingLines : public LineStream {
  public:

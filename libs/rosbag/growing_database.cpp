@@ -31,13 +31,12 @@ GrowingDatabase::GrowingDatabase(const std::filesystem::path& path)
 }
 
 // In a rollback mode the writer locks the shared bytes, writes the counter of changes first of all pages, and
-// unlocks at the end. So the file did not change if it was unlocked before and after, with the same counter.
-// In WAL mode pages of the file change only after their commits were appended to the log; and frames are
-// overwritten only after the header of the log.
+// unlocks at the end. So a writer that began after the check of begin() has changed the counter that was read
+// before, or still has its lock. In WAL mode pages of the file change only after their commits were appended
+// to the log; and frames are overwritten only after the header of the log.
 bool GrowingDatabase::begin() {
-  if (is_writing()) return false;
   state_ = state_now();
-  return true;
+  return !is_writing();
 }
 
 bool GrowingDatabase::is_unchanged() {

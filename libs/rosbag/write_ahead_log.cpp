@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kHeaderBytes = 32;
 constexpr std::size_t kFrameHeaderBytes = 24;
 constexpr std::uint32_t kMagic = 0x377F0682;  // the last bit states the byte order of the checksums
+constexpr std::size_t kFewestPageBytes = 512;
 constexpr std::size_t kMostPageBytes = 65536;
 
 std::uint32_t number_at(const char* bytes, bool big_endian = true) {
@@ -66,7 +67,7 @@ void WriteAheadLog::begin(const std::array<char, 32>& header) {
   sums_ = add({}, header.data(), kFrameHeaderBytes);
   const std::size_t page_bytes = number_at(&header[8]);
   const bool is_whole = sums_ == Sums{number_at(&header[24]), number_at(&header[28])};
-  if (is_whole && page_bytes <= kMostPageBytes) page_bytes_ = page_bytes;
+  if (is_whole && page_bytes >= kFewestPageBytes && page_bytes <= kMostPageBytes) page_bytes_ = page_bytes;
 }
 
 /// Reads frames up to the last commit. A frame that the writer has not completed has a wrong checksum; one

@@ -325,7 +325,8 @@ class Db3Writer {
     run("CREATE INDEX timestamp_idx ON messages (timestamp ASC)");
   }
 
-  void begin() { run("BEGIN"); }
+  /// Begins a transaction. `kind`: for example EXCLUSIVE.
+  void begin(const std::string& kind = "") { run("BEGIN " + kind); }
   void commit() { run("COMMIT"); }
 
   /// Adds a message, and before the first one of a topic the topic. `bytes` are those of the message.

@@ -63,7 +63,7 @@ Arguments parse(const std::vector<std::string>& arguments, CLI::App& app) {
   const bool is_live = live_input(line.live).has_value();
   if (is_live && !line.log.empty()) throw UserError("name a log or a live source, not both");
   if (!line.journal.empty() && !is_live)
-    throw UserError("--journal needs a live source, such as --tcp PORT or --follow FILE");
+    throw UserError("--journal needs a live source, such as --tcp PORT or --follow LOG");
   if (std::filesystem::exists(line.journal))
     throw UserError("--journal " + line.journal + ": the file exists. Open it with psi-slam-gui " +
                     line.journal + ", or delete it");

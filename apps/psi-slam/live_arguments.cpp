@@ -59,13 +59,13 @@ void add_live_options(CLI::App& command, LiveArguments& arguments) {
 std::optional<LiveInput> live_input(const LiveArguments& arguments) {
   const int sources = (arguments.standard_input ? 1 : 0) + (arguments.tcp.empty() ? 0 : 1) +
                       (arguments.follow.empty() ? 0 : 1) + (arguments.sensors.empty() ? 0 : 1);
-  if (sources > 1) throw UserError("name only one source, such as --tcp PORT or --follow FILE");
+  if (sources > 1) throw UserError("name only one source, such as --tcp PORT or --follow LOG");
   if (!arguments.address.empty() && arguments.tcp.empty())
     throw UserError("--bind has no effect without --tcp PORT");
   if (sources == 0) {
     const auto refuse = [](const char* option, const std::string& value) {
       if (!value.empty())
-        throw UserError(std::string(option) + " needs a live source, such as --tcp PORT or --follow FILE");
+        throw UserError(std::string(option) + " needs a live source, such as --tcp PORT or --follow LOG");
     };
     refuse("--idle-s", arguments.idle_s);
     refuse("--look-over-s", arguments.look_over_s);

@@ -5,6 +5,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace psi_slam {
 namespace {
@@ -81,13 +82,17 @@ std::size_t BlockCholesky::reach(const SymmetricBlockMatrix& matrix, std::uint32
   return top;
 }
 
-void BlockCholesky::analyze(const SymmetricBlockMatrix& matrix) {
+// Computes the elimination tree and num_products_. Returns the number of blocks of each column of L.
+std::vector<std::size_t> BlockCholesky::count_blocks(const SymmetricBlockMatrix& matrix) {
   const std::size_t n = matrix.size();
   parent_.assign(n, kNone);
   mark_.assign(n, kNone);
   pattern_.resize(n);
   path_.resize(n);
-  work_.assign(n, Matrix3d::Zero());
+  first_.resize(n);
+  work_.resize(n, Matrix3d::Zero());
+  inverse_diagonal_.resize(n);
+  is_touched_.resize(n, 1);
   std::vector<std::size_t> count(n, 0);
   for (std::uint32_t k = 0; k < n; ++k) {
     mark_[k] = k;
@@ -99,23 +104,76 @@ void BlockCholesky::analyze(const SymmetricBlockMatrix& matrix) {
       }
     }
   }
-  column_begin_.resize(n + 1);
-  column_begin_[0] = 0;
   num_products_ = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    column_begin_[i + 1] = column_begin_[i] + count[i];
-    num_products_ += count[i] * (count[i] + 3) / 2;
+  for (const std::size_t blocks : count) num_products_ += blocks * (blocks + 3) / 2;
+  return count;
+}
+
+void BlockCholesky::analyze(const SymmetricBlockMatrix& matrix) {
+  capacity_ = count_blocks(matrix);
+  column_begin_.assign(matrix.size(), 0);
+  for (std::size_t i = 0; i + 1 < matrix.size(); ++i) column_begin_[i + 1] = column_begin_[i] + capacity_[i];
+  column_end_ = column_begin_;
+  const std::size_t blocks = matrix.size() == 0 ? 0 : column_begin_.back() + capacity_.back();
+  rows_.resize(blocks);
+  blocks_.resize(blocks);
+  has_factor_ = false;
+}
+
+// Columns that have outgrown their room move to the end. All their blocks will be computed.
+void BlockCholesky::extend(const SymmetricBlockMatrix& matrix) {
+  constexpr std::size_t kMostUnused = 4;  // times the blocks of L
+  const std::vector<std::size_t> count = count_blocks(matrix);
+  if (rows_.size() > kMostUnused * std::accumulate(count.begin(), count.end(), matrix.size()))
+    return analyze(matrix);
+  column_begin_.resize(matrix.size(), 0);
+  column_end_.resize(matrix.size(), 0);
+  capacity_.resize(matrix.size(), 0);
+  std::size_t blocks = rows_.size();
+  for (std::size_t i = 0; i < matrix.size(); ++i) {
+    if (count[i] <= capacity_[i]) continue;
+    column_begin_[i] = column_end_[i] = blocks;
+    capacity_[i] = count[i] + count[i] / 2;
+    blocks += capacity_[i];
   }
-  rows_.resize(column_begin_[n]);
-  blocks_.resize(column_begin_[n]);
-  inverse_diagonal_.resize(n);
+  rows_.resize(blocks);
+  blocks_.resize(blocks);
+}
+
+void BlockCholesky::touch(std::uint32_t i) {
+  is_touched_.resize(std::max<std::size_t>(is_touched_.size(), i + 1), 1);
+  is_touched_[i] = 1;
 }
 
 bool BlockCholesky::factorize(const SymmetricBlockMatrix& matrix, double lambda) {
+  std::fill(is_touched_.begin(), is_touched_.end(), char{1});
+  return compute_touched(matrix, lambda);
+}
+
+// A changed block (i, k) changes L in column i. The rows of a column of L lie on its path to the root, so
+// only the columns on that path change.
+bool BlockCholesky::refactorize(const SymmetricBlockMatrix& matrix) {
+  if (!has_factor_) return factorize(matrix);
+  for (std::size_t i = 0; i < size(); ++i)
+    if (is_touched_[i] != 0 && parent_[i] != kNone) is_touched_[parent_[i]] = 1;
+  return compute_touched(matrix, 0);
+}
+
+// Computes the touched columns of L. They include the paths from each touched column to the root. So the last
+// rows of any other column are touched, and its blocks in these rows are needed but do not change.
+bool BlockCholesky::compute_touched(const SymmetricBlockMatrix& matrix, double lambda) {
   const std::size_t n = size();
+  has_factor_ = false;
   std::fill(mark_.begin(), mark_.end(), kNone);
-  column_end_.assign(column_begin_.begin(), column_begin_.end());
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto begin = rows_.begin() + static_cast<std::ptrdiff_t>(column_begin_[i]);
+    const auto end = rows_.begin() + static_cast<std::ptrdiff_t>(column_end_[i]);
+    const auto is_kept = [&](std::uint32_t row) { return is_touched_[row] == 0; };
+    const auto first = is_touched_[i] != 0 ? begin : std::partition_point(begin, end, is_kept);
+    first_[i] = column_end_[i] = static_cast<std::size_t>(first - rows_.begin());
+  }
   for (std::uint32_t k = 0; k < n; ++k) {
+    if (is_touched_[k] == 0) continue;
     const std::size_t top = reach(matrix, k);
     for (std::size_t p = matrix.column_begin[k]; p < matrix.column_begin[k + 1]; ++p)
       work_[matrix.rows[p]] = matrix.blocks[p];
@@ -123,17 +181,21 @@ bool BlockCholesky::factorize(const SymmetricBlockMatrix& matrix, double lambda)
     diagonal.diagonal() *= 1 + lambda;
     for (std::size_t t = top; t < n; ++t) {
       const std::uint32_t i = pattern_[t];
-      const Matrix3d x = inverse_diagonal_[i] * work_[i];
+      const std::size_t here = column_end_[i]++;
+      if (is_touched_[i] != 0) {
+        rows_[here] = k;
+        blocks_[here] = (inverse_diagonal_[i] * work_[i]).transpose();
+      }
+      const Matrix3d x = blocks_[here].transpose();
       work_[i].setZero();
-      for (std::size_t p = column_begin_[i]; p < column_end_[i]; ++p)
+      for (std::size_t p = first_[i]; p < here; ++p)
         subtract_product(blocks_[p].data(), x.data(), work_[rows_[p]].data());
       diagonal.noalias() -= x.transpose() * x;
-      const std::size_t p = column_end_[i]++;
-      rows_[p] = k;
-      blocks_[p] = x.transpose();
     }
     if (!invert_cholesky_factor(diagonal, matrix.diagonal[k].diagonal(), inverse_diagonal_[k])) return false;
   }
+  std::fill(is_touched_.begin(), is_touched_.end(), char{0});
+  has_factor_ = lambda == 0;
   return true;
 }
 
@@ -143,13 +205,13 @@ void BlockCholesky::solve(Eigen::VectorXd& b) const {
     auto head = b.segment<3>(3 * static_cast<Eigen::Index>(k));
     const Eigen::Vector3d x = inverse_diagonal_[k] * head;
     head = x;
-    for (std::size_t p = column_begin_[k]; p < column_begin_[k + 1]; ++p)
+    for (std::size_t p = column_begin_[k]; p < column_end_[k]; ++p)
       b.segment<3>(3 * static_cast<Eigen::Index>(rows_[p])).noalias() -= blocks_[p] * x;
   }
   for (std::size_t k = n; k-- > 0;) {
     auto head = b.segment<3>(3 * static_cast<Eigen::Index>(k));
     Eigen::Vector3d x = head;
-    for (std::size_t p = column_begin_[k]; p < column_begin_[k + 1]; ++p)
+    for (std::size_t p = column_begin_[k]; p < column_end_[k]; ++p)
       x.noalias() -= blocks_[p].transpose() * b.segment<3>(3 * static_cast<Eigen::Index>(rows_[p]));
     head.noalias() = inverse_diagonal_[k].transpose() * x;
   }
@@ -168,7 +230,7 @@ BlockCholesky::InverseColumns BlockCholesky::inverse_columns(std::size_t k) cons
     const Matrix3d x = inverse_diagonal_[column] * result.blocks[step];
     result.blocks[step] = x;
     std::size_t target = step + 1;  // the rows of a column of L lie on the column's path to the root
-    for (std::size_t p = column_begin_[column]; p < column_begin_[column + 1]; ++p) {
+    for (std::size_t p = column_begin_[column]; p < column_end_[column]; ++p) {
       while (result.rows[target] != rows_[p]) ++target;
       subtract_product(blocks_[p].data(), x.data(), result.blocks[target].data());
     }
@@ -184,7 +246,7 @@ std::vector<Matrix3d> BlockCholesky::inverse_diagonal_blocks() const {
   std::vector<Matrix3d> below(blocks_.size());  // blocks of Z at the places of the blocks of L
   for (std::size_t j = size(); j-- > 0;) {
     const std::size_t begin = column_begin_[j];
-    const std::size_t end = column_begin_[j + 1];
+    const std::size_t end = column_end_[j];
     for (std::size_t p = begin; p < end; ++p) below[p].setZero();
     for (std::size_t q = begin; q < end; ++q) {
       const std::uint32_t k = rows_[q];

@@ -43,10 +43,20 @@ class BlockCholesky {
   /// Symbolic factorisation: computes everything that depends only on `column_begin` and `rows`.
   void analyze(const SymmetricBlockMatrix& matrix);
 
+  /// Symbolic factorisation of a matrix that extends the last one: block rows were appended, and blocks were
+  /// inserted, which touch() must state. Keeps the factor for refactorize().
+  void extend(const SymmetricBlockMatrix& matrix);
+
   /// Numeric factorisation of A + D, where D is lambda times the diagonal of A (the scaling of Marquardt
   /// 1963). The matrix must have the structure passed to analyze(). Returns false, without a factor, if A + D
   /// is not positive definite.
   bool factorize(const SymmetricBlockMatrix& matrix, double lambda = 0);
+
+  /// States that the block (i, k) of the matrix, or (i, i), has changed since the last factorisation; i < k.
+  void touch(std::uint32_t i);
+  /// Gives the result of factorize(matrix), to the last bit. Computes only the columns of L that depend on
+  /// the blocks of touch(): those on the paths from the blocks to the root of the elimination tree.
+  bool refactorize(const SymmetricBlockMatrix& matrix);
 
   /// Solves (A + D) x = b in place; b holds 3 numbers per block row.
   void solve(Eigen::VectorXd& b) const;
@@ -72,19 +82,25 @@ class BlockCholesky {
  private:
   static constexpr std::uint32_t kNone = 0xffffffff;
 
+  std::vector<std::size_t> count_blocks(const SymmetricBlockMatrix& matrix);
   std::size_t reach(const SymmetricBlockMatrix& matrix, std::uint32_t k);
+  bool compute_touched(const SymmetricBlockMatrix& matrix, double lambda);
 
   std::size_t num_products_ = 0;
   std::vector<std::uint32_t> parent_;      // parent of each node in the elimination tree
-  std::vector<std::size_t> column_begin_;  // first block of each column of L; n + 1 entries
-  std::vector<std::size_t> column_end_;    // during factorize(): index of the next block of each column
+  std::vector<std::size_t> column_begin_;  // first block of each column of L
+  std::vector<std::size_t> column_end_;    // end of each column; during a factorisation: its next block
+  std::vector<std::size_t> capacity_;      // number of blocks for which each column has room
   std::vector<std::uint32_t> rows_;
   std::vector<Eigen::Matrix3d> blocks_;
   std::vector<Eigen::Matrix3d> inverse_diagonal_;  // inverses of the diagonal blocks of L, lower triangular
+  std::vector<char> is_touched_;  // columns with changed blocks; in compute_touched(), all columns to compute
+  bool has_factor_ = false;       // whether L is that of the matrix, apart from what the changes affect
 
   std::vector<std::uint32_t> mark_;     // scratch: mark_[i] == k if i was reached for row k
   std::vector<std::uint32_t> pattern_;  // scratch: the columns of row k of L, in topological order
   std::vector<std::uint32_t> path_;     // scratch: part of the path to the root of the elimination tree
+  std::vector<std::size_t> first_;      // scratch: the first block of each column in a row to compute
   std::vector<Eigen::Matrix3d> work_;   // scratch: the blocks of one row; zero between rows
 };
 

@@ -39,7 +39,7 @@ class CondensedEquations {
   double predicted_decrease() const { return predicted_decrease_; }
 
   std::size_t num_variables() const { return position_.size(); }
-  /// Number of block products of a factorisation.
+  /// Number of block products of a complete factorisation.
   std::size_t num_products() const { return factor_.num_products(); }
 
  private:
@@ -47,12 +47,13 @@ class CondensedEquations {
 
   static Eigen::Index row(std::uint32_t position) { return 3 * static_cast<Eigen::Index>(position); }
   std::size_t find(std::uint32_t column, std::uint32_t row) const;
+  void insert_news();
   void arrange(const std::vector<std::uint32_t>& new_position);
   void find_order();
 
   /// Positions of the variables in the order of elimination. The matrix and the vectors use this order.
   std::vector<std::uint32_t> position_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> new_links_;  ///< positions that lay_out() will link
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> new_links_;  ///< column and row of new blocks
   SymmetricBlockMatrix hessian_;
   Eigen::VectorXd gradient_;
   Eigen::VectorXd step_;

@@ -80,30 +80,32 @@ bool IncrementalPoseAdjustment::add_news(const PoseGraph& graph) {
 void IncrementalPoseAdjustment::add_constraint(const PoseGraph& graph, std::uint32_t index) {
   const auto from = static_cast<std::uint32_t>(graph.constraint(index).from);
   const auto to = static_cast<std::uint32_t>(graph.constraint(index).to);
-  if (is_leaf(from) && is_leaf(to)) make_core(from);
+  // The star of a leaf sets the sine and cosine of the leaf only if a constraint begins there.
+  if (is_leaf(from)) poses_[from] = RotatedPose({poses_[from].x, poses_[from].y, poses_[from].theta});
+  if (is_leaf(from) && is_leaf(to)) make_core(from, graph);
   std::uint32_t centre = std::max(from, to);
   if (is_leaf(from)) centre = from;
   if (is_leaf(to)) centre = to;
   if (centre == root_) centre = std::min(from, to);
   const std::uint32_t other = centre == from ? to : from;
-  retire(centre);
-  stars_[centre].add(index, other);
+  retire(centre, graph);
+  stars_[centre].add(graph, index);
   if (other != root_) core_[variable_of_[other]].stars.push_back(centre);
 }
 
 // Makes a leaf a core node.
-void IncrementalPoseAdjustment::make_core(std::uint32_t node) {
-  retire(node);
+void IncrementalPoseAdjustment::make_core(std::uint32_t node, const PoseGraph& graph) {
+  retire(node, graph);
   variable_of_[node] = equations_.add_variable();
   core_.push_back({node, {node}, poses_[node]});
 }
 
 // Subtracts the terms of a star, which linearize() adds again.
-void IncrementalPoseAdjustment::retire(std::uint32_t centre) {
+void IncrementalPoseAdjustment::retire(std::uint32_t centre, const PoseGraph& graph) {
   if (is_retired_[centre] != 0) return;
   is_retired_[centre] = 1;
   retired_.push_back(centre);
-  stars_[centre].add_to(equations_, -1, poses_, variable_of_);
+  stars_[centre].add_to(equations_, -1, graph, poses_, variable_of_);
 }
 
 // Linearises the retired stars at the present poses. Returns false if a leaf is not determined.
@@ -115,7 +117,7 @@ bool IncrementalPoseAdjustment::linearize(const PoseGraph& graph, const PoseAdju
   }
   equations_.lay_out(reorder);
   for (const std::uint32_t centre : retired_) {
-    stars_[centre].add_to(equations_, 1, poses_, variable_of_);
+    stars_[centre].add_to(equations_, 1, graph, poses_, variable_of_);
     is_retired_[centre] = 0;
   }
   return true;
@@ -174,8 +176,11 @@ std::vector<std::uint32_t> IncrementalPoseAdjustment::stars_of_moved_nodes(std::
 void IncrementalPoseAdjustment::place(const std::vector<std::uint32_t>& stars, const PoseGraph& graph,
                                       const PoseAdjustmentOptions& options) {
   for (const std::uint32_t centre : stars) {
-    if (is_leaf(centre)) poses_[centre] = stars_[centre].centre_pose(poses_);
-    if (!enter_fit(centre, graph, options).is_linear) retire(centre);
+    if (is_leaf(centre)) {
+      poses_[centre] = stars_[centre].centre_pose(poses_);
+      placed_.push_back(centre);
+    }
+    if (!enter_fit(centre, graph, options).is_linear) retire(centre, graph);
   }
 }
 
@@ -186,6 +191,11 @@ NodeStar::Fit IncrementalPoseAdjustment::enter_fit(std::uint32_t centre, const P
   return fit;
 }
 
+void IncrementalPoseAdjustment::give_pose(std::uint32_t node, PoseGraph& graph) const {
+  const TPose2D pose(poses_[node].x, poses_[node].y, poses_[node].theta);
+  if (pose != graph.pose(node)) graph.set_pose(node, pose);
+}
+
 IncrementalReport IncrementalPoseAdjustment::optimize(PoseGraph& graph, SparsePoseAdjustment& solver) {
   const auto nodes = static_cast<double>(graph.num_nodes());
   const auto solved = static_cast<double>(nodes_at_complete_solution_);
@@ -194,10 +204,8 @@ IncrementalReport IncrementalPoseAdjustment::optimize(PoseGraph& graph, SparsePo
   IncrementalReport report;
   if (!add_news(graph) || !take_steps(graph, solver.options(), report))
     return optimize_completely(graph, solver);
-  for (std::size_t node = 0; node < poses_.size(); ++node) {
-    const TPose2D pose(poses_[node].x, poses_[node].y, poses_[node].theta);
-    if (pose != graph.pose(node)) graph.set_pose(node, pose);
-  }
+  for (const CoreNode& core : core_) give_pose(core.node, graph);
+  for (const std::uint32_t centre : std::exchange(placed_, {})) give_pose(centre, graph);
   report.core_nodes = core_.size();
   report.robust_chi2 = cost_;
   return report;

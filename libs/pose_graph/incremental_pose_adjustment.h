@@ -58,8 +58,8 @@ class IncrementalPoseAdjustment {
   bool continues(const PoseGraph& graph) const;
   bool add_news(const PoseGraph& graph);
   void add_constraint(const PoseGraph& graph, std::uint32_t index);
-  void make_core(std::uint32_t node);
-  void retire(std::uint32_t centre);
+  void make_core(std::uint32_t node, const PoseGraph& graph);
+  void retire(std::uint32_t centre, const PoseGraph& graph);
   bool linearize(const PoseGraph& graph, const PoseAdjustmentOptions& options, bool reorder = false);
   bool take_steps(const PoseGraph& graph, const PoseAdjustmentOptions& options, IncrementalReport& report);
   void move_core();
@@ -68,6 +68,7 @@ class IncrementalPoseAdjustment {
              const PoseAdjustmentOptions& options);
   NodeStar::Fit enter_fit(std::uint32_t centre, const PoseGraph& graph, const PoseAdjustmentOptions& options);
   bool is_leaf(std::uint32_t node) const;
+  void give_pose(std::uint32_t node, PoseGraph& graph) const;
 
   // What is known of the graph:
   std::size_t root_ = 0;
@@ -89,8 +90,9 @@ class IncrementalPoseAdjustment {
     std::vector<std::uint32_t> stars;  // with constraints of this node
     RotatedPose placed;                // pose for which the leaves were last placed
   };
-  std::vector<CoreNode> core_;  // one for each variable
-  std::vector<char> is_moved_;  // scratch of stars_of_moved_nodes()
+  std::vector<CoreNode> core_;         // one for each variable
+  std::vector<std::uint32_t> placed_;  // leaves whose pose was computed; the graph does not have it yet
+  std::vector<char> is_moved_;         // scratch of stars_of_moved_nodes()
 };
 
 }  // namespace psi_slam

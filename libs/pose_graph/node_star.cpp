@@ -36,11 +36,24 @@ double second_order_m(const Vector3d& from_at, const RotatedPose& from, const Ve
 
 }  // namespace
 
-void NodeStar::add(std::uint32_t constraint, std::uint32_t node) {
+void NodeStar::add(const PoseGraph& graph, std::uint32_t index) {
+  const Constraint& constraint = graph.constraint(index);
+  const bool leads_here = constraint.to == centre_;
   End end;
-  end.constraint = constraint;
-  end.node = node;
+  end.constraint = index;
+  end.node = static_cast<std::uint32_t>(leads_here ? constraint.from : constraint.to);
   ends_.push_back(end);
+  begins_constraint_ = begins_constraint_ || !leads_here;
+}
+
+// Terms of a constraint at the poses where it is linearised.
+ConstraintNormals NodeStar::normals(const End& end, const Constraint& constraint) const {
+  const auto rotated = [](const Vector3d& at) { return RotatedPose({at.x(), at.y(), at.z()}); };
+  const bool leads_here = constraint.to == centre_;
+  const RotatedPose from = rotated(leads_here ? end.at : at_);
+  const RotatedPose to = rotated(leads_here ? at_ : end.at);
+  return constraint_normals(end.weight * constraint.information,
+                            constraint_error(constraint.from_T_to, from, to), from, to);
 }
 
 bool NodeStar::linearize(const PoseGraph& graph, const std::vector<RotatedPose>& poses,
@@ -50,23 +63,19 @@ bool NodeStar::linearize(const PoseGraph& graph, const std::vector<RotatedPose>&
   reduced_gradient_.setZero();
   for (End& end : ends_) {
     const Constraint& constraint = graph.constraints()[end.constraint];
-    const RotatedPose& from = poses[constraint.from];
-    const RotatedPose& to = poses[constraint.to];
-    const Vector3d error = constraint_error(constraint.from_T_to, from, to);
+    const Vector3d error =
+        constraint_error(constraint.from_T_to, poses[constraint.from], poses[constraint.to]);
     const double chi2 = std::max(0.0, error.dot(constraint.information * error));
     end.weight = kernel_of(constraint, options).weight(chi2);
-    const ConstraintNormals normals =
-        constraint_normals(end.weight * constraint.information, error, from, to);
-    const bool leads_here = constraint.to == centre_;
     end.at = vector_of(poses[end.node]);
-    end.own = leads_here ? normals.ii : normals.jj;
-    end.gradient = leads_here ? normals.i : normals.j;
+    const ConstraintNormals terms = normals(end, constraint);
+    const bool leads_here = constraint.to == centre_;
     if (leads_here)
-      end.cross = normals.ij.transpose();
+      end.cross = terms.ij.transpose();
     else
-      end.cross = normals.ij;
-    diagonal_ += leads_here ? normals.jj : normals.ii;
-    reduced_gradient_ += leads_here ? normals.j : normals.i;
+      end.cross = terms.ij;
+    diagonal_ += leads_here ? terms.jj : terms.ii;
+    reduced_gradient_ += leads_here ? terms.j : terms.i;
   }
   eliminated_ = eliminate;
   if (!eliminate) return true;
@@ -95,7 +104,8 @@ Vector3d NodeStar::reduced_gradient(const std::vector<RotatedPose>& poses) const
   return gradient;
 }
 
-void NodeStar::add_to(CondensedEquations& equations, double sign, const std::vector<RotatedPose>& poses,
+void NodeStar::add_to(CondensedEquations& equations, double sign, const PoseGraph& graph,
+                      const std::vector<RotatedPose>& poses,
                       const std::vector<std::uint32_t>& variable_of) const {
   const Vector3d of_centre = reduced_gradient(poses);
   const Vector3d centre_step = step_from(at_, poses[centre_]);
@@ -103,15 +113,19 @@ void NodeStar::add_to(CondensedEquations& equations, double sign, const std::vec
     const End& end = ends_[i];
     const std::uint32_t a = variable_of[end.node];
     if (a == kNoVariable) continue;
-    Vector3d gradient = end.gradient + end.own * step_from(end.at, poses[end.node]);
+    const Constraint& constraint = graph.constraints()[end.constraint];
+    const ConstraintNormals terms = normals(end, constraint);
+    const bool leads_here = constraint.to == centre_;
+    const Matrix3d& own = leads_here ? terms.ii : terms.jj;  // block (node, node) of H
+    Vector3d gradient = (leads_here ? terms.i : terms.j) + own * step_from(end.at, poses[end.node]);
     if (!eliminated_) {
       gradient.noalias() += end.cross.transpose() * centre_step;
-      equations.add(a, sign * end.own, sign * gradient);
+      equations.add(a, sign * own, sign * gradient);
       equations.add(variable_of[centre_], a, sign * end.cross);
       continue;
     }
     gradient.noalias() -= end.cross.transpose() * of_centre;
-    equations.add(a, sign * (end.own - end.cross.transpose() * end.cross), sign * gradient);
+    equations.add(a, sign * (own - end.cross.transpose() * end.cross), sign * gradient);
     for (std::size_t j = 0; j < i; ++j) {
       const std::uint32_t b = variable_of[ends_[j].node];
       if (b != kNoVariable) equations.add(b, a, -sign * (ends_[j].cross.transpose() * end.cross));
@@ -123,7 +137,12 @@ void NodeStar::add_to(CondensedEquations& equations, double sign, const std::vec
 
 RotatedPose NodeStar::centre_pose(const std::vector<RotatedPose>& poses) const {
   const Vector3d pose = at_ - diagonal_.transpose() * reduced_gradient(poses);
-  return RotatedPose({pose.x(), pose.y(), wrap_to_pi(pose.z())});
+  if (begins_constraint_) return RotatedPose({pose.x(), pose.y(), wrap_to_pi(pose.z())});
+  RotatedPose unrotated;
+  unrotated.x = pose.x();
+  unrotated.y = pose.y();
+  unrotated.theta = wrap_to_pi(pose.z());
+  return unrotated;
 }
 
 NodeStar::Fit NodeStar::fit(const PoseGraph& graph, const std::vector<RotatedPose>& poses,

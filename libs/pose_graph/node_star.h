@@ -26,8 +26,8 @@ class NodeStar {
 
   explicit NodeStar(std::uint32_t centre) : centre_(centre) {}
 
-  /// Adds a constraint between the centre and another node. linearize() must follow.
-  void add(std::uint32_t constraint, std::uint32_t node);
+  /// Adds a constraint of the centre, by its number. linearize() must follow.
+  void add(const PoseGraph& graph, std::uint32_t constraint);
 
   /// Linearises the constraints at `poses`, with weights by their kernels. Eliminates the centre if
   /// `eliminate` is true. Returns false if the constraints do not determine the centre, so that it cannot be
@@ -42,10 +42,11 @@ class NodeStar {
   void link(const std::vector<std::uint32_t>& variable_of, CondensedEquations& equations) const;
 
   /// Adds H and g of the linearised constraints at `poses` to the equations, multiplied by `sign`.
-  void add_to(CondensedEquations& equations, double sign, const std::vector<RotatedPose>& poses,
-              const std::vector<std::uint32_t>& variable_of) const;
+  void add_to(CondensedEquations& equations, double sign, const PoseGraph& graph,
+              const std::vector<RotatedPose>& poses, const std::vector<std::uint32_t>& variable_of) const;
 
   /// Pose of the eliminated centre that minimises the linearised error sum for `poses` of the other nodes.
+  /// Its sine and cosine are computed only if a constraint of this star begins at the centre.
   RotatedPose centre_pose(const std::vector<RotatedPose>& poses) const;
 
   struct Fit {
@@ -57,21 +58,22 @@ class NodeStar {
           const PoseAdjustmentOptions& options) const;
 
  private:
+  // A linearised constraint. Only what places the centre is stored, because an optimisation takes much of its
+  // time to read the ends of many stars.
   struct End {
     std::uint32_t constraint = 0;
-    std::uint32_t node = 0;  // at the other end of the constraint
-    // The linearised constraint. What is needed to place the centre comes first.
-    double weight = 1;                                   // by the kernel
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();        // pose (x, y, theta) of `node`
-    Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();     // block (centre, node) of H, see reduced_gradient_
-    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  // entry `node` of g
-    Eigen::Matrix3d own = Eigen::Matrix3d::Zero();       // block (node, node) of H
+    std::uint32_t node = 0;                           // at the other end of the constraint
+    double weight = 1;                                // by the kernel
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();     // pose (x, y, theta) of `node`
+    Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();  // block (centre, node) of H, see reduced_gradient_
   };
 
+  ConstraintNormals normals(const End& end, const Constraint& constraint) const;
   Eigen::Vector3d reduced_gradient(const std::vector<RotatedPose>& poses) const;
 
   std::uint32_t centre_;
   std::vector<End> ends_;
+  bool begins_constraint_ = false;  // whether a constraint begins at the centre
   bool eliminated_ = false;
   Eigen::Vector3d at_ = Eigen::Vector3d::Zero();  // pose of the centre where the constraints are linearised
   // Entry of the centre of g, and block (centre, centre) of H. If the centre is eliminated, the entry of g

@@ -76,6 +76,85 @@ TEST(BlockCholesky, solves_as_a_dense_factorisation_does) {
   }
 }
 
+bool has_bytes_of(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return a.size() == b.size() && std::equal(a.data(), a.data() + a.size(), b.data());
+}
+
+// Returns a matrix with further blocks, and with further rows at its end.
+SymmetricBlockMatrix extended(const SymmetricBlockMatrix& matrix, std::size_t rows, Measurer& measurer,
+                              std::vector<std::uint32_t>& inserted) {
+  SymmetricBlockMatrix result;
+  result.column_begin.push_back(0);
+  result.diagonal = matrix.diagonal;
+  result.diagonal.resize(matrix.size() + rows, 50 * Eigen::Matrix3d::Identity());
+  for (std::uint32_t k = 0; k < result.size(); ++k) {
+    std::size_t p = k < matrix.size() ? matrix.column_begin[k] : 0;
+    const std::size_t end = k < matrix.size() ? matrix.column_begin[k + 1] : 0;
+    for (std::uint32_t i = 0; i < k; ++i) {
+      const bool known = p < end && matrix.rows[p] == i;
+      if (!known && measurer.uniform() > 0.001 && (k < matrix.size() || i + 1 != k)) continue;
+      if (!known) inserted.push_back(i);
+      result.rows.push_back(i);
+      result.blocks.push_back(known ? matrix.blocks[p++] : Eigen::Matrix3d::Constant(measurer.normal()));
+    }
+    result.column_begin.push_back(result.rows.size());
+  }
+  return result;
+}
+
+TEST(BlockCholesky, refactorises_what_has_changed_to_the_last_bit) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Measurer measurer(seed);
+    SymmetricBlockMatrix matrix = random_matrix(60, 0.01, seed);
+    BlockCholesky growing;
+    growing.analyze(matrix);
+    for (int change = 0; change < 40; ++change) {
+      if (change % 3 == 2) {
+        std::vector<std::uint32_t> inserted;
+        matrix = extended(matrix, measurer.index(3), measurer, inserted);
+        for (const std::uint32_t row : inserted) growing.touch(row);
+        growing.extend(matrix);
+      }
+      const std::size_t row = measurer.index(matrix.size());
+      growing.touch(static_cast<std::uint32_t>(row));
+      matrix.diagonal[row](1, 1) += measurer.uniform();
+      const std::size_t block = measurer.index(matrix.blocks.size());
+      growing.touch(matrix.rows[block]);
+      matrix.blocks[block](2, 1) += 0.1 * measurer.normal();
+
+      BlockCholesky fresh;
+      fresh.analyze(matrix);
+      ASSERT_TRUE(fresh.factorize(matrix));
+      ASSERT_TRUE(growing.refactorize(matrix));
+      EXPECT_EQ(growing.num_products(), fresh.num_products());
+      Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(3 * static_cast<Eigen::Index>(matrix.size()), -1, 2);
+      Eigen::VectorXd y = x;
+      growing.solve(x);
+      fresh.solve(y);
+      ASSERT_TRUE(has_bytes_of(x, y)) << change;
+    }
+  }
+}
+
+TEST(BlockCholesky, refactorises_after_a_matrix_that_is_not_positive_definite) {
+  SymmetricBlockMatrix matrix = random_matrix(30, 0.1, 6);
+  BlockCholesky cholesky;
+  cholesky.analyze(matrix);
+  ASSERT_TRUE(cholesky.factorize(matrix));
+  Eigen::VectorXd expected = Eigen::VectorXd::Ones(90);
+  cholesky.solve(expected);
+  const Eigen::Matrix3d sound = matrix.diagonal[17];
+  matrix.diagonal[17](2, 2) = -1;
+  cholesky.touch(17);
+  EXPECT_FALSE(cholesky.refactorize(matrix));
+  matrix.diagonal[17] = sound;
+  cholesky.touch(17);
+  ASSERT_TRUE(cholesky.refactorize(matrix));
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(90);
+  cholesky.solve(x);
+  EXPECT_TRUE(has_bytes_of(x, expected));
+}
+
 TEST(BlockCholesky, finds_the_diagonal_blocks_of_the_dense_inverse) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const SymmetricBlockMatrix matrix = random_matrix(5 + 3 * seed, 0.02 * static_cast<double>(seed), seed);

@@ -27,14 +27,13 @@ PoseGraph small_graph(std::uint64_t seed) {
 
 /// The equations of small_graph() with stars at the nodes 2, 3 and 4, linearised at the graph's poses.
 struct Stars {
-  Stars(const PoseGraph& graph, bool eliminate_centre) {
+  Stars(const PoseGraph& of, bool eliminate_centre) : graph(of) {
     variable_of.assign(graph.num_nodes(), NodeStar::kNoVariable);
     for (std::uint32_t node = 1; node < graph.num_nodes(); ++node)
       if (node != kCentre || !eliminate_centre) variable_of[node] = equations.add_variable();
     for (std::uint32_t node = 0; node < graph.num_nodes(); ++node) stars.emplace_back(node);
     for (std::uint32_t i = 0; i < graph.num_constraints(); ++i) {
-      const auto [first, last] = std::minmax(graph.constraint(i).from, graph.constraint(i).to);
-      stars[last].add(i, static_cast<std::uint32_t>(first));
+      stars[std::max(graph.constraint(i).from, graph.constraint(i).to)].add(graph, i);
     }
     const std::vector<RotatedPose> poses = rotated(graph.poses());
     for (std::uint32_t node = 1; node < graph.num_nodes(); ++node) {
@@ -46,9 +45,10 @@ struct Stars {
 
   void add(double sign, const std::vector<RotatedPose>& poses) {
     for (std::uint32_t node = 1; node < stars.size(); ++node)
-      stars[node].add_to(equations, sign, poses, variable_of);
+      stars[node].add_to(equations, sign, graph, poses, variable_of);
   }
 
+  const PoseGraph& graph;
   std::vector<NodeStar> stars;
   std::vector<std::uint32_t> variable_of;
   CondensedEquations equations;
@@ -129,11 +129,24 @@ TEST(NodeStar, predicts_the_decrease_when_its_centre_moves) {
   EXPECT_LT(after, before);
 }
 
+TEST(NodeStar, gives_the_heading_of_a_centre_where_a_constraint_begins) {
+  const PoseGraph graph = small_graph(8);
+  const std::vector<RotatedPose> poses = rotated(graph.poses());
+  for (const std::uint32_t constraint : {4U, 6U}) {  // 0 -> 4 and 4 -> 2
+    NodeStar star(4);
+    star.add(graph, constraint);
+    ASSERT_TRUE(star.linearize(graph, poses, {}, true));
+    const RotatedPose pose = star.centre_pose(poses);
+    const RotatedPose expected({pose.x, pose.y, pose.theta});
+    EXPECT_EQ(pose.sine == expected.sine && pose.cosine == expected.cosine, constraint == 6);
+  }
+}
+
 TEST(NodeStar, notices_when_its_linearisation_no_longer_holds) {
   KnownGraph known = ring(20, 0, 1);
   NodeStar star(1);
-  star.add(0, 0);
-  star.add(1, 2);
+  star.add(known.graph, 0);
+  star.add(known.graph, 1);
   std::vector<RotatedPose> poses = rotated(known.graph.poses());
   ASSERT_TRUE(star.linearize(known.graph, poses, {}, true));
   EXPECT_TRUE(star.fit(known.graph, poses, {}).is_linear);
@@ -149,7 +162,7 @@ TEST(NodeStar, notices_when_a_weight_changes) {
   const auto loop = static_cast<std::uint32_t>(known.graph.num_constraints() - 1);
   const auto centre = static_cast<std::uint32_t>(known.graph.constraint(loop).to);
   NodeStar star(centre);
-  star.add(loop, static_cast<std::uint32_t>(known.graph.constraint(loop).from));
+  star.add(known.graph, loop);
   std::vector<RotatedPose> poses = rotated(known.graph.poses());
   ASSERT_TRUE(star.linearize(known.graph, poses, {}, true));
   poses[centre].x += 0.02;  // two standard deviations; the kernel has a width of three
@@ -166,7 +179,7 @@ TEST(NodeStar, does_not_eliminate_an_undetermined_centre) {
   constraint.information(2, 2) = 0;
   graph.add_constraint(constraint);
   NodeStar star(1);
-  star.add(0, 0);
+  star.add(graph, 0);
   EXPECT_FALSE(star.linearize(graph, rotated(graph.poses()), {}, true));
   EXPECT_TRUE(star.linearize(graph, rotated(graph.poses()), {}, false));
 }

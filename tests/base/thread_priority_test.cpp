@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <thread>
 
 #include "base/worker_pool.h"
@@ -28,6 +29,22 @@ TEST(ThreadPriority, a_low_priority_affects_one_thread_only) {
   EXPECT_EQ(niceness_of_thread(ThreadPriority::kNormal), before);
   EXPECT_GT(niceness_of_thread(ThreadPriority::kLow), before);
   EXPECT_EQ(niceness(), before);
+}
+
+// Slice of time of a thread with this priority; 0 if the kernel has no slices of single threads.
+std::uint64_t slice_ns(ThreadPriority priority) {
+  SchedulingAttributes attributes;
+  std::thread([&] {
+    set_priority_of_this_thread(priority);
+    EXPECT_EQ(syscall(SYS_sched_getattr, 0, &attributes, sizeof attributes, 0U), 0);
+  }).join();
+  return attributes.slice_ns;
+}
+
+TEST(ThreadPriority, a_thread_of_normal_priority_may_interrupt_one_of_low_priority) {
+  const std::uint64_t normal_ns = slice_ns(ThreadPriority::kNormal);
+  if (normal_ns == 0) GTEST_SKIP() << "Linux before 6.12 has no slices of single threads";
+  EXPECT_GT(slice_ns(ThreadPriority::kLow), 2 * normal_ns);
 }
 
 TEST(ThreadPriority, workers_of_a_pool_have_it_and_its_caller_has_not) {

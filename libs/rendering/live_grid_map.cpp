@@ -17,6 +17,9 @@ using mrpt::math::TPose2D;
 /// ranges of scans up to 41 frames ago.
 constexpr std::size_t kRecentFrames = 64;
 
+/// Number of successive frames whose common bounds are computed again when one of them has moved.
+constexpr std::size_t kFramesWithBounds = 64;
+
 bool is_same_scan(const LaserScan& a, const LaserScan& b) {
   if (a.ranges_m.size() != b.ranges_m.size()) return false;
   if (a.ranges_m.empty()) return true;
@@ -50,8 +53,7 @@ bool touches_edge(const TBoundingBox& box, const TBoundingBox& bounds) {
 LiveGridMap::LiveGridMap(const LiveGridOptions& options)
     : options_(options),
       finder_(options.map, options.map.resolution_m),
-      resolution_m_(options.map.resolution_m),
-      bounds_(TBoundingBox::PlusMinusInfinity()) {
+      resolution_m_(options.map.resolution_m) {
   check_drawable(options.map);
 }
 
@@ -110,8 +112,11 @@ const Frame& LiveGridMap::as_drawn(std::size_t frame, const std::vector<Frame>& 
 void LiveGridMap::draw(const Frame& frame, const TPose2D& map_T_robot, Drawn& drawn) {
   const FrameCells& found = finder_.find(frame, map_T_robot);
   tiles_.add(found);
-  bounds_may_shrink_ = bounds_may_shrink_ || touches_edge(drawn.bounds, bounds_);
-  include(found.bounds, bounds_);
+  const auto index = static_cast<std::size_t>(&drawn - drawn_.data());
+  if (index / kFramesWithBounds >= bounds_.size()) bounds_.emplace_back();
+  Bounds& bounds = bounds_[index / kFramesWithBounds];
+  bounds.may_shrink = bounds.may_shrink || touches_edge(drawn.bounds, bounds.box);
+  include(found.bounds, bounds.box);
   drawn = {map_T_robot, found.bounds, has_ranges(frame), true};
   --missing_;
   ++work_;
@@ -143,12 +148,17 @@ void LiveGridMap::start_again(double resolution_m) {
 }
 
 /// Bounds of all frames at the poses at which they are drawn.
-const TBoundingBox& LiveGridMap::bounds() {
-  if (std::exchange(bounds_may_shrink_, false)) {
-    bounds_ = TBoundingBox::PlusMinusInfinity();
-    for (const Drawn& drawn : drawn_) include(drawn.bounds, bounds_);
+TBoundingBox LiveGridMap::bounds() {
+  TBoundingBox all = TBoundingBox::PlusMinusInfinity();
+  for (std::size_t i = 0; i < bounds_.size(); ++i) {
+    if (std::exchange(bounds_[i].may_shrink, false)) {
+      bounds_[i].box = TBoundingBox::PlusMinusInfinity();
+      const std::size_t end = std::min((i + 1) * kFramesWithBounds, drawn_.size());
+      for (std::size_t k = i * kFramesWithBounds; k < end; ++k) include(drawn_[k].bounds, bounds_[i].box);
+    }
+    include(bounds_[i].box, all);
   }
-  return bounds_;
+  return all;
 }
 
 GridSnapshot LiveGridMap::snapshot() {

@@ -79,7 +79,7 @@ class LiveGridMap {
   const Frame& as_drawn(std::size_t frame, const std::vector<Frame>& log) const;
   void use_coarser_cells_if_needed();
   void start_again(double resolution_m);
-  const mrpt::math::TBoundingBox& bounds();
+  mrpt::math::TBoundingBox bounds();
 
   LiveGridOptions options_;
   FrameCellFinder finder_;
@@ -91,8 +91,12 @@ class LiveGridMap {
   std::size_t missing_ = 0;     ///< number of frames that are not drawn
   std::size_t work_ = 0;
   double resolution_m_;
-  mrpt::math::TBoundingBox bounds_;
-  bool bounds_may_shrink_ = false;
+  /// Bounds of some successive frames, so that a frame that moves costs the same in every map.
+  struct Bounds {
+    mrpt::math::TBoundingBox box = mrpt::math::TBoundingBox::PlusMinusInfinity();
+    bool may_shrink = false;
+  };
+  std::vector<Bounds> bounds_;
 };
 
 }  // namespace psi_slam

@@ -7,21 +7,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "pose_graph/block_products.h"
+
 namespace psi_slam {
 namespace {
 
 using Eigen::Matrix3d;
-
-// Computes y -= l * x for 3x3 blocks, stored column by column. The loops are written out so that the compiler
-// keeps x in registers over a column.
-inline void subtract_product(const double* l, const double* x, double* y) {
-  for (int c = 0; c < 3; ++c) {
-    const double x0 = x[3 * c];
-    const double x1 = x[3 * c + 1];
-    const double x2 = x[3 * c + 2];
-    for (int r = 0; r < 3; ++r) y[3 * c + r] -= l[r] * x0 + l[3 + r] * x1 + l[6 + r] * x2;
-  }
-}
 
 }  // namespace
 
@@ -163,6 +154,7 @@ bool BlockCholesky::refactorize(const SymmetricBlockMatrix& matrix) {
 // rows of any other column are touched, and its blocks in these rows are needed but do not change.
 bool BlockCholesky::compute_touched(const SymmetricBlockMatrix& matrix, double lambda) {
   const std::size_t n = size();
+  const BlockProducts subtract_products = block_products();
   has_factor_ = false;
   std::fill(mark_.begin(), mark_.end(), kNone);
   for (std::size_t i = 0; i < n; ++i) {
@@ -188,8 +180,8 @@ bool BlockCholesky::compute_touched(const SymmetricBlockMatrix& matrix, double l
       }
       const Matrix3d x = blocks_[here].transpose();
       work_[i].setZero();
-      for (std::size_t p = first_[i]; p < here; ++p)
-        subtract_product(blocks_[p].data(), x.data(), work_[rows_[p]].data());
+      subtract_products(blocks_.data() + first_[i], rows_.data() + first_[i], here - first_[i], x,
+                        work_.data());
       diagonal.noalias() -= x.transpose() * x;
     }
     if (!invert_cholesky_factor(diagonal, matrix.diagonal[k].diagonal(), inverse_diagonal_[k])) return false;
@@ -232,7 +224,8 @@ BlockCholesky::InverseColumns BlockCholesky::inverse_columns(std::size_t k) cons
     std::size_t target = step + 1;  // the rows of a column of L lie on the column's path to the root
     for (std::size_t p = column_begin_[column]; p < column_end_[column]; ++p) {
       while (result.rows[target] != rows_[p]) ++target;
-      subtract_product(blocks_[p].data(), x.data(), result.blocks[target].data());
+      const auto at = static_cast<std::uint32_t>(target);
+      block_products()(&blocks_[p], &at, 1, x, result.blocks.data());
     }
   }
   return result;

@@ -85,16 +85,27 @@ PathCovarianceSearch::Node& PathCovarianceSearch::node_at(const PoseGraph& graph
   ++seen_;
   node = Node();
   node.run = run_;
-  node.pose = RotatedPose(graph.poses()[index]);
+  const mrpt::math::TPose2D& pose = graph.poses()[index];
+  node.pose.x = pose.x;
+  node.pose.y = pose.y;
+  node.pose.theta = pose.phi;
   return node;
+}
+
+// Computes sine and cosine of the heading, which only nodes need where a constraint of a chain begins.
+void PathCovarianceSearch::rotate(Node& node) {
+  if (node.rotated) return;
+  node.rotated = true;
+  node.pose = RotatedPose({node.pose.x, node.pose.y, node.pose.theta});
 }
 
 void PathCovarianceSearch::settle(const PoseGraph& graph, std::uint32_t here) {
   Node& node = nodes_[here];
   node.settled = true;
   if (here == source_) return;
-  const Node& previous = nodes_[node.previous];
+  Node& previous = nodes_[node.previous];
   const GraphLink& link = graph.links()[node.constraint];
+  rotate(link.to == here ? previous : node);
   node.covariance = extended(previous.covariance, link, previous.pose, node.pose, link.to == here);
   node.chain_m =
       previous.chain_m + portable::hypot(node.pose.x - previous.pose.x, node.pose.y - previous.pose.y);
@@ -109,6 +120,7 @@ void PathCovarianceSearch::look_around(const PoseGraph& graph, std::uint32_t her
     const std::uint32_t there = forwards ? link.to : link.from;
     Node& next = node_at(graph, there);
     if (next.settled || !graph.enabled(index)) continue;
+    if (!forwards) rotate(next);
     const double cost = extended_cost(node.covariance, link, node.pose, next.pose, forwards, lever2);
     if (!(cost < next.cost) || cost > max_cost) continue;
     next.cost = cost;
@@ -137,6 +149,7 @@ void PathCovarianceSearch::run(const PoseGraph& graph, std::size_t source,
   const double max_cost = options.max_sigma_m * options.max_sigma_m;
 
   Node& first = node_at(graph, source);
+  rotate(first);
   first.cost = 0;
   first.previous = static_cast<std::uint32_t>(source);
   queue_.emplace(0.0, static_cast<std::uint32_t>(source));

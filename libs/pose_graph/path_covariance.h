@@ -68,11 +68,13 @@ class PathCovarianceSearch {
     double chain_m = 0;
     bool settled = false;
     bool wanted = false;
+    bool rotated = false;  // whether sine and cosine of `pose` are set
     PoseCovariance covariance;  // of the pose relative to the source, in the axes of the map
   };
   using Entry = std::pair<double, std::uint32_t>;  // cost in m^2, node
 
   Node& node_at(const PoseGraph& graph, std::size_t node);
+  static void rotate(Node& node);
   void settle(const PoseGraph& graph, std::uint32_t here);
   void look_around(const PoseGraph& graph, std::uint32_t here, double lever2, double max_cost);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Optimises a growing pose graph at a cost that depends mainly on what new constraints change. With the graph
-// grow only the factorisation for the core nodes, and passes over all poses that compare or copy them.
+// grow only the solution for the core nodes, and a pass over all poses that compares them.
 // Between complete solutions by SparsePoseAdjustment, it takes Gauss-Newton steps of the same robust error
 // sum, in which most terms remain from earlier steps:
 //

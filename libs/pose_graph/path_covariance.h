@@ -68,7 +68,7 @@ class PathCovarianceSearch {
     double chain_m = 0;
     bool settled = false;
     bool wanted = false;
-    bool rotated = false;  // whether sine and cosine of `pose` are set
+    bool rotated = false;       // whether sine and cosine of `pose` are set
     PoseCovariance covariance;  // of the pose relative to the source, in the axes of the map
   };
   using Entry = std::pair<double, std::uint32_t>;  // cost in m^2, node

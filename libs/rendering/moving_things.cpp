@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "base/portable_math.h"
 
@@ -23,13 +24,17 @@ constexpr double kBeyond_m = 0.2;
 constexpr double kAside_m = 0.15;      // distance from a straight obstacle at which a beam starts and ends
 constexpr double kMostRange_m = 12;    // farther away, errors of the heading move beams by more than kNear_m
 constexpr double kFullRange_m = 5;     // beams weigh less beyond
+constexpr double kTube_m = 0.12;       // radius of the space around a beam that its neighbours must find free
 constexpr double kWidestGap_m = 0.3;   // between the points where neighbouring beams meet an obstacle
 constexpr double kBeamsPerMetre = 60;  // of cell, for one free interval
+constexpr double kOneCell_m = 0.05;    // cells up to this size: the beams in all cells near count in full
 constexpr float kMostOfVisit = 12;     // weight of free intervals
 constexpr float kReturn = 0.9F;        // free weight after which a hit counts as a return; less is forgotten
-constexpr double kLeastFree = 2;       // weight that refutes a cell of a single visit
-constexpr double kFreePerVisit = 1.5;  // and for each further visit
-constexpr double kFreePerReturn = 2;
+constexpr double kLeastFree = 1;       // weight that refutes a cell of a single visit
+constexpr double kFreePerVisit = 0.7;  // and for each further visit
+constexpr double kFreePerReturn = 1;
+constexpr double kFreeOfSurface =
+    3;  // share by which these grow for a cell that is always part of a large surface
 constexpr double kPatch_m = 0.25;         // reach of the cells that are judged together
 constexpr double kMostRefuted = 1.5;      // by which one cell counts in its patch
 constexpr double kLeastOfPatch = 0.4;     // mean refutation around a cell that is refuted itself
@@ -39,7 +44,10 @@ constexpr double kRim_m = 0.15;           // reach of the cells that vanish with
 constexpr double kLeastOfRim = 0.3;       // refutation of a cell that vanishes with a thing
 constexpr float kLeastCrossed = 1;        // or weight of the beams that crossed it without an end in it
 constexpr std::uint32_t kRimSlack = 3;    // intervals by which it may have been seen longer
+constexpr double kMajority = 0.35;        // or share of the cells around it that vanish and were seen as long
 constexpr double kSurfaceGap_m = 0.25;    // largest distance between the ends of neighbouring beams
+constexpr double kSurfaceSpacings = 4;    // or multiple of the distance between the beams there
+constexpr std::int64_t kSurfaceShare = 8;  // one in so many hits makes a long thing a surface
 constexpr double kLargeSurface_m = 1.5;
 constexpr double kLink_m = 0.3;  // gap within one thing
 constexpr std::uint16_t kMostCount = 60'000;
@@ -87,6 +95,17 @@ double beam_gap_rad(const Fan& fan) {
          static_cast<double>(fan.bearings->size() - 1);
 }
 
+/// Returns whether a beam that ends before `range_m` passes within kTube_m of a beam at this range, or is its
+/// neighbour.
+bool is_narrow(const std::vector<double>& clear_m, std::size_t beam, double range_m, double gap_rad) {
+  const double beams = kTube_m / std::max(1e-6, gap_rad * range_m);
+  const auto reach = static_cast<std::size_t>(std::clamp(beams, 1.0, static_cast<double>(clear_m.size())));
+  const std::size_t end = std::min(clear_m.size(), beam + reach + 1);
+  for (std::size_t i = beam - std::min(beam, reach); i < end; ++i)
+    if (clear_m[i] < range_m) return true;
+  return false;
+}
+
 }  // namespace
 
 MovingThings::MovingThings(const COccupancyGridMap2D& grid, const GridLayout& layout,
@@ -95,6 +114,7 @@ MovingThings::MovingThings(const COccupancyGridMap2D& grid, const GridLayout& la
       maker_(options),
       near_(static_cast<std::int64_t>(std::max(kNear_m / layout.resolution_m, kNearCells))),
       beams_(static_cast<float>(std::max(1.0, kBeamsPerMetre * layout.resolution_m))),
+      share_of_near_(static_cast<float>(std::min(1.0, kOneCell_m / layout.resolution_m))),
       find_(static_cast<std::size_t>(layout.width * layout.height), -1) {
   constexpr std::int32_t kFar = 10'000;
   find_obstacles(grid);
@@ -189,11 +209,15 @@ void MovingThings::add(const Frame& frame, const TPose2D& map_T_robot) {
 /// end close to each other.
 void MovingThings::mark_hits(const Fan& fan, const CellBox& map) {
   const std::vector<Ray>& rays = fan.rays;
+  const double gap_rad = beam_gap_rad(fan);
   for (std::size_t begin = 0; begin < rays.size();) {
     std::size_t end = begin + 1;
-    while (rays[begin].hit && end < rays.size() && rays[end].hit &&
-           distance_m(rays[end - 1].end, rays[end].end) <= kSurfaceGap_m)
-      ++end;
+    const auto goes_on = [&](std::size_t i) {
+      const double spacing_m = gap_rad * distance_m(fan.start, rays[i].end);
+      return rays[i].hit && distance_m(rays[i - 1].end, rays[i].end) <=
+                                std::max(kSurfaceGap_m, kSurfaceSpacings * spacing_m);
+    };
+    while (rays[begin].hit && end < rays.size() && goes_on(end)) ++end;
     const bool is_large = distance_m(rays[begin].end, rays[end - 1].end) > kLargeSurface_m;
     for (; begin < end; ++begin)
       if (rays[begin].hit) mark_hit(map.in_cells(rays[begin].end), is_large);
@@ -220,11 +244,17 @@ void MovingThings::mark_hit(const TPoint2D& end, bool of_surface) {
     for_each_near(x, y, mark);
 }
 
-/// Marks the obstacles that the beams of a scan crossed. Leaps over space without obstacles.
+/// Marks the obstacles that the beams of a scan crossed, if their neighbours crossed the space around, too: a
+/// beam along a surface has a neighbour that ends on it. Leaps over space without obstacles.
 void MovingThings::mark_passes(const Fan& fan, const CellBox& map) {
   const TPoint2D start = map.in_cells(fan.start);
   const double gap_rad = beam_gap_rad(fan);
-  for (const Ray& ray : fan.rays) {
+  std::vector<double> clear_m;  // index: ray
+  for (const Ray& ray : fan.rays)
+    clear_m.push_back(ray.returned ? distance_m(fan.start, ray.end) - kBeyond_m
+                                   : std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < fan.rays.size(); ++i) {
+    const Ray& ray = fan.rays[i];
     const double length_m = distance_m(fan.start, ray.end);
     const double free_m = std::min(length_m - kBeyond_m, kMostRange_m);
     if (!ray.returned || free_m <= 0) continue;
@@ -242,7 +272,8 @@ void MovingThings::mark_passes(const Fan& fan, const CellBox& map) {
                         static_cast<double>(cell.normal_y) * along.y);
         if (std::min(range_m, length_m - range_m) * sine < kAside_m) return std::int64_t{1};
       }
-      if (range_m * gap_rad > kWidestGap_m * sine) return std::int64_t{1};
+      if (range_m * gap_rad > kWidestGap_m * sine || is_narrow(clear_m, i, range_m, gap_rad))
+        return std::int64_t{1};
       mark_pass(found, static_cast<float>(range_m > kFullRange_m ? kFullRange_m / range_m : 1));
       return std::int64_t{1};
     });
@@ -314,8 +345,16 @@ void MovingThings::see_occupied(Sightings& cell, bool is_new_visit) {
   if (cell.surface_in == interval_) ++cell.surface;
 }
 
+/// Counts the beams that crossed a cell or, as they would have hit the same thing, the obstacles within the
+/// tolerance of a hit.
 void MovingThings::see_free(Sightings& cell) {
-  const float weight = std::min(std::min(1.0F, cell.beams / beams_), kMostOfVisit - cell.free_of_visit);
+  float around = 0;
+  for_each_near(cell.x, cell.y, [&](std::int32_t found) {
+    const Sightings& other = cells_[static_cast<std::size_t>(found)];
+    if (other.passed_in == interval_) around += other.beams;
+  });
+  const float beams = std::max(cell.beams, share_of_near_ * around);
+  const float weight = std::min(std::min(1.0F, beams / beams_), kMostOfVisit - cell.free_of_visit);
   cell.free += weight;
   cell.free_of_visit += weight;
   cell.free_since_hit += weight;
@@ -323,8 +362,9 @@ void MovingThings::see_free(Sightings& cell) {
 
 /// Returns the share of the free weight that refutes a cell, at most kMostRefuted.
 double MovingThings::refuted(const Sightings& cell) {
+  const double surface = static_cast<double>(cell.surface) / std::max<double>(1, cell.hits);
   const double needed = kLeastFree + kFreePerVisit * (cell.visits - 1) + kFreePerReturn * cell.returns;
-  return std::min(kMostRefuted, static_cast<double>(cell.free) / needed);
+  return std::min(kMostRefuted, static_cast<double>(cell.free) / (needed * (1 + kFreeOfSurface * surface)));
 }
 
 /// Judges a cell together with the obstacles around it that were seen occupied from before its first hit
@@ -343,7 +383,7 @@ bool MovingThings::is_moving(const Sightings& cell) const {
 }
 
 /// Finds the connected parts of the cells that count as moving. Resets those parts that are longer than a
-/// person, a cart or a door and that beams hit as a large surface in a third of the intervals.
+/// person, a cart or a door and that beams hit as a large surface in an eighth of the intervals.
 void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
   const std::int64_t link = cells_in(kLink_m, layout_.resolution_m);
   std::vector<bool> is_found(cells_.size());
@@ -372,32 +412,48 @@ void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
     }
     const double length_m = layout_.resolution_m * portable::hypot(static_cast<double>(high.x - low.x + 1),
                                                                    static_cast<double>(high.y - low.y + 1));
-    if (length_m <= kLargeSurface_m || 3 * surface <= hits) continue;
+    if (length_m <= kLargeSurface_m || kSurfaceShare * surface <= hits) continue;
     for (const std::size_t cell : part) is_moving[cell] = false;
   }
 }
 
 /// Adds the cells at the rim of moving things, which few beams refute or which are close to a wall: beams saw
-/// them occupied only while they saw a neighbour that moved.
+/// them occupied only while they saw a neighbour that moved. Adds the rest of a thing most of which moved,
+/// too.
 void MovingThings::add_rims(std::vector<bool>& is_moving) const {
   const std::int64_t reach = cells_in(kRim_m, layout_.resolution_m);
+  const std::int64_t patch = cells_in(kPatch_m, layout_.resolution_m);
   std::vector<std::size_t> rim;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Sightings& cell = cells_[i];
     if (is_moving[i] || cell.hits == 0) continue;
     const bool is_doubtful = refuted(cell) >= kLeastOfRim;
     const bool is_crossed = cell.first_end != 0 && cell.crossed_before + cell.crossed_after >= kLeastCrossed;
-    if (!is_doubtful && !is_crossed) continue;
+    const auto hit_with = [&](const Sightings& thing) {
+      return is_within(cell.first_hit, cell.last_hit, thing.first_hit, thing.last_hit);
+    };
+    const auto ended_with = [&](const Sightings& thing) {
+      return cell.first_end != 0 && thing.first_end != 0 &&
+             is_within(cell.first_end, cell.last_end, thing.first_end, thing.last_end);
+    };
     bool is_of_thing = false;
-    for_each_around(cell.x, cell.y, reach, [&](std::int32_t found) {
-      if (!is_moving[static_cast<std::size_t>(found)]) return;
-      const Sightings& thing = cells_[static_cast<std::size_t>(found)];
-      is_of_thing =
-          is_of_thing ||
-          (is_doubtful && is_within(cell.first_hit, cell.last_hit, thing.first_hit, thing.last_hit)) ||
-          (is_crossed && thing.first_end != 0 &&
-           is_within(cell.first_end, cell.last_end, thing.first_end, thing.last_end));
-    });
+    if (is_doubtful || is_crossed)
+      for_each_around(cell.x, cell.y, reach, [&](std::int32_t found) {
+        const Sightings& thing = cells_[static_cast<std::size_t>(found)];
+        is_of_thing =
+            is_of_thing || (is_moving[static_cast<std::size_t>(found)] &&
+                            ((is_doubtful && hit_with(thing)) || (is_crossed && ended_with(thing))));
+      });
+    if (!is_of_thing) {
+      int around = 0;
+      int moving = 0;
+      for_each_around(cell.x, cell.y, patch, [&](std::int32_t found) {
+        const auto other = static_cast<std::size_t>(found);
+        ++around;
+        if (is_moving[other] && ended_with(cells_[other])) ++moving;
+      });
+      is_of_thing = moving >= kMajority * around;
+    }
     if (is_of_thing) rim.push_back(i);
   }
   for (const std::size_t i : rim) is_moving[i] = true;

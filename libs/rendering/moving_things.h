@@ -3,19 +3,24 @@
 //
 // The scans are divided into intervals: the robot moves 0.08 m, or a second passes. In each interval, an
 // occupied cell of the map is seen occupied if any beam ended within 0.12 m or 1.5 cells of it. Otherwise it
-// is seen free if beams crossed it and ended beyond. The tolerances absorb errors of poses and ranges. Three
-// beams within 5 m weigh 1 in a cell of 0.05 m; fewer beams or beams from farther away weigh less. A visit of
-// the robot to the cell weighs at most 12, because the poses of one visit share their errors.
+// is seen free if beams crossed it and ended beyond, and so did the beams within 0.12 m of them and at least
+// one on either side: a beam that grazes a surface sees nothing free. The tolerances absorb errors of poses
+// and ranges. Three beams within 5 m weigh 1 in cells of 0.05 m; fewer beams or beams from farther away weigh
+// less. Beams through other obstacles within the tolerance count, too, so more beams speak about a person
+// than about a post. A visit of the robot to the cell weighs at most 12, because its poses share their
+// errors.
 //
-// A cell is refuted if the free weight is at least 2, plus 1.5 for each further visit that saw the cell
-// occupied, plus 2 for each time that it was seen occupied again after it was seen free. Less than 0.9
-// between two sightings of the obstacle does not count: beams miss thin things. So how long a person stands
-// does not matter, while a table leg that many beams miss stays. The cells within 0.25 m that were seen
-// occupied throughout the same time are judged together.
+// A cell is refuted if the free weight is at least 1, plus 0.7 for each further visit that saw the cell
+// occupied, plus 1 for each time that it was seen occupied again after it was seen free; up to four times as
+// much if beams hit the cell as part of a large surface. Less than 0.9 between two sightings of the obstacle
+// does not count: beams miss thin things. So how long a person stands does not matter, while a table leg that
+// many beams miss stays. The cells within 0.25 m that were seen occupied throughout the same time are judged
+// together.
 //
 // A cell within 0.15 m of a refuted one vanishes, too, if it was occupied only during the same time and if
 // its free weight reaches 0.3 of what refutes it, or if the beams that crossed it before the first beam and
-// after the last beam that ended in the cell itself weigh 1 in sum. So the ends of a door beside its frame vanish.
+// after the last beam that ended in the cell itself weigh 1 in sum. So the ends of a door beside its frame
+// vanish. A cell also vanishes if a third of the obstacles within 0.25 m do and were hit as long as it.
 //
 // Obstacles longer than 1.5 m stay if the beams hit them as one surface: a wall in two places after an
 // error of the poses, or a barrier that beams hit only from some directions.
@@ -105,6 +110,7 @@ class MovingThings {
   RayMaker maker_;
   std::int64_t near_ = 0;            ///< reach of a hit, in cells
   float beams_ = 0;                  ///< weight of the beams that count as one free interval
+  float share_of_near_ = 1;          ///< share by which the beams through cells near count
   std::vector<Sightings> cells_;     ///< of the occupied cells of the map
   std::vector<std::int32_t> find_;   ///< index in cells_, or minus the distance to an occupied cell, in cells
   std::vector<std::uint32_t> seen_;  ///< indices of the cells that this interval saw

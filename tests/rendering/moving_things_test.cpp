@@ -98,7 +98,7 @@ struct Ends {
   bool still = false;         ///< a beam ended there on something that never moves
   double first_s = 1e9;       ///< time of the first beam that a moving thing stopped there
   double last_s = -1e9;       ///< and of the last
-  bool is_seen_free = false;  ///< whether beams crossed the cell more than a second before or after
+  bool is_seen_free = false;  ///< whether beams crossed it and ended beyond, over a second before or after
 };
 using EndsOfCells = std::map<std::pair<std::int64_t, std::int64_t>, Ends>;
 
@@ -129,7 +129,9 @@ EndsOfCells ends_of(const PairOfLogs& logs, double resolution_m) {
   FrameCellFinder finder({}, resolution_m);
   for (std::size_t i = 0; i < logs.moving.size(); ++i) {
     const double time_s = seconds(logs.moving[i].time_us);
-    const FrameCells& found = finder.find(logs.moving[i], logs.map_T_robot[i]);
+    Frame short_of_ends = logs.moving[i];  // noise lets a beam that ends on a thing cross some of its cells
+    for (float& range_m : short_of_ends.scan.ranges_m) range_m = std::max(0.05F, range_m - 0.2F);
+    const FrameCells& found = finder.find(short_of_ends, logs.map_T_robot[i]);
     for (const TouchedCell& cell : found.cells) {
       if (cell.marks != kPassed) continue;
       const auto end = ends.find({found.x_min + cell.x, found.y_min + cell.y});
@@ -280,13 +282,13 @@ TEST_P(MovingThingsInABuilding, vanish_and_walls_stay) {
   EXPECT_GT(kept.moving, 50);
   EXPECT_GT(kept.walls, 500);
   EXPECT_GE(kept.gone(), GetParam().least_gone) << kept.moving_kept << " of " << kept.moving;
-  EXPECT_LE(kept.lost(), 0.005) << kept.walls - kept.walls_kept << " of " << kept.walls;
+  EXPECT_LE(kept.lost(), 0.0005) << kept.walls - kept.walls_kept << " of " << kept.walls;
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, MovingThingsInABuilding,
-                         testing::Values(Building{{1, 120, 0.01}, 0.05, 0.83},
-                                         Building{{2, 120, 0.03}, 0.1, 0.8},
-                                         Building{{3, 120, 0.05}, 0.05, 0.85}));
+                         testing::Values(Building{{1, 120, 0.01}, 0.05, 0.82},
+                                         Building{{2, 120, 0.03}, 0.1, 0.9},
+                                         Building{{3, 120, 0.05}, 0.05, 0.95}));
 
 TEST(MovingThings, figures_of_the_page) {
   if (std::getenv("PSI_SLAM_LONG_TESTS") == nullptr) GTEST_SKIP() << "takes minutes: set PSI_SLAM_LONG_TESTS";
@@ -403,6 +405,9 @@ TEST_F(MovingThingsInARoom, an_operator_who_walks_beside_the_robot_leaves_no_tra
     EXPECT_FALSE(shows(step, 0.2)) << x;
   }
   EXPECT_TRUE(is_trail);
+  drive();
+  for (double x = 0.5; x < 5.5; x += 0.25)
+    EXPECT_FALSE(shows({x, 0.65}, 0.2)) << x << " after a second visit";
 }
 
 TEST_F(MovingThingsInARoom, a_door_that_opened_vanishes_up_to_its_frame) {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 #include <utility>
 
 #include "base/portable_math.h"
-#include "local_maps/score_painter.h"
 
 namespace psi_slam {
 namespace {
@@ -18,6 +18,17 @@ using Grid = mrpt::maps::COccupancyGridMap2D;
 constexpr double kGrowthStep_m = 5.0;  // large, so that grids rarely grow
 constexpr double kFarthest_m = 1e5;    // of a beam from the map's origin
 constexpr double kMostCells = 1e8;     // 500 m by 500 m in cells of 5 cm
+constexpr int kTileSide = 32;          // of the tiles whose scores are painted together, in cells
+
+// Returns the first cell of [begin, end) that is not zero, or `end`.
+const Grid::cellType* first_not_zero(const Grid::cellType* begin, const Grid::cellType* end) {
+  constexpr std::ptrdiff_t kBlock = 8;
+  for (std::uint64_t cells = 0; end - begin >= kBlock; begin += kBlock) {
+    std::memcpy(&cells, begin, kBlock);
+    if (cells != 0) break;
+  }
+  return std::find_if(begin, end, [](Grid::cellType cell) { return cell != 0; });
+}
 
 }  // namespace
 
@@ -25,12 +36,24 @@ LocalMap::LocalMap(const LocalMapOptions& options)
     : options_(options),
       grid_(std::in_place, -kGrowthStep_m, kGrowthStep_m, -kGrowthStep_m, kGrowthStep_m,
             static_cast<float>(options.resolution_m)) {
-  last_scan_.assign(grid_->getRawMap().size(), 0);
+  follow_size();
 }
 
 LocalMap::LocalMap(const LocalMapOptions& options, const Grid& drawn) : options_(options), grid_(drawn) {
   options_.resolution_m = static_cast<double>(drawn.getResolution());
+  follow_size();
   finish();
+}
+
+// Adapts what belongs to the cells of the occupancy grid to its size.
+void LocalMap::follow_size() {
+  if (!painter_) painter_.emplace(options_.smoothing_sigma_m, options_.resolution_m);
+  last_scan_.assign(grid_->getRawMap().size(), 0);
+  scan_ = 0;
+  tile_columns_ = (static_cast<int>(grid_->getSizeX()) + kTileSide - 1) / kTileSide;
+  const int tile_rows = (static_cast<int>(grid_->getSizeY()) + kTileSide - 1) / kTileSide;
+  dirty_tiles_.assign(static_cast<std::size_t>(tile_columns_ * tile_rows), 0);
+  scores_fit_ = false;
 }
 
 // Returns the scans that the grid can hold, and grows the grid for them. A scan that would make the grid
@@ -49,9 +72,7 @@ std::vector<const Beams*> LocalMap::grow_to_hold(const std::vector<Beams>& scans
   if (limits == before) return held;
   grid_->resizeGrid(static_cast<float>(limits.x_min), static_cast<float>(limits.x_max),
                     static_cast<float>(limits.y_min), static_cast<float>(limits.y_max), 0.5F, false);
-  last_scan_.assign(grid_->getRawMap().size(), 0);
-  scan_ = 0;
-  scores_fit_ = false;
+  follow_size();
   return held;
 }
 
@@ -72,15 +93,11 @@ std::optional<LocalMap::Limits> LocalMap::limits_with(const Beams& beams, Limits
   return cells <= kMostCells ? std::optional(limits) : std::nullopt;
 }
 
-void LocalMap::add_to_dirty(const Region& region) {
-  if (dirty_.x_end <= dirty_.x) {
-    dirty_ = region;
-    return;
-  }
-  dirty_.x = std::min(dirty_.x, region.x);
-  dirty_.y = std::min(dirty_.y, region.y);
-  dirty_.x_end = std::max(dirty_.x_end, region.x_end);
-  dirty_.y_end = std::max(dirty_.y_end, region.y_end);
+// Marks the tile of a cell whose evidence has changed.
+void LocalMap::mark_dirty(std::size_t cell) {
+  const std::size_t width = grid_->getSizeX();
+  const std::size_t row = cell / width / kTileSide;
+  dirty_tiles_[row * static_cast<std::size_t>(tile_columns_) + cell % width / kTileSide] = 1;
 }
 
 void LocalMap::draw_hit(int x, int y) {
@@ -89,8 +106,10 @@ void LocalMap::draw_hit(int x, int y) {
   if (last_scan_[cell] == scan_) return;
   last_scan_[cell] = scan_;
   const Grid::cellType hit = Grid::p2l(static_cast<float>(options_.hit_probability));
-  grid_->updateCell_fast_occupied(grid_->getRow(y) + x, hit,
-                                  static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MIN + hit));
+  Grid::cellType& value = grid_->getRow(y)[x];
+  const std::uint8_t before = painter_->evidence(value);
+  grid_->updateCell_fast_occupied(&value, hit, static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MIN + hit));
+  if (painter_->evidence(value) != before) mark_dirty(cell);
 }
 
 // Draws hits in the cells between two beam ends on one surface, without the cells of the ends.
@@ -118,7 +137,11 @@ void LocalMap::draw_way(int x0, int y0, int x1, int y1) {
   for (int left = dx + dy; left > 0;) {
     if (scans[cell] != scan_) {
       scans[cell] = scan_;
+      const Grid::cellType before = cells[cell];
       Grid::updateCell_fast_free(cells + cell, miss, threshold);
+      // Free cells have no evidence.
+      if (before < 0 && painter_->evidence(before) != painter_->evidence(cells[cell]))
+        mark_dirty(static_cast<std::size_t>(cell));
     }
     const int twice = 2 * error;
     if (twice > -dy) error -= dy, cell += step_x, --left;
@@ -142,44 +165,68 @@ void LocalMap::insert(const std::vector<Beams>& scans) {
 void LocalMap::draw_hits(const Beams& beams, std::vector<Way>& ways) {
   const int origin_x = grid_->x2idx(beams.origin.x);
   const int origin_y = grid_->y2idx(beams.origin.y);
-  Region touched = {origin_x, origin_y, origin_x + 1, origin_y + 1};
   ways.reserve(ways.size() + beams.ends.size());
   for (std::size_t i = 0; i < beams.ends.size(); ++i) {
     const int x = grid_->x2idx(beams.ends[i].x);
     const int y = grid_->y2idx(beams.ends[i].y);
     ways.push_back({origin_x, origin_y, x, y});
-    touched.x = std::min(touched.x, x);
-    touched.y = std::min(touched.y, y);
-    touched.x_end = std::max(touched.x_end, x + 1);
-    touched.y_end = std::max(touched.y_end, y + 1);
     if (beams.hits[i]) draw_hit(x, y);
     if (i < beams.joined.size() && beams.joined[i]) {
       const mrpt::math::TPoint2D& before = i > 0 ? beams.ends[i - 1] : beams.ends.back();
       draw_surface(grid_->x2idx(before.x), grid_->y2idx(before.y), x, y);
     }
   }
-  add_to_dirty(touched);
 }
 
 const ScoreGrid& LocalMap::scores() {
   if (finished_) return scores_;
+  if (!scores_fit_) {
+    begin_scores();
+    scores_.make_bounds();
+  }
+  paint_dirty_tiles();
+  return scores_;
+}
+
+// Makes a score grid of zeros as large as the occupancy grid, and marks the tiles that have evidence.
+void LocalMap::begin_scores() {
   const int width = static_cast<int>(grid_->getSizeX());
   const int height = static_cast<int>(grid_->getSizeY());
-  if (!scores_fit_) {
-    scores_ = ScoreGrid(static_cast<double>(grid_->getXMin()), static_cast<double>(grid_->getYMin()),
-                        options_.resolution_m, width, height);
-    scores_fit_ = true;
-    dirty_ = {0, 0, width, height};
+  scores_ = ScoreGrid(static_cast<double>(grid_->getXMin()), static_cast<double>(grid_->getYMin()),
+                      options_.resolution_m, width, height);
+  scores_fit_ = true;
+  for (int y = 0; y < height; ++y) {
+    const Grid::cellType* row = grid_->getRow(y);
+    std::uint8_t* tile = dirty_tiles_.data() + y / kTileSide * tile_columns_;
+    for (int x = 0; x < width; x += kTileSide, ++tile) {
+      Grid::cellType all = 0;
+      for (int i = x, end = std::min(x + kTileSide, width); i < end; ++i) all |= row[i];
+      if (all < 0) *tile = 1;  // MRPT: an occupied cell is negative
+    }
   }
-  if (dirty_.x_end > dirty_.x) {
-    ScorePainter painter(options_.smoothing_sigma_m, options_.resolution_m);
-    const int reach = painter.reach_cells();
-    painter.paint(*grid_, std::max(0, dirty_.x - reach), std::max(0, dirty_.y - reach),
-                  std::min(width, dirty_.x_end + reach), std::min(height, dirty_.y_end + reach),
-                  scores_.finest());
-    dirty_ = {};
+}
+
+// Paints the scores of the dirty tiles and within reach of them, in runs of neighbouring tiles.
+void LocalMap::paint_dirty_tiles() {
+  const int width = static_cast<int>(grid_->getSizeX());
+  const int height = static_cast<int>(grid_->getSizeY());
+  const int reach = painter_->reach_cells();
+  auto tile = dirty_tiles_.begin();
+  while ((tile = std::find(tile, dirty_tiles_.end(), 1)) != dirty_tiles_.end()) {
+    const auto number = static_cast<int>(tile - dirty_tiles_.begin());
+    const int row = number / tile_columns_;
+    const auto row_end = dirty_tiles_.begin() + (row + 1) * tile_columns_;
+    const auto run_end = std::find(tile, row_end, 0);
+    const int column = number % tile_columns_;
+    const auto columns = static_cast<int>(run_end - tile);
+    const Cell first = {std::max(0, column * kTileSide - reach), std::max(0, row * kTileSide - reach)};
+    const Cell end = {std::min(width, (column + columns) * kTileSide + reach),
+                      std::min(height, (row + 1) * kTileSide + reach)};
+    painter_->paint(*grid_, first.x, first.y, end.x, end.y, scores_.finest());
+    scores_.update_bounds(first, end);
+    std::fill(tile, run_end, std::uint8_t{0});
+    tile = run_end;
   }
-  return scores_;
 }
 
 // Returns the smallest region that holds all observed cells and the cells within reach of their smoothing.
@@ -190,20 +237,23 @@ LocalMap::Region LocalMap::observed_region() const {
   Region region = {width, height, 0, 0};
   for (int y = 0; y < height; ++y) {
     const Grid::cellType* row = grid_->getRow(y);
-    for (int x = 0; x < width; ++x) {
-      if (row[x] == 0) continue;
-      region = {std::min(region.x, x), std::min(region.y, y), std::max(region.x_end, x + 1), y + 1};
-    }
+    const Grid::cellType* first = first_not_zero(row, row + width);
+    if (first == row + width) continue;
+    const Grid::cellType* last = row + width - 1;
+    while (*last == 0) --last;
+    region = {std::min(region.x, static_cast<int>(first - row)), std::min(region.y, y),
+              std::max(region.x_end, static_cast<int>(last - row) + 1), y + 1};
   }
   if (region.x_end <= region.x) return {0, 0, 1, 1};
-  const int reach = ScorePainter(options_.smoothing_sigma_m, options_.resolution_m).reach_cells();
+  const int reach = painter_->reach_cells();
   return {std::max(0, region.x - reach), std::max(0, region.y - reach), std::min(width, region.x_end + reach),
           std::min(height, region.y_end + reach)};
 }
 
 void LocalMap::finish() {
   if (finished_) return;
-  scores();
+  if (!scores_fit_) begin_scores();
+  paint_dirty_tiles();
   const Region region = observed_region();  // drops the unused part of the last growth step
   const int width = region.x_end - region.x;
   const int height = region.y_end - region.y;
@@ -214,10 +264,13 @@ void LocalMap::finish() {
                    std::uint8_t{0});
   for (int y = 0; y < height; ++y) {
     const Grid::cellType* row = std::as_const(*grid_).getRow(region.y + y) + region.x;
-    for (int x = 0; x < width; ++x)
-      if (row[x] != 0) observed_[static_cast<std::size_t>(y / 2 * half_width + x / 2)] = 1;
+    std::uint8_t* __restrict blocks = observed_.data() + static_cast<std::ptrdiff_t>(y / 2) * half_width;
+    for (int x = 0; x < width / 2; ++x) blocks[x] |= (row[2 * x] | row[2 * x + 1]) != 0 ? 1 : 0;
+    if (width % 2 != 0 && row[width - 1] != 0) blocks[width / 2] = 1;
   }
   finished_ = true;
+  painter_.reset();
+  dirty_tiles_ = std::vector<std::uint8_t>();
   last_scan_ = std::vector<std::uint16_t>();  // an assignment of {} would keep the memory
   grid_.reset();
 }

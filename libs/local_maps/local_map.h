@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "compression/packed_bytes.h"
+#include "local_maps/score_painter.h"
 #include "matching/scan_points.h"
 #include "matching/score_grid.h"
 
@@ -113,7 +114,10 @@ class LocalMap {
   };
   std::vector<const Beams*> grow_to_hold(const std::vector<Beams>& scans);
   std::optional<Limits> limits_with(const Beams& beams, Limits limits) const;
-  void add_to_dirty(const Region& region);
+  void follow_size();
+  void mark_dirty(std::size_t cell);
+  void begin_scores();
+  void paint_dirty_tiles();
   Region observed_region() const;
   bool observed(int x, int y) const;
   void draw_hits(const Beams& beams, std::vector<Way>& ways);
@@ -126,7 +130,11 @@ class LocalMap {
   std::optional<mrpt::maps::COccupancyGridMap2D> grid_;
   std::vector<std::uint16_t> last_scan_;  ///< for each cell, the number of the last scan that changed it
   std::uint16_t scan_ = 0;
-  Region dirty_;
+  std::optional<ScorePainter> painter_;  ///< empty for a finished map
+  /// For each tile of kTileSide x kTileSide cells of the occupancy grid, row by row, 1 if the evidence of a
+  /// cell has changed since the scores were painted.
+  std::vector<std::uint8_t> dirty_tiles_;
+  int tile_columns_ = 0;
   ScoreGrid scores_;
   std::vector<std::uint8_t> observed_;  ///< 1 for each 2 x 2 block with an observed cell; finished maps only
   PackedBytes packed_scores_;           ///< filled by the first pack(), like packed_observed_

@@ -63,7 +63,7 @@ void ScorePainter::paint(const Grid& grid, int x, int y, int x_end, int y_end, S
       while (cx + kBlock <= to_x && none_occupied(cells + cx)) cx += kBlock;
       if (cx == to_x) break;
       if (cells[cx] >= 0) continue;  // not occupied
-      const std::uint16_t evidence = evidence_[static_cast<std::uint8_t>(cells[cx])];
+      const std::uint16_t evidence = this->evidence(cells[cx]);
       std::uint16_t* target =
           sums_.data() + static_cast<std::ptrdiff_t>(cy - y + reach_) * row + (cx - x + reach_);
       const std::uint16_t* weight = kernel_.data();

@@ -19,6 +19,11 @@ class ScorePainter {
  public:
   ScorePainter(double sigma_m, double resolution_m);
 
+  /// Returns the evidence of a cell of the occupancy grid, 0 .. 255.
+  std::uint8_t evidence(mrpt::maps::COccupancyGridMap2D::cellType cell) const {
+    return evidence_[static_cast<std::uint8_t>(cell)];
+  }
+
   /// Distance in cells over which the evidence of a cell is spread.
   int reach_cells() const { return reach_; }
 

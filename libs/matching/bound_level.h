@@ -6,8 +6,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "matching/bound_tables.h"
 #include "matching/search_lattice.h"
 
 namespace psi_slam {
@@ -16,15 +18,11 @@ namespace psi_slam {
 /// headings() headings: as many as move no point by much more than a stride. Blocks are numbered by layer
 /// (heading), row (y) and column (x) from the lowest pose of the window. Blocks at the end of the window may
 /// extend beyond it.
-///
-/// The tables hold the largest score of every k x k square of half cells, where a half cell is a maximum over
-/// 2 x 2 finest cells. Each table is stored as planes: plane (i, j) has the squares whose first half cell is
-/// (i, j) modulo half a stride. So the squares of a point in neighbouring blocks are neighbouring bytes.
 class BoundLevel {
  public:
-  /// Makes the tables. Keeps a reference to the lattice. `stride_cells` is a power of two, at least 4. Throws
-  /// std::invalid_argument if the tables take more than 2 GB, as in windows and grids of more than about
-  /// 14,000 cells along each axis.
+  /// Uses the tables of the lattice's grid if they have this stride and suffice for the window, and makes
+  /// tables of the cells that the points can reach otherwise. Keeps a reference to the lattice. Throws as
+  /// BoundTables does.
   BoundLevel(const SearchLattice& lattice, int stride_cells);
 
   int stride_cells() const { return stride_; }
@@ -46,23 +44,21 @@ class BoundLevel {
     std::vector<std::int32_t> offsets;
   };
 
-  void make_tables(int first_x, int first_y, int end_x, int end_y);
-  void make_offsets(int number, Layer& layer) const;
+  const BoundTables& tables() const { return own_tables_ ? *own_tables_ : *grid_tables_; }
+  BoundTables make_tables() const;
+  void make_offsets(int number, Layer& layer);
 
   const SearchLattice& lattice_;
   int stride_;
-  int phases_;          // planes of a table along each axis: half a stride
-  int log_phases_ = 0;  // binary logarithm of phases_
   int headings_ = 1;
   int columns_;
   int rows_;
-  Cell origin_ = {0, 0};  // finest cell at the first half cell of the tables
-  int plane_columns_ = 0;
-  int plane_rows_ = 0;
-  std::ptrdiff_t row_bytes_ = 0;
-  std::ptrdiff_t plane_bytes_ = 0;
-  std::ptrdiff_t table_bytes_ = 0;
-  std::vector<std::uint8_t> tables_;
+  const BoundTables* grid_tables_;  // null: the tables are own_tables_
+  std::optional<BoundTables> own_tables_;
+  double reach_cells_;          // largest distance of a point from the robot
+  std::vector<float> x_cells_;  // points in the robot's frame
+  std::vector<float> y_cells_;
+  std::vector<std::int32_t> squares_;  // offset of each point's square, -1 for a point without scores
   std::vector<Layer> layers_;
 };
 

@@ -19,10 +19,17 @@ constexpr double kScoresPerCell = 40;
 // In windows with more poses than this, another level of large blocks saves more than its tables cost.
 constexpr double kHugePoses = 150e6;
 
+// Returns whether the grid keeps tables of bounds that suffice for the window.
+bool has_bounds(const SearchLattice& lattice, int stride = ScoreGrid::kBoundStrides.back()) {
+  const SearchWindow& window = lattice.window();
+  return lattice.grid().bounds(stride, 2 * window.n_x / stride + 1, 2 * window.n_y / stride + 1) != nullptr;
+}
+
 // Returns whether an exhaustive search takes less time than the tables of bounds, which cover the cells that
 // the scan can reach.
 bool is_cheaper_exhaustively(const SearchLattice& lattice) {
   const SearchWindow& window = lattice.window();
+  if (has_bounds(lattice)) return false;
   const ScoreLevel& grid = lattice.grid().finest();
   const double reach = lattice.scan().farthest_m / lattice.grid().resolution_m();
   const double cells = std::min(2 * (reach + window.n_x), double(grid.width())) *
@@ -81,8 +88,13 @@ class ExactSearch::BranchAndBound {
  public:
   explicit BranchAndBound(const SearchLattice& lattice) : lattice_(lattice), window_(lattice.window()) {
     levels_.reserve(kStrides.size());
-    for (const int stride : kStrides)
-      if (stride != kStrides.front() || window_.poses() > kHugePoses) levels_.emplace_back(lattice, stride);
+    const bool has_tables = has_bounds(lattice);
+    for (const int stride : kStrides) {
+      if (has_tables ? !has_bounds(lattice, stride)
+                     : stride == kStrides.front() && window_.poses() <= kHugePoses)
+        continue;
+      levels_.emplace_back(lattice, stride);
+    }
   }
 
   SearchOutcome find(std::uint32_t min_sum, const std::optional<ExcludedRegion>& excluded) {

@@ -98,6 +98,25 @@ void ScoreGrid::build_pyramid() {
   }
 }
 
+void ScoreGrid::make_bounds() {
+  bounds_.clear();
+  for (const int stride : kBoundStrides)
+    bounds_.emplace_back(stride, Cell{0, 0}, Cell{finest_.width(), finest_.height()}, kBoundedBlocks,
+                         kBoundedBlocks);
+}
+
+void ScoreGrid::update_bounds(Cell first, Cell end) {
+  for (BoundTables& tables : bounds_) tables.update(finest_, first, end);
+}
+
+const BoundTables* ScoreGrid::bounds(int stride_cells, int columns, int rows) const {
+  for (const BoundTables& tables : bounds_)
+    if (tables.stride_cells() == stride_cells && columns <= tables.layout().columns &&
+        rows <= tables.layout().rows)
+      return &tables;
+  return nullptr;
+}
+
 ScoreGrid::Sample ScoreGrid::interpolate(double x_m, double y_m) const {
   const double x = (x_m - origin_x_m_) / resolution_m_ - 0.5;
   const double y = (y_m - origin_y_m_) / resolution_m_ - 0.5;
@@ -126,6 +145,7 @@ ScoreGrid::Sample ScoreGrid::interpolate(double x_m, double y_m) const {
 std::size_t ScoreGrid::memory_bytes() const {
   std::size_t bytes = finest_.memory_bytes();
   for (const ScoreLevel& level : pyramid_) bytes += level.memory_bytes();
+  for (const BoundTables& tables : bounds_) bytes += tables.memory_bytes();
   return bytes;
 }
 

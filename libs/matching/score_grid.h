@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "matching/bound_tables.h"
+
 namespace psi_slam {
 
 /// Returns the largest integer not above `value`, which must fit an int. Faster than std::floor, which is a
@@ -21,6 +23,10 @@ namespace psi_slam {
 inline int floor_to_int(double value) {
   const int towards_zero = static_cast<int>(value);
   return towards_zero - (value < towards_zero ? 1 : 0);
+}
+inline int floor_to_int(float value) {
+  const int towards_zero = static_cast<int>(value);
+  return towards_zero - (value < static_cast<float>(towards_zero) ? 1 : 0);
 }
 
 /// One level of the pyramid. Cell (x, y) of a level with `stride_cells` = s > 1 holds the largest score among
@@ -74,6 +80,9 @@ class ScoreGrid {
  public:
   /// Strides of the pyramid levels in finest cells, from fine to coarse.
   static constexpr std::array<int, 2> kStrides = {2, 8};
+  /// Strides of the tables of bounds.
+  static constexpr std::array<int, 1> kBoundStrides = {4};
+  static constexpr int kBoundedBlocks = 32;
 
   ScoreGrid() = default;
   /// Makes a grid of zeros. Cell (0, 0) covers [origin, origin + resolution) on both axes, in metres.
@@ -96,6 +105,15 @@ class ScoreGrid {
   /// Returns level i of the pyramid, which has stride kStrides[i].
   const ScoreLevel& pyramid(std::size_t i) const { return pyramid_[i]; }
 
+  /// Makes tables of bounds for a grid without scores. Exact searches of windows of at most kBoundedBlocks
+  /// blocks along each axis use them; without them, each search makes its own. Throws as BoundTables does.
+  void make_bounds();
+  /// Takes over the scores of the cells [first, end) into the tables. Call it after each change.
+  void update_bounds(Cell first, Cell end);
+  /// Returns the tables for blocks of `stride_cells` and windows of columns x rows blocks; null if there are
+  /// none.
+  const BoundTables* bounds(int stride_cells, int columns, int rows) const;
+
   /// Score, divided by 255, and its gradient in 1/m, interpolated between cell centres by Catmull-Rom cubic
   /// splines. Value and gradient are zero outside the grid.
   struct Sample {
@@ -113,6 +131,7 @@ class ScoreGrid {
   double resolution_m_ = 0.05;
   ScoreLevel finest_;
   std::vector<ScoreLevel> pyramid_;
+  std::vector<BoundTables> bounds_;
 };
 
 }  // namespace psi_slam

@@ -10,16 +10,12 @@
 #include <memory>
 #include <vector>
 
+#include "matching/cell.h"
 #include "matching/scan_points.h"
 #include "matching/score_grid.h"
 #include "matching/search_window.h"
 
 namespace psi_slam {
-
-struct Cell {
-  std::int32_t x;
-  std::int32_t y;
-};
 
 /// A pose of the lattice, in steps from the window's centre: |x| <= n_x, |y| <= n_y, |theta| <= n_theta.
 struct LatticePose {

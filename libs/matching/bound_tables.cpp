@@ -56,7 +56,7 @@ BoundTables::BoundTables(int stride_cells, Cell first, Cell end, int columns, in
     : stride_(stride_cells),
       tables_(stride_cells / 2 + 2),
       first_(first),
-      end_(end),
+      end_{first.x + (end.x - first.x + 1) / 2 * 2, first.y + (end.y - first.y + 1) / 2 * 2},
       margin_(stride_cells),
       origin_{first.x - 2 * margin_, first.y - 2 * margin_},
       half_columns_((end.x - first.x + 1) / 2 + margin_),

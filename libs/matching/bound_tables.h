@@ -71,7 +71,7 @@ class BoundTables {
 
   int stride_;
   int tables_;
-  Cell first_;  // the cells of the level that the tables cover
+  Cell first_;  // the cells that the tables cover: whole half cells
   Cell end_;
   int margin_;  // half cells below the first that still have scores in their squares
   Cell origin_;

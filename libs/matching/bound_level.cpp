@@ -29,8 +29,8 @@ double reach_cells(const SearchLattice& lattice) {
 BoundLevel::BoundLevel(const SearchLattice& lattice, int stride_cells)
     : lattice_(lattice),
       stride_(stride_cells),
-      columns_((2 * lattice.window().n_x + stride_cells) / stride_cells),
-      rows_((2 * lattice.window().n_y + stride_cells) / stride_cells),
+      columns_(blocks_of(lattice.window().n_x, stride_cells)),
+      rows_(blocks_of(lattice.window().n_y, stride_cells)),
       grid_tables_(lattice.grid().bounds(stride_cells, columns_, rows_)),
       reach_cells_(reach_cells(lattice)) {
   const SearchWindow& window = lattice.window();

@@ -27,6 +27,9 @@ class BoundLevel {
 
   int stride_cells() const { return stride_; }
   int headings() const { return headings_; }  ///< number of headings in a layer, a power of two
+  /// Number of blocks of `stride_cells` shifts over a window of n steps to each side.
+  static int blocks_of(int n, int stride_cells) { return (2 * n + stride_cells) / stride_cells; }
+
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   int layers() const { return static_cast<int>(layers_.size()); }

@@ -124,11 +124,11 @@ void BoundTables::write_smallest_squares(const ScoreLevel& scores, Cell low, Cel
   }
   for (int side = 1; side < phases; side *= 2) widen(half, side);
   for (int y = from.y; y < high.y; ++y) {
-    const std::uint8_t* squares = half.row(y - from.y) - from.x;
+    const std::uint8_t* squares = half.row(y - from.y);
     for (int i = 0; i < phases; ++i) {
       const Places places = places_in(i, phases, from.x, high.x);
       std::uint8_t* row = row_of(0, y % phases, i, y / phases);
-      for (int x = places.first; x < places.end; ++x) row[x] = squares[x * phases + i];
+      for (int x = places.first; x < places.end; ++x) row[x] = squares[x * phases + i - from.x];
     }
   }
 }

@@ -38,9 +38,10 @@ struct BoundLayout {
     const bool may_score = (column + window_columns > 0) & (column < plane_columns) &
                            (row + window_rows > 0) & (row < plane_rows);
     const int plane = ((y & (phases - 1)) << log_phases) + (x & (phases - 1));
-    const std::int32_t place = (half_cells - phases) * table_bytes + plane * plane_bytes +
-                               (rows + row) * row_bytes + columns + column;
-    return may_score ? place : -1;
+    const std::int64_t place = std::int64_t{half_cells - phases} * table_bytes +
+                               std::int64_t{plane} * plane_bytes + std::int64_t{rows + row} * row_bytes +
+                               columns + column;
+    return may_score ? static_cast<std::int32_t>(place) : -1;
   }
 };
 

@@ -22,7 +22,8 @@ constexpr double kHugePoses = 150e6;
 // Returns whether the grid keeps tables of bounds that suffice for the window.
 bool has_bounds(const SearchLattice& lattice, int stride = ScoreGrid::kBoundStrides.back()) {
   const SearchWindow& window = lattice.window();
-  return lattice.grid().bounds(stride, 2 * window.n_x / stride + 1, 2 * window.n_y / stride + 1) != nullptr;
+  return lattice.grid().bounds(stride, BoundLevel::blocks_of(window.n_x, stride),
+                               BoundLevel::blocks_of(window.n_y, stride)) != nullptr;
 }
 
 // Returns whether an exhaustive search takes less time than the tables of bounds, which cover the cells that
@@ -111,6 +112,7 @@ class ExactSearch::BranchAndBound {
  private:
   // Sides of the blocks, from coarse to fine. Single poses follow. Only huge windows use the first.
   static constexpr std::array<int, 3> kStrides = {16, 8, 4};
+  static_assert(ScoreGrid::kBoundStrides.back() == kStrides.back());  // so there is always a level
 
   // Bounds all blocks of the first level, and sorts its layers by descending bounds.
   void bound_top_level() {

@@ -156,6 +156,7 @@ bool BlockCholesky::compute_touched(const SymmetricBlockMatrix& matrix, double l
   const std::size_t n = size();
   const BlockProducts subtract_products = block_products();
   has_factor_ = false;
+  num_last_products_ = 0;
   std::fill(mark_.begin(), mark_.end(), kNone);
   for (std::size_t i = 0; i < n; ++i) {
     const auto begin = rows_.begin() + static_cast<std::ptrdiff_t>(column_begin_[i]);
@@ -178,6 +179,7 @@ bool BlockCholesky::compute_touched(const SymmetricBlockMatrix& matrix, double l
         rows_[here] = k;
         blocks_[here] = (inverse_diagonal_[i] * work_[i]).transpose();
       }
+      num_last_products_ += here - first_[i] + 1;
       const Matrix3d x = blocks_[here].transpose();
       work_[i].setZero();
       subtract_products(blocks_.data() + first_[i], rows_.data() + first_[i], here - first_[i], x,
@@ -211,6 +213,7 @@ void BlockCholesky::solve(Eigen::VectorXd& b) const {
 
 BlockCholesky::InverseColumns BlockCholesky::inverse_columns(std::size_t k) const {
   InverseColumns result;
+  const BlockProducts subtract_products = block_products();
   std::size_t height = 0;
   for (auto i = static_cast<std::uint32_t>(k); i != kNone; i = parent_[i]) ++height;
   result.rows.reserve(height);
@@ -225,7 +228,7 @@ BlockCholesky::InverseColumns BlockCholesky::inverse_columns(std::size_t k) cons
     for (std::size_t p = column_begin_[column]; p < column_end_[column]; ++p) {
       while (result.rows[target] != rows_[p]) ++target;
       const auto at = static_cast<std::uint32_t>(target);
-      block_products()(&blocks_[p], &at, 1, x, result.blocks.data());
+      subtract_products(&blocks_[p], &at, 1, x, result.blocks.data());
     }
   }
   return result;

@@ -79,6 +79,8 @@ class BlockCholesky {
   std::size_t size() const { return parent_.size(); }
   /// Number of block products of a factorisation. A better order of elimination needs fewer.
   std::size_t num_products() const { return num_products_; }
+  /// Number of block products of the last factorisation, less than num_products() if it kept columns.
+  std::size_t num_last_products() const { return num_last_products_; }
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffff;
@@ -88,6 +90,7 @@ class BlockCholesky {
   bool compute_touched(const SymmetricBlockMatrix& matrix, double lambda);
 
   std::size_t num_products_ = 0;
+  std::size_t num_last_products_ = 0;
   std::vector<std::uint32_t> parent_;      // parent of each node in the elimination tree
   std::vector<std::size_t> column_begin_;  // first block of each column of L
   std::vector<std::size_t> column_end_;    // end of each column; during a factorisation: its next block

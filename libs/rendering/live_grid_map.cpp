@@ -62,7 +62,7 @@ void LiveGridMap::update(const std::vector<Frame>& log, const Poses& map_T_robot
   for (std::size_t i = drawn_.size(); i < log.size(); ++i) {
     drawn_.emplace_back();
     ++missing_;
-    draw(log[i], map_T_robot(i), drawn_.back());
+    draw(log[i], map_T_robot(i), i);
     if (i + kRecentFrames >= log.size()) recent_.push_back(log[i]);
   }
   while (recent_.size() > kRecentFrames) recent_.pop_front();
@@ -77,7 +77,7 @@ void LiveGridMap::follow_changes(const std::vector<Frame>& log) {
     if (is_same_frame(recent_[k], log[i])) continue;
     Drawn& drawn = drawn_[i];
     take_out(recent_[k], drawn);
-    draw(log[i], drawn.map_T_robot, drawn);
+    draw(log[i], drawn.map_T_robot, i);
     recent_[k] = log[i];
   }
 }
@@ -95,7 +95,7 @@ void LiveGridMap::draw_moved(const std::vector<Frame>& log, const Poses& map_T_r
       const Frame& frame = as_drawn(next_check_, log);
       if (drawn.is_drawn && has_ranges(frame) != drawn.has_ranges) return start_again(resolution_m_);
       take_out(frame, drawn);
-      draw(frame, pose, drawn);
+      draw(frame, pose, next_check_);
       unmoved_ = 0;
     } else {
       unmoved_ = std::min(unmoved_ + 1, drawn_.size());
@@ -109,10 +109,10 @@ const Frame& LiveGridMap::as_drawn(std::size_t frame, const std::vector<Frame>& 
   return frame < first_recent ? log[frame] : recent_[frame - first_recent];
 }
 
-void LiveGridMap::draw(const Frame& frame, const TPose2D& map_T_robot, Drawn& drawn) {
+void LiveGridMap::draw(const Frame& frame, const TPose2D& map_T_robot, std::size_t index) {
   const FrameCells& found = finder_.find(frame, map_T_robot);
   tiles_.add(found);
-  const auto index = static_cast<std::size_t>(&drawn - drawn_.data());
+  Drawn& drawn = drawn_[index];
   if (index / kFramesWithBounds >= bounds_.size()) bounds_.emplace_back();
   Bounds& bounds = bounds_[index / kFramesWithBounds];
   bounds.may_shrink = bounds.may_shrink || touches_edge(drawn.bounds, bounds.box);

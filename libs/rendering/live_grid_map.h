@@ -72,7 +72,7 @@ class LiveGridMap {
     bool is_drawn = false;  ///< false until the frame is drawn with coarser cells
   };
 
-  void draw(const Frame& frame, const mrpt::math::TPose2D& map_T_robot, Drawn& drawn);
+  void draw(const Frame& frame, const mrpt::math::TPose2D& map_T_robot, std::size_t index);
   void take_out(const Frame& frame, Drawn& drawn);
   void follow_changes(const std::vector<Frame>& log);
   void draw_moved(const std::vector<Frame>& log, const Poses& map_T_robot, const Hurry& hurry);

@@ -27,7 +27,7 @@ constexpr double kFullRange_m = 5;     // beams weigh less beyond
 constexpr double kTube_m = 0.12;       // radius of the space around a beam that its neighbours must find free
 constexpr double kWidestGap_m = 0.3;   // between the points where neighbouring beams meet an obstacle
 constexpr double kBeamsPerMetre = 60;  // of cell, for one free interval
-constexpr double kOneCell_m = 0.05;    // cells up to this size: the beams in all cells near count in full
+constexpr double kOneCell_m = 0.05;    // size of the cells near which beams count in full
 constexpr float kMostOfVisit = 12;     // weight of free intervals
 constexpr float kReturn = 0.9F;        // free weight after which a hit counts as a return; less is forgotten
 constexpr double kLeastFree = 1;       // weight that refutes a cell of a single visit
@@ -44,9 +44,10 @@ constexpr double kRim_m = 0.15;           // reach of the cells that vanish with
 constexpr double kLeastOfRim = 0.3;       // refutation of a cell that vanishes with a thing
 constexpr float kLeastCrossed = 1;        // or weight of the beams that crossed it without an end in it
 constexpr std::uint32_t kRimSlack = 3;    // intervals by which it may have been seen longer
-constexpr double kMajority = 0.35;        // or share of the cells around it that vanish and were seen as long
-constexpr double kSurfaceGap_m = 0.25;    // largest distance between the ends of neighbouring beams
-constexpr double kSurfaceSpacings = 4;    // or multiple of the distance between the beams there
+constexpr double kShareOfThing =
+    0.35;  // or share of the obstacles around it that vanish and were hit as long
+constexpr double kSurfaceGap_m = 0.25;     // largest distance between the ends of neighbouring beams
+constexpr double kSurfaceSpacings = 4;     // or multiple of the distance between the beams there
 constexpr std::int64_t kSurfaceShare = 8;  // one in so many hits makes a long thing a surface
 constexpr double kLargeSurface_m = 1.5;
 constexpr double kLink_m = 0.3;  // gap within one thing
@@ -106,6 +107,13 @@ bool is_narrow(const std::vector<double>& clear_m, std::size_t beam, double rang
   return false;
 }
 
+// Returns the share with which the beams through each cell near a cell count. A beam counts once for each
+// near cell that it crosses. These are more in smaller cells, where fewer beams weigh 1, too.
+float share_of_near(double resolution_m) {
+  const double cells = resolution_m / kOneCell_m;
+  return static_cast<float>(cells < 1 ? cells * cells : 1 / cells);
+}
+
 }  // namespace
 
 MovingThings::MovingThings(const COccupancyGridMap2D& grid, const GridLayout& layout,
@@ -114,7 +122,7 @@ MovingThings::MovingThings(const COccupancyGridMap2D& grid, const GridLayout& la
       maker_(options),
       near_(static_cast<std::int64_t>(std::max(kNear_m / layout.resolution_m, kNearCells))),
       beams_(static_cast<float>(std::max(1.0, kBeamsPerMetre * layout.resolution_m))),
-      share_of_near_(static_cast<float>(std::min(1.0, kOneCell_m / layout.resolution_m))),
+      share_of_near_(share_of_near(layout.resolution_m)),
       find_(static_cast<std::size_t>(layout.width * layout.height), -1) {
   constexpr std::int32_t kFar = 10'000;
   find_obstacles(grid);
@@ -346,7 +354,7 @@ void MovingThings::see_occupied(Sightings& cell, bool is_new_visit) {
 }
 
 /// Counts the beams that crossed a cell or, as they would have hit the same thing, the obstacles within the
-/// tolerance of a hit.
+/// tolerance of a hit. A beam counts once for each of these obstacles, so a large thing needs fewer beams.
 void MovingThings::see_free(Sightings& cell) {
   float around = 0;
   for_each_near(cell.x, cell.y, [&](std::int32_t found) {
@@ -418,8 +426,8 @@ void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
 }
 
 /// Adds the cells at the rim of moving things, which few beams refute or which are close to a wall: beams saw
-/// them occupied only while they saw a neighbour that moved. Adds the rest of a thing most of which moved,
-/// too.
+/// them occupied only while they saw a neighbour that moved. Adds the rest of a thing, too: cells
+/// around which enough obstacles moved.
 void MovingThings::add_rims(std::vector<bool>& is_moving) const {
   const std::int64_t reach = cells_in(kRim_m, layout_.resolution_m);
   const std::int64_t patch = cells_in(kPatch_m, layout_.resolution_m);
@@ -444,7 +452,7 @@ void MovingThings::add_rims(std::vector<bool>& is_moving) const {
             is_of_thing || (is_moving[static_cast<std::size_t>(found)] &&
                             ((is_doubtful && hit_with(thing)) || (is_crossed && ended_with(thing))));
       });
-    if (!is_of_thing) {
+    if (!is_of_thing && cell.first_end != 0) {
       int around = 0;
       int moving = 0;
       for_each_around(cell.x, cell.y, patch, [&](std::int32_t found) {
@@ -452,7 +460,7 @@ void MovingThings::add_rims(std::vector<bool>& is_moving) const {
         ++around;
         if (is_moving[other] && ended_with(cells_[other])) ++moving;
       });
-      is_of_thing = moving >= kMajority * around;
+      is_of_thing = moving >= kShareOfThing * around;
     }
     if (is_of_thing) rim.push_back(i);
   }

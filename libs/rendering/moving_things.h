@@ -6,9 +6,9 @@
 // is seen free if beams crossed it and ended beyond, and so did the beams within 0.12 m of them and at least
 // one on either side: a beam that grazes a surface sees nothing free. The tolerances absorb errors of poses
 // and ranges. Three beams within 5 m weigh 1 in cells of 0.05 m; fewer beams or beams from farther away weigh
-// less. Beams through other obstacles within the tolerance count, too, so more beams speak about a person
-// than about a post. A visit of the robot to the cell weighs at most 12, because its poses share their
-// errors.
+// less. A beam counts once for each obstacle within the tolerance that it crosses, so more beams speak about
+// a person than about a post. A visit of the robot to the cell weighs at most 12, because its poses share
+// their errors.
 //
 // A cell is refuted if the free weight is at least 1, plus 0.7 for each further visit that saw the cell
 // occupied, plus 1 for each time that it was seen occupied again after it was seen free; up to four times as
@@ -20,7 +20,8 @@
 // A cell within 0.15 m of a refuted one vanishes, too, if it was occupied only during the same time and if
 // its free weight reaches 0.3 of what refutes it, or if the beams that crossed it before the first beam and
 // after the last beam that ended in the cell itself weigh 1 in sum. So the ends of a door beside its frame
-// vanish. A cell also vanishes if a third of the obstacles within 0.25 m do and were hit as long as it.
+// vanish. A cell in which beams ended also vanishes if at least 35 % of all obstacles within 0.25 m do and
+// were hit as long as it.
 //
 // Obstacles longer than 1.5 m stay if the beams hit them as one surface: a wall in two places after an
 // error of the poses, or a barrier that beams hit only from some directions.

@@ -33,6 +33,8 @@ TEST(BlockProducts, are_subtracted_from_the_blocks_of_their_rows) {
   for (std::size_t p = 0; p < rows.size(); ++p) expected[rows[p]] -= factors[p] * x[0];
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_LT((baseline[i] - expected[i]).norm(), 1e-14);
 
+  if (block_products() == block_products_baseline())
+    GTEST_SKIP() << "this processor has no faster kernel to compare";
   Blocks fastest = before;
   block_products()(factors.data(), rows.data(), rows.size(), x[0], fastest.data());
   EXPECT_EQ(std::memcmp(fastest.data(), baseline.data(), baseline.size() * sizeof(Eigen::Matrix3d)), 0);

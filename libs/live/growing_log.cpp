@@ -50,13 +50,17 @@ class GrowingBytes : public ByteSource {
 
   std::size_t read(char* bytes, std::size_t size) override {
     const Clock::time_point began = Clock::now();
+    std::optional<Clock::time_point> closed;
     while (!ended_) {
       ended_ = recorder_.should_stop();
       if (ended_) break;
-      const bool is_closed = recorder_.is_closed();
       if (const std::size_t got = file_.read(bytes, size); got > 0) return got;
-      const std::chrono::duration<double> waited = Clock::now() - began;
-      ended_ = (is_closed && waited > kClosing) || !recorder_.wait(waited.count());
+      const Clock::time_point now = Clock::now();
+      if (!closed && recorder_.is_closed()) closed = now;
+      // The recorder may have written after the first reading and before it closed the file.
+      if (const std::size_t got = file_.read(bytes, size); got > 0) return got;
+      const std::chrono::duration<double> waited = now - began;
+      ended_ = (closed && now - *closed > kClosing) || !recorder_.wait(waited.count());
     }
     return 0;
   }
@@ -77,6 +81,10 @@ LogFormat format_by_name(fs::path file) {
   if (ending == ".mcap") return LogFormat::kRos2Mcap;
   if (ending == ".db3") return LogFormat::kRos2Sqlite;
   return ending == ".rawlog" ? LogFormat::kMrptRawlog : LogFormat::kCarmen;
+}
+
+bool is_gzip(const std::string& head) {
+  return starts_with(head, "\x1f\x8b");
 }
 
 /// Returns the first bytes on disk.
@@ -111,7 +119,7 @@ LogFormat growing_format(const fs::path& file) {
     format = detect_log_format(file);
   } catch (const UserError&) {  // it is empty, or its first lines are comments
   }
-  const bool is_packed_database = format == LogFormat::kRos2Sqlite && !head.empty() && head != "SQLi";
+  const bool is_packed_database = format == LogFormat::kRos2Sqlite && is_gzip(head);
   if (is_zstd(head) || is_packed_database)
     throw UserError(
         file.string() +
@@ -123,6 +131,7 @@ LogFormat growing_format(const fs::path& file) {
 BagRecorder patient_recorder(LiveControl control, std::optional<double> idle_s) {
   BagRecorder recorder;
   recorder.should_stop = control.should_stop;
+  recorder.notify = std::move(control.notify);
   recorder.wait = [should_stop = std::move(control.should_stop), idle_s](double waited_s) {
     if (should_stop() || (idle_s && waited_s >= *idle_s)) return false;
     std::this_thread::sleep_for(kWait);

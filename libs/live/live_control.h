@@ -8,7 +8,7 @@ namespace psi_slam {
 
 /// Ends a live source, and receives its notices.
 struct LiveControl {
-  /// Returns whether the source shall end. Called about ten times a second, from the threads of the source.
+  /// Returns whether the source shall end. Called often, from the threads of the source.
   std::function<bool()> should_stop;
   /// Takes sentences such as "listening on 127.0.0.1:5000", without full stop. Called from the threads of the
   /// source.

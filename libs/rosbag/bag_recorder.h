@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 namespace psi_slam {
 
@@ -14,6 +15,10 @@ struct BagRecorder {
   std::function<bool(double waited_s)> wait;
   /// Returns whether the recorder writes no more messages to the file.
   std::function<bool()> is_closed = [] { return false; };
+  /// Takes a sentence without full stop on why nothing can be read.
+  std::function<void(const std::string&)> notify = [](const std::string&) {};
+  /// Seconds without a readable state of the file, after which notify() is called.
+  double notice_after_s = 10;
 };
 
 }  // namespace psi_slam

@@ -69,6 +69,31 @@ TEST_F(GrowingLogTest, a_file_that_stops_growing_ends_as_a_log) {
             "FLASER one\nFLASER two");
 }
 
+TEST_F(GrowingLogTest, asks_whether_a_file_is_closed_only_at_its_end) {
+  const auto file = folder_.path() / "my.mcap";
+  write_file(file, "one");
+  int asked = 0;
+  BagRecorder recorder = patient_recorder(control(), 0.0);
+  recorder.is_closed = [&] {
+    if (++asked == 1) std::ofstream(file, std::ios::app) << "two";
+    return true;
+  };
+  const auto bytes = growing_bytes(file, recorder);
+  std::array<char, 2> room{};
+  std::string text;
+  const auto read = [&] {
+    const std::size_t got = bytes->read(room.data(), room.size());
+    text.append(room.data(), got);
+    return got;
+  };
+  read();
+  read();
+  EXPECT_EQ(text, "one");
+  EXPECT_EQ(asked, 0);
+  while (read() > 0) continue;
+  EXPECT_EQ(text, "onetwo") << "the last bytes before the file was closed";
+}
+
 TEST_F(GrowingLogTest, knows_formats_by_content_and_before_that_by_name) {
   const auto format_of = [&](const std::string& name, const std::string& bytes = "") {
     write_file(folder_.path() / name, bytes);
@@ -89,6 +114,7 @@ TEST_F(GrowingLogTest, knows_formats_by_content_and_before_that_by_name) {
   EXPECT_EQ(format_of("run.log"), LogFormat::kCarmen);
   EXPECT_EQ(format_of("any", std::string("SQLite format 3\0", 16)), LogFormat::kRos2Sqlite);
   EXPECT_EQ(format_of("run_0.db3"), LogFormat::kRos2Sqlite);
+  EXPECT_EQ(format_of("run_0.db3", "garbage"), LogFormat::kRos2Sqlite) << "its reader refuses it";
   EXPECT_EQ(growing_format(folder_.path()), LogFormat::kRos2Folder) << "it has a .db3 file";
   EXPECT_EQ(growing_format(TemporaryFolder().path()), LogFormat::kRos2Folder) << "it is empty";
 }

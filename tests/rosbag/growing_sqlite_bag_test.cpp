@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
+#include <sqlite3.h>
 
 #include <chrono>
 #include <ostream>
@@ -21,6 +22,7 @@ namespace {
 using Path = std::filesystem::path;
 using Pragmas = std::vector<std::string>;
 using namespace std::chrono_literals;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// Messages as text, each with its topic, time and bytes.
@@ -138,9 +140,9 @@ TEST_P(KilledRecorder, leaves_what_it_committed) {
   ASSERT_TRUE(soon([&] { return std::filesystem::exists(path_); }));
   BagRecorder impatient = recorder_until([] { return false; });
   bool is_killed = false;
-  impatient.wait = [&](double /*waited_s*/) {
+  impatient.wait = [&](double waited_s) {
     std::this_thread::sleep_for(1ms);
-    if (is_killed) return false;
+    if (is_killed || waited_s > 60) return false;
     if (std::filesystem::exists(begun)) {
       recorder.kill();
       is_killed = true;
@@ -176,6 +178,25 @@ class ClosedSqliteBag : public GrowingSqliteBag {
   std::unique_ptr<BagFile> follow() const {
     return follow_sqlite_bag(path_, recorder_until([] { return true; }));
   }
+
+  void run_sql(const std::string& text) const {
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(path_.c_str(), &database), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(database, text.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << text;
+    sqlite3_close(database);
+  }
+
+  /// Returns the notices of a reader that waits three times.
+  std::vector<std::string> notices() const {
+    std::vector<std::string> notices;
+    BagRecorder recorder = recorder_until([] { return false; });
+    recorder.notify = [&](const std::string& notice) { notices.push_back(notice); };
+    recorder.notice_after_s = 0;
+    int waits = 0;
+    recorder.wait = [&](double) { return ++waits < 3; };
+    messages_of(*follow_sqlite_bag(path_, recorder));
+    return notices;
+  }
 };
 
 TEST_F(ClosedSqliteBag, ends_without_tables) {
@@ -210,6 +231,46 @@ TEST_F(ClosedSqliteBag, says_that_it_is_damaged) {
                 follow_sqlite_bag(folder_.path() / "none.db3", recorder_until([] { return true; }));
               }),
               HasSubstr("cannot read"));
+}
+
+TEST_F(ClosedSqliteBag, refuses_tables_of_other_programs) {
+  run_sql("CREATE TABLE topics(a)");
+  EXPECT_TRUE(messages_of(*follow()).empty()) << "the other table may come";
+  run_sql("CREATE TABLE messages(b)");
+  EXPECT_THAT(sentence_of([&] { messages_of(*follow()); }),
+              HasSubstr("or is not a ROS 2 bag (no such column: id)"));
+}
+
+TEST_F(ClosedSqliteBag, says_once_why_nothing_is_read) {
+  run_sql("CREATE TABLE others(a)");
+  EXPECT_THAT(notices(), ElementsAre(HasSubstr("run_0.db3 has no tables of a ROS 2 bag yet")));
+  {
+    Db3Writer writer(path_, {"locking_mode=EXCLUSIVE"});
+    writer.create_tables();
+    EXPECT_THAT(notices(), ElementsAre(HasSubstr("run_0.db3 cannot be read, because its recorder locks it")));
+  }
+  EXPECT_THAT(notices(), ElementsAre()) << "the recorder only pauses";
+}
+
+TEST_F(ClosedSqliteBag, waits_for_rows_of_any_topic) {
+  using Clock = std::chrono::steady_clock;
+  const Recording recording = long_recording(10);
+  Db3Writer writer(path_, {});
+  writer.create_tables();
+  BagRecorder recorder = recorder_until([] { return false; });
+  std::size_t waits = 0;
+  Clock::time_point written = Clock::now();
+  recorder.wait = [&](double waited_s) {
+    EXPECT_LE(waited_s, std::chrono::duration<double>(Clock::now() - written).count()) << waits;
+    std::this_thread::sleep_for(1ms);
+    written = Clock::now();
+    writer.add(recording[waits], cdr(recording[waits]));
+    return ++waits < recording.size();
+  };
+  const auto bag = follow_sqlite_bag(path_, recorder);
+  bag->want({"/second"});
+  EXPECT_TRUE(messages_of(*bag).empty());
+  EXPECT_EQ(waits, recording.size());
 }
 
 TEST_F(ClosedSqliteBag, ends_when_the_user_stops) {

@@ -71,17 +71,6 @@ fs::path listed_file(const fs::path& folder, const fs::path& name) {
   return folder / name.filename();
 }
 
-/// Orders "run_2.db3" before "run_10.db3".
-bool by_numbers(const fs::path& a, const fs::path& b) {
-  const auto key = [](const fs::path& path) {
-    const std::string stem = without_zstd(path).stem().string();
-    const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
-    const std::string number = stem.substr(digits);
-    return std::make_tuple(stem.substr(0, digits), number.size(), number);
-  };
-  return key(a) < key(b);
-}
-
 std::vector<fs::path> files_listed(const fs::path& metadata) {
   std::vector<fs::path> files;
   try {
@@ -116,6 +105,17 @@ fs::path without_zstd(fs::path path) {
   return path;
 }
 
+bool is_earlier_bag_file(const fs::path& a, const fs::path& b) {
+  const auto key = [](const fs::path& path) {
+    const fs::path unpacked = without_zstd(path);
+    const std::string stem = unpacked.stem().string();
+    const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
+    const std::string number = stem.substr(digits);
+    return std::make_tuple(stem.substr(0, digits), number.size(), number, unpacked.extension().string());
+  };
+  return key(a) < key(b);
+}
+
 std::vector<fs::path> files_of_bag_folder(const fs::path& folder) {
   std::error_code ignored;
   if (fs::exists(folder / "metadata.yaml", ignored)) return files_listed(folder / "metadata.yaml");
@@ -130,7 +130,7 @@ std::vector<fs::path> numbered_bag_files(const fs::path& folder) {
     const bool is_bag_file = unpacked.extension() == ".db3" || unpacked.extension() == ".mcap";
     if (is_bag_file && (entry.path() == unpacked || !fs::exists(unpacked))) files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end(), by_numbers);
+  std::sort(files.begin(), files.end(), is_earlier_bag_file);
   return files;
 }
 

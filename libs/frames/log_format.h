@@ -29,6 +29,10 @@ std::vector<std::filesystem::path> files_of_bag_folder(const std::filesystem::pa
 /// compressed by zstd (.db3.zstd). An unpacked file takes precedence over the compressed one.
 std::vector<std::filesystem::path> numbered_bag_files(const std::filesystem::path& folder);
 
+/// Orders bag files by the numbers in their names: "run_2.db3" before "run_10.db3". A compressed file is
+/// equal to the unpacked one.
+bool is_earlier_bag_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// Returns a path without the ending that zstd programs add: "run_0.db3" for "run_0.db3.zstd".
 std::filesystem::path without_zstd(std::filesystem::path path);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "live/growing_folder.h"
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <iterator>
@@ -31,9 +32,8 @@ GrowingFolder::GrowingFolder(fs::path folder, BagRecorder recorder) : folder_(st
     ended_ = ended_ || !wait(waited_s);
     return !ended_;
   };
-  recorder_.is_closed = [this] {
-    return numbered_bag_files(folder_).size() > opened_ || is_closed_bag(folder_);
-  };
+  recorder_.is_closed = [this] { return next_file().has_value() || is_closed_bag(folder_); };
+  recorder_.notify = std::move(recorder.notify);
 }
 
 void GrowingFolder::want(const std::vector<std::string>& topics) {
@@ -42,12 +42,19 @@ void GrowingFolder::want(const std::vector<std::string>& topics) {
 }
 
 bool GrowingFolder::next(BagMessage& message) {
-  while (!ended_) {
+  while (!recorder_.should_stop()) {
     if (!file_ && !open_next()) return false;
     if (file_->next(message)) return true;
     file_.reset();
   }
   return false;
+}
+
+/// Returns the first file after the last one that was opened. The user may delete files that were read.
+std::optional<fs::path> GrowingFolder::next_file() const {
+  const std::vector<fs::path> files = numbered_bag_files(folder_);
+  const auto next = std::upper_bound(files.begin(), files.end(), last_, is_earlier_bag_file);
+  return next == files.end() ? std::nullopt : std::optional(*next);
 }
 
 /// Waits for the next file. Returns false if there will be none.
@@ -56,14 +63,14 @@ bool GrowingFolder::open_next() {
   const Clock::time_point began = Clock::now();
   while (!file_) {
     const bool is_closed = is_closed_bag(folder_);
-    if (const std::vector<fs::path> files = numbered_bag_files(folder_); opened_ < files.size()) {
-      const fs::path& file = files[opened_++];
+    if (const std::optional<fs::path> file = next_file()) {
+      const fs::path before = std::exchange(last_, *file);
       try {
-        file_ = open(file);
+        file_ = open(*file);
       } catch (const UserError&) {
         std::error_code ignored;
-        if (fs::exists(file, ignored)) throw;
-        --opened_;  // the recorder has just compressed it
+        if (fs::exists(*file, ignored)) throw;
+        last_ = before;  // the recorder has just compressed the file
       }
     } else if (is_closed) {
       return false;

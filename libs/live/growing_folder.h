@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,13 +32,14 @@ class GrowingFolder : public BagFile {
   std::string place() const override { return file_ ? file_->place() : folder_.string(); }
 
  private:
+  std::optional<std::filesystem::path> next_file() const;
   bool open_next();
   std::unique_ptr<BagFile> open(const std::filesystem::path& file);
 
   std::filesystem::path folder_;
   BagRecorder recorder_;
-  bool ended_ = false;      // the user stopped, or waits no longer
-  std::size_t opened_ = 0;  // files that were opened
+  bool ended_ = false;          // the user stopped, or waits no longer
+  std::filesystem::path last_;  // file that was opened last; empty: none
   std::unique_ptr<BagFile> file_;
 };
 

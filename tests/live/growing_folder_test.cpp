@@ -170,6 +170,33 @@ TEST_F(GrowingFolderTest, ends_when_nothing_comes) {
   EXPECT_EQ(name_of(with_slash), folder_.path().filename().string());
 }
 
+TEST_F(GrowingFolderTest, files_that_were_read_may_be_deleted) {
+  const auto write = [&](std::size_t number) {
+    const std::string name = "run_" + std::to_string(number) + ".db3";
+    write_db3(folder_.path() / name, part_of(recorded_run(kScans), number));
+  };
+  write(0);
+  write(1);
+  const auto live = open_live(input(0.0), {}, control());
+  ASSERT_TRUE(live->next());
+  std::filesystem::remove(folder_.path() / "run_0.db3");
+  write(2);
+  EXPECT_EQ(all_frames(*live).size(), static_cast<std::size_t>(kScans) - 1);
+}
+
+TEST_F(GrowingFolderTest, ends_within_a_compressed_file_when_the_user_stops) {
+  write_db3(folder_.path() / "run_0.db3", recorded_run(kScans));
+  write_file(folder_.path() / "run_0.db3.zstd", zstd_frame(read_file(folder_.path() / "run_0.db3")));
+  std::filesystem::remove(folder_.path() / "run_0.db3");
+  bool stops = false;
+  LiveControl stoppable = control();
+  stoppable.should_stop = [&] { return stops; };
+  const auto live = open_live(input(), {}, stoppable);
+  ASSERT_TRUE(live->next());
+  stops = true;
+  EXPECT_LT(all_frames(*live).size(), static_cast<std::size_t>(kScans) / 2);
+}
+
 TEST_F(GrowingFolderTest, a_single_database_ends_when_the_recorder_closes_its_bag) {
   write_db3(folder_.path() / "run_0.db3", recorded_run(kScans));
   write_file(folder_.path() / "metadata.yaml", metadata({"run_0.db3"}));

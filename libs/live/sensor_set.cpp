@@ -14,6 +14,7 @@
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/system/COutputLogger.h>
+#include <mrpt/version.h>
 
 #include <algorithm>
 #include <exception>
@@ -65,7 +66,10 @@ bool is_empty_scan(const CSerializable& object) {
   return scan != nullptr && scan->getScanSize() == 0;
 }
 
-/// Corrects a scan of CRoboPeakLidar. This driver (MRPT 2.5.8 and 2.14) takes the angles of the laser, in
+// 2.15.0; later drivers of RPLIDAR lasers were not tested.
+constexpr bool kCorrectsRplidar = MRPT_VERSION < 0x20f00;
+
+/// Corrects a scan of CRoboPeakLidar. This driver (MRPT 2.5.8 to 2.14) takes the angles of the laser, in
 /// units of 90/16384 degrees, for units of 1/128 degree. So reading k is of k * 45/64 degrees, not of k
 /// degrees, and the readings beyond 253 degrees are lost.
 void correct_rplidar(mrpt::obs::CObservation2DRangeScan& scan) {
@@ -113,7 +117,10 @@ class SensorSet::Sensor {
 
   /// A remark for users on what the driver gives.
   const char* remark() const {
-    return is_rplidar_ ? ", but the driver loses the readings from 73 to 180 degrees to the right" : "";
+    if (!is_rplidar_) return "";
+    return kCorrectsRplidar
+               ? ", but the driver loses the readings from 73 to 180 degrees to the right"
+               : ". Check the map: psi-slam corrects this driver's bearings up to MRPT 2.14 only";
   }
 
   /// Reads the sensor once. Throws std::exception if it has failed for some time.
@@ -125,7 +132,8 @@ class SensorSet::Sensor {
     for (const auto& [stamp, object] : observations) {
       fails = fails || is_empty_scan(*object);
       if (!is_wanted(*object) || is_empty_scan(*object)) continue;
-      if (is_rplidar_) correct_rplidar(dynamic_cast<mrpt::obs::CObservation2DRangeScan&>(*object));
+      if (is_rplidar_ && kCorrectsRplidar)
+        correct_rplidar(dynamic_cast<mrpt::obs::CObservation2DRangeScan&>(*object));
       objects.push_back(object);
     }
     watch(!objects.empty(), fails);

@@ -19,13 +19,19 @@ inline Trajectory trajectory_of(const std::vector<FrameRecord>& frames) {
   return trajectory;
 }
 
+/// Returns the elements of each run from those of all frames.
+template <class Element>
+std::vector<std::vector<Element>> split_by_runs(const std::vector<Element>& of_frames,
+                                                const MappingResult& result) {
+  const auto at = [&](std::size_t i) { return of_frames.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::vector<std::vector<Element>> of_runs;
+  for (const FrameSpan& run : runs_of(result)) of_runs.emplace_back(at(run.begin), at(run.end));
+  return of_runs;
+}
+
 /// Returns trajectory_of() the frames of each run.
 inline std::vector<Trajectory> trajectories_of_runs(const MappingResult& result) {
-  const Trajectory whole = trajectory_of(result.frames);
-  const auto at = [&](std::size_t i) { return whole.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::vector<Trajectory> trajectories;
-  for (const FrameSpan& run : runs_of(result)) trajectories.emplace_back(at(run.begin), at(run.end));
-  return trajectories;
+  return split_by_runs(trajectory_of(result.frames), result);
 }
 
 /// Returns the robot pose in the map for each frame, in the order of the log.
@@ -38,11 +44,7 @@ inline std::vector<mrpt::math::TPose2D> mapped_poses(const MappingResult& result
 
 /// Returns mapped_poses() of each run.
 inline std::vector<std::vector<mrpt::math::TPose2D>> paths_of_runs(const MappingResult& result) {
-  const std::vector<mrpt::math::TPose2D> poses = mapped_poses(result);
-  const auto at = [&](std::size_t i) { return poses.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::vector<std::vector<mrpt::math::TPose2D>> paths;
-  for (const FrameSpan& run : runs_of(result)) paths.emplace_back(at(run.begin), at(run.end));
-  return paths;
+  return split_by_runs(mapped_poses(result), result);
 }
 
 }  // namespace psi_slam

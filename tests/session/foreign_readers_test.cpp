@@ -89,6 +89,14 @@ class ForeignReaders : public testing::Test {
     return output_of("/usr/bin/python3 '" PSI_SLAM_FOREIGN_READERS "' " + program + " '" + file(name) + "'");
   }
 
+  static void evo_reads_the_trajectory();
+  static void gtsam_reads_the_graph();
+  static void g2o_reads_the_graph_with_its_fixed_pose();
+  static void nav2_reads_the_map();
+  static void nav2_applies_the_zones();
+  static void mrpt_loads_the_maps();
+  static void drawings_have_the_walls_in_metres();
+
   static inline std::unique_ptr<ExportedRun> run_;
 };
 
@@ -99,7 +107,7 @@ Numbers numbers_of(const std::string& text) {
   return numbers;
 }
 
-TEST_F(ForeignReaders, evo_reads_the_trajectory) {
+void ForeignReaders::evo_reads_the_trajectory() {
   std::istringstream lines(read_as("evo", "trajectory.tum").out);
   std::string line;
   for (const FrameRecord& frame : run_->result.frames) {
@@ -165,11 +173,11 @@ void expect_graph(const MappingResult& result, const ReadGraph& read) {
   EXPECT_NEAR(read.chi2, graph.chi2(), 1e-6 * graph.chi2());
 }
 
-TEST_F(ForeignReaders, gtsam_reads_the_graph) {
+void ForeignReaders::gtsam_reads_the_graph() {
   expect_graph(run_->result, ReadGraph(read_as("gtsam", "graph.g2o").out));
 }
 
-TEST_F(ForeignReaders, g2o_reads_the_graph_with_its_fixed_pose) {
+void ForeignReaders::g2o_reads_the_graph_with_its_fixed_pose() {
 #ifdef PSI_SLAM_READ_WITH_G2O
   const ReadGraph read(output_of("'" PSI_SLAM_READ_WITH_G2O "' '" + file("graph.g2o") + "'").out);
 #else
@@ -221,7 +229,7 @@ struct ReadCells {
   if (run_of_##cells.code == ForeignRun::kNotInstalled) GTEST_SKIP() << "needs python3-pil"; \
   const ReadCells cells(run_of_##cells.out)
 
-TEST_F(ForeignReaders, nav2_reads_the_map) {
+void ForeignReaders::nav2_reads_the_map() {
   CELLS_OR_SKIP(read, "map.yaml");
   const COccupancyGridMap2D& grid = *run_->grid;
   read.expect_layout(grid);
@@ -233,7 +241,7 @@ TEST_F(ForeignReaders, nav2_reads_the_map) {
   EXPECT_GT(std::count(read.values.begin(), read.values.end(), 100), 1000);
 }
 
-TEST_F(ForeignReaders, nav2_applies_the_zones) {
+void ForeignReaders::nav2_applies_the_zones() {
   CELLS_OR_SKIP(keep_out, "keepout_mask.yaml");
   CELLS_OR_SKIP(speed, "speed_mask.yaml");
   const COccupancyGridMap2D& grid = *run_->grid;
@@ -257,7 +265,7 @@ TEST_F(ForeignReaders, nav2_applies_the_zones) {
   EXPECT_EQ(speed.at(grid, 0, 0), 0);
 }
 
-TEST_F(ForeignReaders, mrpt_loads_the_maps) {
+void ForeignReaders::mrpt_loads_the_maps() {
   const COccupancyGridMap2D& grid = *run_->grid;
   mrpt::io::CFileGZInputStream stream(file("map.gridmap.gz"));
   COccupancyGridMap2D map;
@@ -290,7 +298,7 @@ TEST_F(ForeignReaders, mrpt_loads_the_maps) {
   }
 }
 
-TEST_F(ForeignReaders, drawings_have_the_walls_in_metres) {
+void ForeignReaders::drawings_have_the_walls_in_metres() {
   Numbers of_formats[2];
   for (int i = 0; i < 2; ++i) {
     const ForeignRun run = output_of("/usr/bin/python3 '" PSI_SLAM_MEASURE_MAP "' '" +
@@ -306,6 +314,20 @@ TEST_F(ForeignReaders, drawings_have_the_walls_in_metres) {
   const COccupancyGridMap2D plan = read_plan_drawing(file("map.dxf"), {});
   EXPECT_NEAR(static_cast<double>(plan.getXMin()), of_formats[0][0] - kMargin_m, 0.1);
   EXPECT_NEAR(static_cast<double>(plan.getYMax()), of_formats[0][3] + kMargin_m, 0.1);
+}
+
+// Two tests only, because ctest runs each test in a process of its own, which maps the log.
+TEST_F(ForeignReaders, read_the_trajectory_and_the_graph) {
+  evo_reads_the_trajectory();
+  gtsam_reads_the_graph();
+  g2o_reads_the_graph_with_its_fixed_pose();
+}
+
+TEST_F(ForeignReaders, read_the_maps) {
+  nav2_reads_the_map();
+  nav2_applies_the_zones();
+  mrpt_loads_the_maps();
+  drawings_have_the_walls_in_metres();
 }
 
 }  // namespace

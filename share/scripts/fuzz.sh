@@ -68,7 +68,7 @@ run() {
 report() {
   awk -v name="$1" '/stat::number_of_executed_units/ { n = $2 } /stat::average_exec_per_sec/ { r = $2 }
     /stat::peak_rss_mb/ { m = $2 }
-    END { printf "%-14s %12d executions, %7d a second, at most %5d MiB\n", name, n, r, m }' "$folder/$1.log"
+    END { printf "%-18s %12d executions, %7d a second, at most %5d MiB\n", name, n, r, m }' "$folder/$1.log"
 }
 
 status=0 running=

@@ -16,6 +16,7 @@
 #include "session/journal_chunks.h"
 #include "session/session_content.h"
 #include "session/session_file.h"
+#include "temporary_folder.h"
 #include "test_files.h"
 
 namespace psi_slam {
@@ -45,6 +46,27 @@ void write_carmen_seeds(const fs::path& folder) {
   write_file(folder / "seed-zstd", zstd_frame(text));
 }
 
+/// The target reads the number of pages of 512 bytes of the database from the first byte. The pages and the
+/// write-ahead log follow.
+void write_growing_bag_seeds(const fs::path& folder) {
+  const TemporaryFolder bags;
+  const fs::path database = bags.path() / "run_0.db3";
+  const auto write = [&](const std::string& name, const std::vector<std::string>& pragmas) {
+    std::vector<std::string> all{"page_size=512"};
+    all.insert(all.end(), pragmas.begin(), pragmas.end());
+    Db3Writer writer(database, all);
+    writer.create_tables();
+    for (const Recorded& message : recorded_run(2)) writer.add(message, cdr(message));
+    const std::string pages = read_file(database);
+    const fs::path log = database.string() + "-wal";
+    write_file(folder / name, static_cast<char>(pages.size() / 512) + pages +
+                                  (fs::exists(log) ? read_file(log) : std::string()));
+  };
+  write("seed-plain", {});
+  write("seed-log", {"journal_mode=WAL"});
+  write("seed-checkpoints", {"journal_mode=WAL", "wal_autocheckpoint=7"});
+}
+
 void write_bag_seeds(const fs::path& folder) {
   for (const char* compression : {"none", "lz4", "bz2"})
     write_ros1_bag(folder / "ros1_bag" / (std::string("seed-") + compression), recorded_run(3),
@@ -57,6 +79,7 @@ void write_bag_seeds(const fs::path& folder) {
   write_db3(folder / "sqlite_bag" / "seed-plain", recorded_run(2));
   write_file(folder / "sqlite_bag" / "seed-zstd",
              zstd_frame(read_file(folder / "sqlite_bag" / "seed-plain")));
+  write_growing_bag_seeds(folder / "growing_sqlite_bag");
   write_file(
       folder / "bag_folder" / "seed",
       "rosbag2_bagfile_information:\n  version: 4\n  storage_identifier: mcap\n  relative_file_paths:\n"
@@ -152,9 +175,9 @@ int main(int count, char** words) {
     return 2;
   }
   const fs::path folder = words[1];
-  for (const char* name :
-       {"carmen", "rawlog", "ros1_bag", "mcap_bag", "sqlite_bag", "bag_folder", "ros_messages", "live_stream",
-        "session", "edits", "ini", "g2o", "relations", "trajectory", "map_yaml", "gridmap"})
+  for (const char* name : {"carmen", "rawlog", "ros1_bag", "mcap_bag", "sqlite_bag", "bag_folder",
+                           "ros_messages", "live_stream", "growing_sqlite_bag", "session", "edits", "ini",
+                           "g2o", "relations", "trajectory", "map_yaml", "gridmap"})
     fs::create_directories(folder / name);
   write_carmen_seeds(folder / "carmen");
   write_bag_seeds(folder);

@@ -66,7 +66,7 @@ bool is_empty_scan(const CSerializable& object) {
   return scan != nullptr && scan->getScanSize() == 0;
 }
 
-// 2.15.0; later drivers of RPLIDAR lasers were not tested.
+// The drivers of MRPT 2.15.0 (0x20f00) and later were not tested.
 constexpr bool kCorrectsRplidar = MRPT_VERSION < 0x20f00;
 
 /// Corrects a scan of CRoboPeakLidar. This driver (MRPT 2.5.8 to 2.14) takes the angles of the laser, in

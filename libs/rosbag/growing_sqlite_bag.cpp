@@ -106,7 +106,8 @@ class GrowingSqliteBag : public BagFile {
         path_.string() +
         (reading == Reading::kBusy
              ? " cannot be read, because its recorder locks it all the time or was killed while it wrote. "
-               "Record without locking_mode=EXCLUSIVE, or read the file of a killed recorder once with sqlite3"
+               "Record without locking_mode=EXCLUSIVE, or read the file of a killed recorder once with "
+               "sqlite3"
              : " has no tables of a ROS 2 bag yet. Check that a recorder of ROS 2 writes it"));
   }
 

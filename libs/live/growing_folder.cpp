@@ -57,7 +57,7 @@ std::optional<fs::path> GrowingFolder::next_file() const {
   return next == files.end() ? std::nullopt : std::optional(*next);
 }
 
-/// Waits for the next file. Returns false if there will be none.
+/// Waits for the next file and opens it. Returns false if no file will follow.
 bool GrowingFolder::open_next() {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point began = Clock::now();

@@ -19,8 +19,8 @@ bool is_closed_bag(const std::filesystem::path& folder, const std::filesystem::p
 /// The folder of a ROS 2 bag that rosbag2 is still recording. Its files (.db3, .mcap) are read one after the
 /// other, in the order of the numbers in their names, as they appear. rosbag2 begins the next file only after
 /// it has written all messages of the last one. A file that it has already compressed (.db3.zstd) is read as
-/// a whole. The bag ends when the recorder has closed it, or as `recorder` says. topics() and progress() must
-/// not be called.
+/// a whole. The bag ends when the recorder has closed it, or when `recorder` stops the reader. topics() and
+/// progress() must not be called.
 class GrowingFolder : public BagFile {
  public:
   GrowingFolder(std::filesystem::path folder, BagRecorder recorder);

@@ -110,8 +110,8 @@ std::unique_ptr<BagFile> follow_ros1_bag(std::unique_ptr<ByteSource> recording);
 std::unique_ptr<BagFile> follow_mcap_bag(std::unique_ptr<ByteSource> recording);
 
 /// Reads an SQLite file (.db3) while rosbag2 writes it, without a lock, so that the recorder never waits. The
-/// bag ends as `recorder` says. topics() and progress() must not be called. Throws UserError if the file
-/// cannot be opened.
+/// bag ends when `recorder` is closed or stops the reader. topics() and progress() must not be called. Throws
+/// UserError if the file cannot be opened.
 std::unique_ptr<BagFile> follow_sqlite_bag(const std::filesystem::path& path, BagRecorder recorder);
 
 /// Opens an SQLite file (.db3) of ROS 2, which has a table of topics and a table of messages. Messages are

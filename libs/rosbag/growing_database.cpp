@@ -54,7 +54,7 @@ GrowingDatabase::State GrowingDatabase::state_now() {
 
 bool GrowingDatabase::is_writing() const {
   if (is_locked(kSharedBytes, kSharedSize)) return true;
-  // A journal without a writer is left of one that was killed: the last change is to be undone.
+  // A killed writer leaves a journal that nobody locks: its last change must be undone.
   const bool has_journal = std::ifstream(journal_, std::ios::binary).get() > 0;
   return has_journal && !is_locked(kReservedByte, 1);
 }

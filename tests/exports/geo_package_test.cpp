@@ -8,6 +8,7 @@
 #include "exports/map_files.h"
 #include "exports/mapped_trajectory.h"
 #include "foreign_program.h"
+#include "measured_room.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"
 #include "simulated_room.h"
@@ -85,16 +86,13 @@ TEST_F(GeoPackage, is_valid_and_has_the_walls_in_local_metres) {
 }
 
 TEST_F(GeoPackage, follows_its_reference) {
-  for (const int epsg : {25832, 31467}) {           // UTM, and a system whose first axis is the northing
-    earth_ = {epsg, 500'000, 5'400'000, M_PI / 2};  // the map's x axis points north, its y axis west
+  for (const int epsg : {25832, 31467}) {  // UTM, and a system whose first axis is the northing
+    earth_ = x_axis_to_the_north(epsg);
     write();
     RUN_OR_SKIP(run, measured());
     const std::vector<double> numbers = run.numbers();
     ASSERT_GE(numbers.size(), 4U) << run.out;
-    EXPECT_NEAR(numbers[0], 500'000 - room_.y_max, kClose_m);
-    EXPECT_NEAR(numbers[1], 500'000 - room_.y_min, kClose_m);
-    EXPECT_NEAR(numbers[2], 5'400'000 + room_.x_min, kClose_m);
-    EXPECT_NEAR(numbers[3], 5'400'000 + room_.x_max, kClose_m);
+    expect_room_with_x_axis_to_the_north(numbers, room_, kClose_m);
     EXPECT_THAT(run.out, HasSubstr(" " + std::to_string(epsg) + " 1 "));
   }
   earth_.epsg = 4326;

@@ -8,6 +8,7 @@
 
 #include "exports/mapped_trajectory.h"
 #include "foreign_program.h"
+#include "measured_room.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"
 #include "simulated_room.h"
@@ -41,14 +42,6 @@ class MapFiles : public testing::Test {
     return run_foreign("/usr/bin/python3 '" PSI_SLAM_MEASURE_MAP "' '" + file.string() + "'");
   }
 
-  /// Expects the room's x_min, x_max, y_min and y_max, in metres, at the beginning of `numbers`.
-  void expect_room(const std::vector<double>& numbers, double tolerance_m) const {
-    EXPECT_NEAR(numbers[0], room_.x_min, tolerance_m);
-    EXPECT_NEAR(numbers[1], room_.x_max, tolerance_m);
-    EXPECT_NEAR(numbers[2], room_.y_min, tolerance_m);
-    EXPECT_NEAR(numbers[3], room_.y_max, tolerance_m);
-  }
-
   const TemporaryFolder folder_;
   const SimulatedRoom room_;
   const MappingResult result_;
@@ -66,7 +59,7 @@ TEST_F(MapFiles, cad_reader_finds_the_walls_in_place) {
   MEASURE_OR_SKIP(run, write("map.dxf"));
   const std::vector<double> numbers = run.numbers();
   ASSERT_EQ(numbers.size(), 9U) << run.out;
-  expect_room(numbers, kClose_m);
+  expect_room(numbers, room_, kClose_m);
   EXPECT_GE(numbers[4], 1) << "outlines on the layer WALLS";
   EXPECT_EQ(numbers[5], 1) << "one line on the layer TRAJECTORY";
   EXPECT_EQ(numbers[6], 0) << "errors that the reader's audit found or mended";
@@ -94,7 +87,7 @@ TEST_F(MapFiles, svg_is_true_to_scale) {
   MEASURE_OR_SKIP(run, write("map.svg"));
   const std::vector<double> numbers = run.numbers();
   ASSERT_EQ(numbers.size(), 7U) << run.out;
-  expect_room(numbers, 1.5 * kCell_m);  // lines extend half their width beyond the walls
+  expect_room(numbers, room_, 1.5 * kCell_m);  // lines extend half their width beyond the walls
   EXPECT_NEAR(numbers[4], 60 + 2 * 5, 2) << "millimetres of paper including margins of 5 mm";
   EXPECT_NEAR(numbers[5], numbers[4] * 10, 1) << "pixels at 254 dpi";
 }
@@ -123,20 +116,17 @@ TEST_F(MapFiles, geotiff_is_in_local_metres_by_default) {
   MEASURE_OR_SKIP(run, write("map.tif"));
   const std::vector<double> numbers = run.numbers();
   ASSERT_GE(numbers.size(), 4U) << run.out;
-  expect_room(numbers, kClose_m);
+  expect_room(numbers, room_, kClose_m);
   EXPECT_THAT(run.out, EndsWith(" local metre 255.0\n"));
 }
 
 TEST_F(MapFiles, geotiff_follows_its_reference) {
   options_.geotiff = true;
-  options_.earth = {25832, 500'000, 5'400'000, M_PI / 2};  // the map's x axis points north, its y axis west
+  options_.earth = x_axis_to_the_north(25832);
   MEASURE_OR_SKIP(run, write("map.tif"));
   const std::vector<double> numbers = run.numbers();
   ASSERT_GE(numbers.size(), 4U) << run.out;
-  EXPECT_NEAR(numbers[0], 500'000 - room_.y_max, kClose_m);
-  EXPECT_NEAR(numbers[1], 500'000 - room_.y_min, kClose_m);
-  EXPECT_NEAR(numbers[2], 5'400'000 + room_.x_min, kClose_m);
-  EXPECT_NEAR(numbers[3], 5'400'000 + room_.x_max, kClose_m);
+  expect_room_with_x_axis_to_the_north(numbers, room_, kClose_m);
   EXPECT_THAT(run.out, HasSubstr(" 25832 metre "));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A pseudo-terminal, which stands for the serial port of a laser.
+// A pseudo-terminal, which acts as the serial port of a laser.
 #pragma once
 
 #include <fcntl.h>

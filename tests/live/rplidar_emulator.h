@@ -20,7 +20,7 @@
 namespace psi_slam {
 
 /// The laser plays its messages in turn, one each 50 ms: scans as ranges in metres, or raw bytes. It repeats
-/// the last one. If the driver starts it again, it goes on with the next one. The cable is plugged in while
+/// the last one. If the driver starts it again, it continues with the next one. The cable is plugged in while
 /// the object exists.
 class RplidarEmulator {
  public:

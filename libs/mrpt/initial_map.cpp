@@ -23,17 +23,14 @@ constexpr double kFollowSpacing_m = 1;  // path length between searches
 constexpr SearchExtent kFollowWindow{0.4, 0.4, radians_from_degrees(6.0L)};
 constexpr SearchExtent kStartWindow{1, 1, radians_from_degrees(15.0L)};
 
-mrpt::maps::COccupancyGridMap2D drawn(mrpt::maps::CSimpleMap map, const LogOptions& log,
+mrpt::maps::COccupancyGridMap2D drawn(const mrpt::maps::CSimpleMap& map, const LogOptions& log,
                                       const GridMapOptions& options) {
   const std::string place = "CMetricMapBuilderPsi::initialize: initial_map";
   RawlogLasers lasers(log);
   std::vector<Frame> frames;
   std::vector<TPose2D> poses;
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    mrpt::poses::CPose3DPDF::Ptr pose;
-    mrpt::obs::CSensoryFrame::Ptr observations;
-    map.get(i, pose, observations);
-    for (const mrpt::obs::CObservation::Ptr& observation : *observations) {
+  for (const auto& keyframe : map) {
+    for (const mrpt::obs::CObservation::Ptr& observation : *keyframe.sf) {
       const auto seen = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(observation);
       auto scan = seen ? lasers.scan(*seen, place) : std::nullopt;
       if (!scan) continue;
@@ -42,7 +39,7 @@ mrpt::maps::COccupancyGridMap2D drawn(mrpt::maps::CSimpleMap map, const LogOptio
       frame.time_us = static_cast<TimeUs>(frames.size()) * 1'000'000;
       frame.scan = *std::move(scan);
       frames.push_back(std::move(frame));
-      poses.push_back(mrpt::poses::CPose2D(pose->getMeanVal()).asTPose());
+      poses.push_back(mrpt::poses::CPose2D(keyframe.pose->getMeanVal()).asTPose());
     }
   }
   mrpt::maps::COccupancyGridMap2D grid = *draw_grid_map(frames, poses, options);

@@ -133,6 +133,28 @@ TEST_F(PriorMapApp, a_drawing_without_the_pillar_states_the_frame) {
   EXPECT_THAT(huge.err, HasSubstr("12000.0 m x 9500.0 m"));
 }
 
+TEST_F(PriorMapApp, a_session_with_a_drawing_and_edits_is_resumed_to_the_same_bytes) {
+  write_file(path("room.dxf"), room_drawing(kMillimetres));
+  write_file(path("wall.edits"), "wall line=9,3;9,5 width_m=0.1\n");
+  const std::vector<std::string> drawing{"--set", "prior.map=" + path("room.dxf").string(), "--set",
+                                         "prior.layers=WALLS"};
+  const auto with_drawing = [&](std::vector<std::string> words) {
+    words.insert(words.end(), drawing.begin(), drawing.end());
+    return words;
+  };
+  const AppRun run = map("a", with_drawing({log_.string(), "--edits", path("wall.edits").string(),
+                                            "--save-session", path("s").string()}));
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, Not(HasSubstr("left out")));
+  ASSERT_EQ(map("plain", with_drawing({log_.string()})).code, 0);
+  EXPECT_NE(read_file(path("plain") / "map.pgm"), read_file(path("a") / "map.pgm"));
+  EXPECT_EQ(read_file(path("plain") / "trajectory.csv"), read_file(path("a") / "trajectory.csv"));
+  ASSERT_EQ(map("b", {"--resume", path("s").string(), "--save-session", path("again").string()}).code, 0);
+  expect_same_files("a", "b");
+  ASSERT_EQ(map("c", {"--resume", path("again").string()}).code, 0);
+  expect_same_files("a", "c");
+}
+
 TEST_F(PriorMapApp, the_map_of_another_building_is_left_out) {
   const std::string size = "120 70";
   std::string image = "P2\n" + size + "\n255\n";

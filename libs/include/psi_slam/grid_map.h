@@ -40,7 +40,7 @@ struct GridMapOptions {
   std::size_t max_cells = 100'000'000;
   /// Draws people, carts and doors that moved, too. Otherwise, obstacles that were not there at other times
   /// are free space. Some table legs may vanish, too.
-  bool keep_moving = true;
+  bool keep_moving = false;
   /// Least number of beams that must have seen an obstacle or free space, from 1 to 3. A beam counts as two
   /// where a neighbouring beam of its scan reaches as far. What fewer beams saw stays unknown.
   int min_beams = 1;

@@ -60,7 +60,7 @@ BagTopic topic_of(const Record& record) {
           BagEncoding::kRos1};
 }
 
-class Ros1Bag : public RecordBag {
+class Ros1Bag final : public RecordBag {
  public:
   explicit Ros1Bag(BagStream stream) : RecordBag(std::move(stream)) {
     if (stream_.read_up_to(kMagic.size()) != kMagic)

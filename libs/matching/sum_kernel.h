@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/instruction_set.h"
+
 namespace psi_slam {
 
 /// sums[y * sums_row + x] += sum over p < points of cells[offsets[p] + y * row_bytes + x],
@@ -18,13 +20,11 @@ using SumKernel = void (*)(const std::uint8_t* cells, std::ptrdiff_t row_bytes, 
 
 inline constexpr int kSumLanes = 16;
 
-/// Returns the fastest kernel that this machine can run.
+/// Returns the fastest kernel that this machine can use.
 SumKernel sum_kernel();
 
-enum class InstructionSet { kBaseline, kAvx2, kAvx512 };
-
-/// Returns the kernel for one instruction set; null if the machine or the build lacks that set. For tests and
-/// benchmarks.
+/// Returns the kernel for one instruction set; null if this machine cannot use that set, or the build lacks
+/// it. For tests and benchmarks.
 SumKernel sum_kernel_for(InstructionSet set);
 
 // Each kernel has its own translation unit, compiled with the flags of its instruction set.

@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "base/instruction_set.h"
+
 namespace psi_slam {
 namespace {
 
@@ -67,7 +69,7 @@ BlockProducts block_products_baseline() {
 
 BlockProducts block_products() {
 #ifdef __x86_64__
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+  static const bool has_avx2 = can_use(InstructionSet::kAvx2);
   if (has_avx2) return subtract_products_avx2;
 #endif
   return subtract_products;

@@ -16,7 +16,7 @@ using BlockProducts = void (*)(const Eigen::Matrix3d* factors, const std::uint32
 /// Returns the kernel for every machine.
 BlockProducts block_products_baseline();
 
-/// Returns the fastest kernel that this machine can run.
+/// Returns the fastest kernel that this machine can use.
 BlockProducts block_products();
 
 }  // namespace psi_slam

@@ -353,7 +353,7 @@ TEST(MetricMapBuilderPsi, a_run_elsewhere_does_not_extend_the_initial_map) {
 TEST(MetricMapBuilderPsi, an_initial_map_without_scans_is_refused) {
   CMetricMapBuilderPsi builder;
   mrpt::maps::CSimpleMap map;
-  map.insert(mrpt::poses::CPosePDFGaussian::Create(), CSensoryFrame::Create());
+  map.insert(mrpt::poses::CPose3DPDFGaussian::Create(), CSensoryFrame::Create());
   try {
     builder.initialize(map);
     FAIL() << "no exception";

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Maps a log as usual, without the C library's code for newer processors, and with a C library whose last bits are changed. Fails
-# if a file differs.
+# Maps a log as usual, without the C library's code for newer processors, without psi-slam's own, and with a C library whose last
+# bits are changed. Fails if a file differs.
 #
 #     same_bytes_test.sh BUILD SOURCE
 set -euo pipefail
@@ -29,12 +29,13 @@ run() {
 }
 run usual PSI_SLAM=usual
 run older_processor GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-AVX512F,-FMA4
+run baseline_kernels PSI_SLAM_MAX_INSTRUCTIONS=baseline
 run other_library LD_PRELOAD="$folder/perturbed_math.so"
 
 # These files contain times, or are computed by MRPT when it writes them (map.simplemap.gz).
 other_files=(frames.csv loops.csv report.html summary.json map.simplemap.gz)
 status=0
-for name in older_processor other_library; do
+for name in older_processor baseline_kernels other_library; do
   diff --brief --recursive "${other_files[@]/#/--exclude=}" "$folder/usual" "$folder/$name" >&2 || status=1
 done
 exit $status

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "local_maps/correction_support.h"
 
+#include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "base/portable_math.h"
@@ -23,6 +25,12 @@ std::vector<double> scores_at(const ScoreGrid& grid, const ScanPoints& scan,
 }
 
 }  // namespace
+
+double mean_score(const ScoreGrid& grid, const ScanPoints& scan, const mrpt::math::TPose2D& pose) {
+  const std::vector<double> scores = scores_at(grid, scan, pose);
+  return std::accumulate(scores.begin(), scores.end(), 0.0) /
+         static_cast<double>(std::max<std::size_t>(1, scores.size()));
+}
 
 CorrectionScores scores_without_best_spot(const ScoreGrid& grid, const ScanPoints& scan,
                                           const mrpt::math::TPose2D& matched,

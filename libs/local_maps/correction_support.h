@@ -19,6 +19,9 @@ struct CorrectionScores {
   double held = 0;     ///< mean score at the pose kept close to odometry
 };
 
+/// Returns the mean score of the scan's points at a pose in the frame of `grid`. Zero without points.
+double mean_score(const ScoreGrid& grid, const ScanPoints& scan, const mrpt::math::TPose2D& pose);
+
 /// Returns the mean scores at two poses in the frame of `grid`. Excludes the points within kPersonReach_m of
 /// one point, chosen so that the match raises their total score most. Returns zeros if no points are left.
 CorrectionScores scores_without_best_spot(const ScoreGrid& grid, const ScanPoints& scan,

@@ -46,6 +46,8 @@ constexpr double kSureShare = 0.6;
 // a pose that was only predicted.
 constexpr double kLeastMatchedAgreement = 0.85;
 constexpr double kLeastAgreement = 0.5;
+// Distance over which a point on an earlier end attracts the match, in standard deviations of the smoothing.
+constexpr double kAttractedSigmas = 3;
 constexpr int kLostMisses = 5;      // the robot may be lost after this many successive scans without a match
 constexpr double kLostAfter_s = 5;  // and this time
 
@@ -60,6 +62,10 @@ ScanPoints coarse_scan(const ScanPoints& scan) {
     if (!scan.normals.empty()) coarse.normals.push_back(scan.normals[i]);
   }
   return coarse;
+}
+
+double judged_score(const ScoreGrid& grid, const TrackedPoints& tracked, const RefinedPose& pose) {
+  return tracked.judged.points.empty() ? pose.mean_score : mean_score(grid, tracked.judged, pose.map_T_robot);
 }
 
 // Returns the motion during the sweep of the first laser, which the poses of the frame refer to.
@@ -324,6 +330,15 @@ bool FrontEnd::contradicts(const ScanPoints& scan, const TPose2D& local_T_robot,
          agreement.share() < least_agreement;
 }
 
+// Returns whether a match may find the points on their own earlier ends. This is so if the predicted pose is
+// near the last scan that was drawn into the map, so that the match can reach the place of that scan.
+bool FrontEnd::sees_own_ends(const Motion& motion) const {
+  const TPose2D since_drawn =
+      between(last_node_local_T_robot_, compose(last_local_T_robot_, motion.predicted));
+  return length_m(since_drawn) <= options_.window_m + options_.window_per_metre * motion.length_m +
+                                      kAttractedSigmas * options_.local_map.smoothing_sigma_m;
+}
+
 bool FrontEnd::is_lost(const FrontEndStep& step, const Motion& motion, TimeUs time_us,
                        double expected_response) const {
   const bool interrupted = motion.after_gap || motion.was_restarted;
@@ -341,6 +356,8 @@ bool FrontEnd::is_lost(const FrontEndStep& step, const Motion& motion, TimeUs ti
 void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   const PlacedLocalMap& older = active_.front();
   const ScoreGrid& grid = older.map->scores();
+  const TrackedPoints tracked =
+      sees_own_ends(motion) ? points_along_walls(*step.points) : TrackedPoints{*step.points, {}};
   MatchResult best;
   PosePrior best_prior;
   const std::vector<TPose2D> tested = hypotheses(motion);
@@ -352,7 +369,7 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
                                    ? std::max(options_.min_response_share, kSureShare)
                                    : options_.min_response_share;
     const MatchResult match =
-        search(step, *step.points, grid, prior, step.window, least_share * expected_response_);
+        search(step, tracked.matched, grid, prior, step.window, least_share * expected_response_);
     if (!match.found || (best.found && match.response <= best.response)) continue;
     best = match;
     best_prior = prior;
@@ -373,10 +390,12 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
     doubtful_corrections_.add_unjudged();
   } else {
     const RefinedPose predicted =
-        refine(grid, *step.points, best_prior.map_T_robot, options_.refinement, best_prior);
-    if (predicted.mean_score >= options_.prediction_share * best.refined_response) chosen = predicted;
+        refine(grid, tracked.matched, best_prior.map_T_robot, options_.refinement, best_prior);
+    if (judged_score(grid, tracked, predicted) >=
+        options_.prediction_share * judged_score(grid, tracked, chosen))
+      chosen = predicted;
     if (motion.length_m > 0) {
-      if (const auto held = held_to_odometry(grid, *step.points, chosen, best_prior)) chosen = *held;
+      if (const auto held = held_to_odometry(grid, tracked, chosen, best_prior)) chosen = *held;
     } else {
       doubtful_corrections_.add_unjudged();  // perhaps a stalled encoder
     }
@@ -387,7 +406,7 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   step.local_T_robot = compose(older.local_T_map, chosen.map_T_robot);
 }
 
-std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, const ScanPoints& scan,
+std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, const TrackedPoints& tracked,
                                                       const RefinedPose& matched, const PosePrior& prior) {
   constexpr double kSmallestCorrection_m = 1e-3;
   constexpr double kHeldSigma_m = 5e-3;
@@ -400,10 +419,12 @@ std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, con
   const Eigen::Vector2d along = correction.normalized();
   PosePrior tight = prior;
   tight.information.topLeftCorner<2, 2>() += along * along.transpose() / (kHeldSigma_m * kHeldSigma_m);
-  RefinedPose held = refine(grid, scan, TPose2D(prior.map_T_robot.x, prior.map_T_robot.y, pose.phi),
-                            options_.refinement, tight);
-  if (held.mean_score < options_.held_share * matched.mean_score) {
-    const CorrectionScores rest = scores_without_best_spot(grid, scan, pose, held.map_T_robot);
+  RefinedPose held =
+      refine(grid, tracked.matched, TPose2D(prior.map_T_robot.x, prior.map_T_robot.y, pose.phi),
+             options_.refinement, tight);
+  if (judged_score(grid, tracked, held) < options_.held_share * judged_score(grid, tracked, matched)) {
+    const ScanPoints& judged = tracked.judged.points.empty() ? tracked.matched : tracked.judged;
+    const CorrectionScores rest = scores_without_best_spot(grid, judged, pose, held.map_T_robot);
     if (rest.held < options_.held_share * rest.matched) {
       doubtful_corrections_.add_supported(correction.norm());
       return {};

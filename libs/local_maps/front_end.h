@@ -22,6 +22,7 @@
 #include "local_maps/local_map.h"
 #include "local_maps/scan_filter.h"
 #include "local_maps/standstill.h"
+#include "local_maps/tracked_points.h"
 #include "matching/make_matcher.h"
 #include "psi_slam/frame.h"
 
@@ -209,6 +210,7 @@ class FrontEnd {
   SearchExtent wide_extent(const Motion& motion) const;
   void match(FrontEndStep& step, const Motion& motion);
   std::vector<mrpt::math::TPose2D> hypotheses(const Motion& motion) const;
+  bool sees_own_ends(const Motion& motion) const;
   bool contradicts(const ScanPoints& scan, const mrpt::math::TPose2D& local_T_robot,
                    double least_agreement) const;
   /// `expected_response` is the value before the match of this scan.
@@ -220,7 +222,7 @@ class FrontEnd {
   /// Decides whether to apply the correction of odometry by a match. Returns nothing if it is applied.
   /// Otherwise returns the pose held to the prediction in the direction of the correction. The information of
   /// this pose is zero in that direction.
-  std::optional<RefinedPose> held_to_odometry(const ScoreGrid& grid, const ScanPoints& scan,
+  std::optional<RefinedPose> held_to_odometry(const ScoreGrid& grid, const TrackedPoints& tracked,
                                               const RefinedPose& matched, const PosePrior& prior);
   void propagate_covariances(const FrontEndStep& step, const Motion& motion);
   void end_local_maps(FrontEndStep& step, std::size_t count);

@@ -9,72 +9,12 @@
 #include "frames/pose_operations.h"
 #include "frames/scan_neighbours.h"
 #include "local_maps/seen_surfaces.h"
+#include "local_maps/surface_normals.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
-using Point = mrpt::math::TPoint2Df;
-
-constexpr std::ptrdiff_t kReach = 3;      // largest number of neighbours on each side used to fit a line
-constexpr float kMaxGap_m = 0.4F;         // largest gap between neighbours on one surface
-constexpr float kMaxGapPerMetre = 0.15F;  // the same limit per metre of range; the larger limit applies
-constexpr float kMaxResidual_m = 0.04F;   // largest root mean square distance of points from their line
-
-bool on_one_surface(const Point& a, const Point& b) {
-  const float gap = portable::hypot(a.x - b.x, a.y - b.y);
-  return gap <= std::max(kMaxGap_m, kMaxGapPerMetre * portable::hypot(a.x, a.y));
-}
-
-// Returns the unit vector along which points spread least, from the sums over their offsets (x, y) from the
-// mean: `half_difference` = Σ(x² − y²)/2 and `xy` = Σxy. Points spread most at the angle atan2(xy,
-// half_difference)/2. The half-angle formulas need square roots only, which are the same on every processor.
-Point direction_of_least_spread(double half_difference, double xy) {
-  const double root = std::sqrt(half_difference * half_difference + xy * xy);
-  if (root == 0) return {0, 1};
-  double cosine = 0;
-  double sine = 0;
-  if (half_difference >= 0) {
-    cosine = std::sqrt(0.5 + 0.5 * half_difference / root);
-    sine = xy / (2 * root * cosine);
-  } else {
-    sine = std::copysign(std::sqrt(0.5 - 0.5 * half_difference / root), xy);
-    cosine = xy / (2 * root * sine);
-  }
-  return {static_cast<float>(-sine), static_cast<float>(cosine)};
-}
-
-// Returns the unit normal of the line through a point and its neighbours. Returns (0, 0) if these are fewer
-// than 4 points, or do not lie on a line. `is_ring`: the last point and the first are neighbours.
-Point normal_at(const std::vector<Point>& points, std::size_t index, bool is_ring) {
-  const Neighbourhood near =
-      neighbourhood(index, points.size(), kReach, is_ring,
-                    [&](std::size_t a, std::size_t b) { return on_one_surface(points[a], points[b]); });
-  const auto at = [&](std::ptrdiff_t k) -> const Point& { return points[index_on_ring(k, points.size())]; };
-  const auto count = static_cast<float>(near.count());
-  if (count < 4) return {0, 0};
-  float mean_x = 0;
-  float mean_y = 0;
-  for (std::ptrdiff_t k = near.first; k <= near.last; ++k) mean_x += at(k).x, mean_y += at(k).y;
-  mean_x /= count;
-  mean_y /= count;
-  float xx = 0;
-  float xy = 0;
-  float yy = 0;
-  for (std::ptrdiff_t k = near.first; k <= near.last; ++k) {
-    const float dx = at(k).x - mean_x;
-    const float dy = at(k).y - mean_y;
-    xx += dx * dx;
-    xy += dx * dy;
-    yy += dy * dy;
-  }
-  const float half_difference = 0.5F * (xx - yy);
-  const float root = portable::hypot(half_difference, xy);
-  const float smaller = 0.5F * (xx + yy) - root;
-  if (smaller > count * kMaxResidual_m * kMaxResidual_m) return {0, 0};
-  return direction_of_least_spread(static_cast<double>(half_difference), static_cast<double>(xy));
-}
-
 ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
                             const ScanFilterOptions& options) {
   ScanPoints result;
@@ -102,7 +42,7 @@ ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
   result.points.shrink_to_fit();  // nodes keep these points
   result.normals.reserve(result.points.size());
   for (std::size_t i = 0; i < result.points.size(); ++i)
-    result.normals.push_back(normal_at(result.points, i, is_ring));
+    result.normals.push_back(surface_normal(result.points, i, is_ring));
   result.farthest_m = std::sqrt(farthest_squared);
   return result;
 }

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "local_maps/surface_normals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/portable_math.h"
+#include "frames/scan_neighbours.h"
+
+namespace psi_slam {
+namespace {
+
+using Point = mrpt::math::TPoint2Df;
+
+constexpr std::ptrdiff_t kReach = 3;        // largest number of neighbours on each side used to fit a line
+constexpr std::ptrdiff_t kLeastPoints = 4;  // least number of points on a surface, with the point itself
+constexpr float kMaxGap_m = 0.4F;           // largest gap between neighbours on one surface
+constexpr float kMaxGapPerMetre = 0.15F;    // the same limit per metre of range; the larger limit applies
+constexpr float kMaxResidual_m = 0.04F;     // largest root mean square distance of points from their line
+
+bool on_one_surface(const Point& a, const Point& b) {
+  const float gap = portable::hypot(a.x - b.x, a.y - b.y);
+  return gap <= std::max(kMaxGap_m, kMaxGapPerMetre * portable::hypot(a.x, a.y));
+}
+
+// Returns the unit vector along which points spread least, from the sums over their offsets (x, y) from the
+// mean: `half_difference` = Σ(x² − y²)/2 and `xy` = Σxy. Points spread most at the angle atan2(xy,
+// half_difference)/2. The half-angle formulas need square roots only, which are the same on every processor.
+Point direction_of_least_spread(double half_difference, double xy) {
+  const double root = std::sqrt(half_difference * half_difference + xy * xy);
+  if (root == 0) return {0, 1};
+  double cosine = 0;
+  double sine = 0;
+  if (half_difference >= 0) {
+    cosine = std::sqrt(0.5 + 0.5 * half_difference / root);
+    sine = xy / (2 * root * cosine);
+  } else {
+    sine = std::copysign(std::sqrt(0.5 - 0.5 * half_difference / root), xy);
+    cosine = xy / (2 * root * sine);
+  }
+  return {static_cast<float>(-sine), static_cast<float>(cosine)};
+}
+
+// Sums over the offsets of points from their mean, for the line through the points.
+struct Spread {
+  float xx = 0;
+  float xy = 0;
+  float yy = 0;
+
+  float half_difference() const { return 0.5F * (xx - yy); }
+  float smaller() const { return 0.5F * (xx + yy) - portable::hypot(half_difference(), xy); }
+};
+
+// Returns the unit normal of the line through the neighbours of a point, and through the point itself if
+// `with_point`.
+Point normal_of_line(const std::vector<Point>& points, std::size_t index, bool is_ring, bool with_point) {
+  const Neighbourhood near =
+      neighbourhood(index, points.size(), kReach, is_ring,
+                    [&](std::size_t a, std::size_t b) { return on_one_surface(points[a], points[b]); });
+  if (near.count() < kLeastPoints) return {0, 0};
+  const auto at = [&](std::ptrdiff_t k) -> const Point& { return points[index_on_ring(k, points.size())]; };
+  const auto is_used = [&](std::ptrdiff_t k) {
+    return with_point || k != static_cast<std::ptrdiff_t>(index);
+  };
+  const auto count = static_cast<float>(near.count() - (with_point ? 0 : 1));
+  float mean_x = 0;
+  float mean_y = 0;
+  for (std::ptrdiff_t k = near.first; k <= near.last; ++k)
+    if (is_used(k)) mean_x += at(k).x, mean_y += at(k).y;
+  mean_x /= count;
+  mean_y /= count;
+  Spread spread;
+  for (std::ptrdiff_t k = near.first; k <= near.last; ++k) {
+    if (!is_used(k)) continue;
+    const float dx = at(k).x - mean_x;
+    const float dy = at(k).y - mean_y;
+    spread.xx += dx * dx;
+    spread.xy += dx * dy;
+    spread.yy += dy * dy;
+  }
+  if (spread.smaller() > count * kMaxResidual_m * kMaxResidual_m) return {0, 0};
+  return direction_of_least_spread(static_cast<double>(spread.half_difference()),
+                                   static_cast<double>(spread.xy));
+}
+
+}  // namespace
+
+Point surface_normal(const std::vector<Point>& points, std::size_t index, bool is_ring) {
+  return normal_of_line(points, index, is_ring, true);
+}
+
+Point normal_of_neighbours(const std::vector<Point>& points, std::size_t index) {
+  return normal_of_line(points, index, false, false);
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points of a scan for the match with a local map that holds a scan from nearly the same place.
+//
+// Such a match along a bare corridor must not tie the robot to the place of the earlier scan. Two properties
+// of matching_points() would tie it:
+//  - Far ahead, neighbouring beams graze a wall metres apart, too far apart for a normal. The beams hit the
+//    walls at the same ranges wherever the robot stands. Matched as single objects, these points would lie
+//    best on their own earlier ends, at the place of the earlier scan.
+//  - A point that lies off its wall by noise turns its own normal. The distance of the point from the wall
+//    then pulls along the wall, for all points in the same direction.
+#pragma once
+
+#include "matching/scan_points.h"
+
+namespace psi_slam {
+
+/// Points of a scan to match, and those that tell apart poses along a wall.
+struct TrackedPoints {
+  ScanPoints matched;
+  /// The points for comparing the scores of two poses. Empty: all points of `matched`.
+  ScanPoints judged;
+};
+
+/// Returns the points of a scan with normals that do not tie the robot to an earlier place.
+///  - A point with a normal gets the normal of its neighbours without the point itself, or none if these are
+///    not on a straight line.
+///  - A point without a normal gets that of the straight line through four successive points that hold the
+///    point. The points must lie on the line except for noise. The widest gap between them must be at most 16
+///    times the narrowest, because any line passes through points on one object, such as a post.
+///    TrackedPoints::judged leaves out these points.
+/// If the normals of the scan are unknown, returns its points as they are.
+TrackedPoints points_along_walls(const ScanPoints& scan);
+
+}  // namespace psi_slam

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lengths of maps of a bare corridor, which only odometry determines. No scan may make them shorter.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../local_maps/simulated_drive.h"
+#include "mapping/mapper_options.h"
+#include "psi_slam/mapper.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr double kPath_m = 50;
+
+// Relative error of the length of a path along a corridor, seen by beams 1° apart with a range of 30 m. The
+// walls have no features. The noise of odometry adds up to less than 0.5 % of the path.
+double length_error(double step_m) {
+  SimulatedWalls corridor;
+  corridor.add_box(0, 0, 60, 2.4);
+  OdometryErrors errors;
+  errors.length_share = 0.05;
+  const SimulatedDrive drive =
+      drive_along(corridor, path_along({{2, 1.2}, {2 + kPath_m, 1.2}}, step_m), errors, 1);
+  Mapper mapper(MapperOptions{});
+  for (const Frame& frame : drive.frames) mapper.add(frame);
+  const MappingResult result = mapper.finish();
+  return std::hypot(result.frames.back().map_T_robot.x, result.frames.back().map_T_robot.y) / kPath_m - 1;
+}
+
+TEST(BareCorridor, keeps_its_length) {
+  for (const double step_m : {0.05, 0.1, 0.2, 0.3})
+    EXPECT_NEAR(length_error(step_m), 0, 0.01) << "a scan every " << step_m << " m";
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 
+#include "frames/pose_operations.h"
 #include "simulated_drive.h"
 
 namespace psi_slam {
@@ -473,7 +474,7 @@ TEST(FrontEnd, local_maps_overlap_by_half_and_two_at_most_are_active) {
       EXPECT_EQ(membership.anchor, map.anchor);
       EXPECT_GT(*step.node, map.first_node) << "the anchor is not a member";
       EXPECT_LE(*step.node, map.last_node);
-      const TPose2D expected = step.local_T_robot - map.local_T_map;
+      const TPose2D expected = between(map.local_T_map, step.local_T_robot);
       EXPECT_EQ(membership.anchor_T_node, expected);
       if (k > 0) {
         EXPECT_LT(step.memberships[k - 1].local_map, membership.local_map) << "older first";

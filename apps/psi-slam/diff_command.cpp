@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "base/atomic_file.h"
+#include "base/atomic_folder.h"
 #include "base/exit_code.h"
 #include "base/number_text.h"
 #include "base/portable_math.h"
@@ -91,9 +92,11 @@ int compare_maps(const CommandLine& line, const Streams& streams) {
   const MapComparison comparison = compare(line, a, b);
   if (!line.output.empty()) {
     const std::filesystem::path folder = OutputFolder::prepare(line.output, line.force).path();
-    write_text_atomically(folder / "diff.png", change_picture(comparison.walls));
-    write_text_atomically(folder / "diff.csv", changes_csv(comparison.walls.changes));
-    write_text_atomically(folder / "diff.json", comparison_json(comparison));
+    write_files_atomically(folder, [&](const std::filesystem::path& temporary) {
+      write_text_atomically(temporary / "diff.png", change_picture(comparison.walls));
+      write_text_atomically(temporary / "diff.csv", changes_csv(comparison.walls.changes));
+      write_text_atomically(temporary / "diff.json", comparison_json(comparison));
+    });
   }
   if (line.json)
     streams.out << comparison_json(comparison);

@@ -57,7 +57,8 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   while (file.read(block.data(), block.size()) || file.gcount() > 0)
     checksum.add({block.data(), static_cast<std::size_t>(file.gcount())});
   if (!file.eof())
-    throw UserError(path.string() + " is not readable. Check that it is a file with read permission");
+    throw UserError(path.string() +
+                    " is not readable. Check that it is a file with read permission, and check the disk");
   return checksum.hexadecimal();
 }
 

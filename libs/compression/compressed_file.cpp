@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "compression/compressed_file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -12,6 +15,17 @@ namespace psi_slam {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Size of a regular file in bytes; empty for other files.
+std::optional<std::uintmax_t> size_of(const Descriptor& file) {
+  struct stat state = {};
+  if (::fstat(file.number(), &state) != 0 || !S_ISREG(state.st_mode)) return std::nullopt;
+  return static_cast<std::uintmax_t>(state.st_size);
+}
+
+}  // namespace
+
 CompressedFile::CompressedFile(fs::path path, const std::string& expected) : path_(std::move(path)) {
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
@@ -20,17 +34,24 @@ CompressedFile::CompressedFile(fs::path path, const std::string& expected) : pat
   if (fs::is_directory(status))
     throw UserError(path_.string() + " is a folder, expected " + expected + ". Name a file");
   errno = 0;
+  file_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
   decoder_ = open_decoder(path_);
   if (!decoder_) throw UserError("cannot read " + path_.string() + ": " + std::strerror(errno));
-  bytes_on_disk_ = fs::file_size(path_, error);
-  if (error) bytes_on_disk_ = 0;
+  bytes_on_disk_ = size_of(file_).value_or(0);
+}
+
+bool CompressedFile::became_shorter() const {
+  const auto bytes_now = size_of(file_);
+  return bytes_now && *bytes_now < bytes_on_disk_;
 }
 
 /// Reason why the decoder returned fewer bytes than requested; empty at the end of the file.
 std::optional<UserError> CompressedFile::failure_now() const {
   switch (decoder_->end()) {
     case FileDecoder::End::kEndOfFile:
-      return std::nullopt;
+      if (!became_shorter()) return std::nullopt;
+      return UserError(path_.string() +
+                       " became shorter while it was read, expected a file that is complete. Fetch it again");
     case FileDecoder::End::kCutOff:
       return UserError(path_.string() + " is cut off: its compressed data are incomplete. Fetch it again");
     case FileDecoder::End::kUnreadable:

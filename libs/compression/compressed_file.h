@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "base/descriptor.h"
 #include "compression/byte_source.h"
 #include "compression/file_decoder.h"
 #include "psi_slam/user_error.h"
@@ -24,7 +25,7 @@ class CompressedFile : public ByteSource {
 
   /// Reads the next `size` decompressed bytes and returns their number. The number is smaller than `size`
   /// only at the end of the file and before damaged or truncated data. Throws UserError if such data come
-  /// first.
+  /// first, or at the end if the file became shorter since it was opened.
   std::size_t read(char* bytes, std::size_t size) override;
 
   const std::filesystem::path& path() const override { return path_; }
@@ -34,8 +35,10 @@ class CompressedFile : public ByteSource {
 
  private:
   std::optional<UserError> failure_now() const;
+  bool became_shorter() const;
 
   std::filesystem::path path_;
+  Descriptor file_;  // tells the size of the file that is read, also if another file replaces it
   std::unique_ptr<FileDecoder> decoder_;
   std::uintmax_t bytes_on_disk_ = 0;
   std::optional<UserError> failure_;  // error for the next call of read()

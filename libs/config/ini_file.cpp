@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "config/ini_file.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <iomanip>
 #include <iterator>
 #include <map>
@@ -12,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/file_bytes.h"
 #include "base/text_parts.h"
 #include "psi_slam/user_error.h"
 
@@ -55,11 +53,12 @@ std::string contents(const fs::path& path, std::string& failure) {
     failure = "it is a folder";
     return {};
   }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) failure = errno != 0 ? std::strerror(errno) : "it cannot be opened";
-  return text;
+  try {
+    return file_bytes(path);
+  } catch (const std::system_error& error) {
+    failure = error.code().message();
+    return {};
+  }
 }
 
 /// Canonical path of a file, to recognise the same file under different paths.

@@ -3,10 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,7 +11,6 @@
 #include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "frames/pose_operations.h"
-#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -23,6 +19,7 @@ namespace fs = std::filesystem;
 using mrpt::math::TPose2D;
 
 constexpr const char* kHost = "psi-slam";
+constexpr std::size_t kBytesPerWrite = std::size_t{1} << 20;
 
 /// Returns whether the beams run clockwise, as those of a laser mounted upside down. FLASER lines state no
 /// bearings: their ranges are counter-clockwise.
@@ -109,16 +106,17 @@ void write_corrected_log(const fs::path& path, const std::vector<Frame>& log,
     throw std::invalid_argument("write_corrected_log: " + std::to_string(log.size()) + " scans but " +
                                 std::to_string(map_T_robot.size()) + " poses");
   const FrameSpan span = run.value_or(FrameSpan{0, log.size()});
-  write_atomically(path, [&](const fs::path& temporary) {
-    errno = 0;
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    if (span.begin < span.end) file << heading(log, span);
-    for (std::size_t i = span.begin; i < span.end && file; ++i) file << scan_lines(log[i], map_T_robot[i]);
-    file.close();
-    if (!file)
-      throw SystemFailure("cannot write " + path.string() + ": " +
-                          (errno != 0 ? std::strerror(errno) : "the disk may be full"));
-  });
+  AtomicFile file(path);
+  std::string text;
+  if (span.begin < span.end) text = heading(log, span);
+  for (std::size_t i = span.begin; i < span.end; ++i) {
+    text += scan_lines(log[i], map_T_robot[i]);
+    if (text.size() < kBytesPerWrite) continue;
+    file.write(text);
+    text.clear();
+  }
+  file.write(text);
+  file.move_into_place();
 }
 
 }  // namespace psi_slam

@@ -48,20 +48,15 @@ void write_mrpt_map(const std::filesystem::path& path, const mrpt::serialization
 void write_map_files(const std::filesystem::path& folder, const MappingResult& result,
                      const COccupancyGridMap2D& grid, const std::vector<MapEdit>& edits,
                      const MapFileOptions& options) {
-  const auto remove = [&](const char* name) {
-    std::error_code ignored;
-    std::filesystem::remove(folder / name, ignored);
-  };
   using Write = std::function<void(const std::filesystem::path&)>;
   const auto file = [&](bool wanted, const char* name, const Write& write) {
-    wanted ? write(folder / name) : remove(name);
+    if (wanted) write(folder / name);
   };
   const auto text_file = [&](bool wanted, const char* name, const std::function<std::string()>& text) {
     file(wanted, name, [&](const auto& path) { write_text_atomically(path, text()); });
   };
   file(options.png, "map.png", [&](const auto& path) { write_map_image(path, grid); });
   file(options.ros, "map.yaml", [&](const auto& path) { write_map_server_pair(path, grid); });
-  if (!options.ros) remove("map.pgm");
   file(options.mrpt, "map.gridmap.gz", [&](const auto& path) { write_mrpt_map(path, grid); });
   file(options.mrpt, "map.simplemap.gz", [&](const auto& path) { write_mrpt_map(path, simple_map(result)); });
   MapDrawing drawing;

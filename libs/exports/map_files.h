@@ -41,9 +41,8 @@ struct MapFileOptions {
   GeoReference earth;
 };
 
-/// Writes the selected files. Deletes map files that are not selected, since they would show an older map.
-/// `grid` is the grid map of `result` by draw_grid_map(). `edits` are those of the grid, with their points in
-/// its frame; map.gpkg shows the zones among them.
+/// Writes the selected files. `grid` is the grid map of `result` by draw_grid_map(). `edits` are those of the
+/// grid, with their points in its frame; map.gpkg shows the zones among them.
 void write_map_files(const std::filesystem::path& folder, const MappingResult& result,
                      const mrpt::maps::COccupancyGridMap2D& grid, const std::vector<MapEdit>& edits,
                      const MapFileOptions& options = {});

@@ -6,6 +6,7 @@
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
+#include "base/partial_files.h"
 #include "rendering/map_image.h"
 
 namespace psi_slam {
@@ -60,12 +61,18 @@ std::string yaml_text(const std::string& image, const COccupancyGridMap2D& grid,
          values;
 }
 
-/// Writes the image first, so the pair is complete once the YAML file exists.
+/// Writes both files before either of them replaces an older one. Replaces the image first, so the pair is
+/// complete once the YAML file exists.
 void write_pair(const std::filesystem::path& yaml_path, const std::string& pgm,
                 const COccupancyGridMap2D& grid, const std::string& comment, const std::string& values) {
   const std::filesystem::path pgm_path = std::filesystem::path(yaml_path).replace_extension(".pgm");
-  write_text_atomically(pgm_path, pgm);
-  write_text_atomically(yaml_path, comment + yaml_text(pgm_path.filename().string(), grid, values));
+  AtomicFile image(pgm_path);
+  AtomicFile yaml(yaml_path);
+  image.write(pgm);
+  yaml.write(comment + yaml_text(pgm_path.filename().string(), grid, values));
+  wait_for_disk(yaml.descriptor(), yaml_path);
+  image.move_into_place();
+  yaml.move_into_place();
 }
 
 }  // namespace

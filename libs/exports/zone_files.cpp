@@ -77,12 +77,6 @@ std::vector<std::uint8_t> mask_values(const Grid& grid, const std::vector<MapEdi
   return values;
 }
 
-void remove_pair(const std::filesystem::path& yaml_path) {
-  std::error_code ignored;
-  std::filesystem::remove(yaml_path, ignored);
-  std::filesystem::remove(std::filesystem::path(yaml_path).replace_extension(".pgm"), ignored);
-}
-
 }  // namespace
 
 void check_zones(const std::vector<MapEdit>& edits) {
@@ -133,8 +127,6 @@ void write_zone_files(const std::filesystem::path& folder, const Grid& grid,
                         grid, edits, Kind::kKeepOut, [](const MapEdit&) { return std::uint8_t{100}; },
                         [](auto, auto) { return false; }),
                     "# costmap_filter_info_server of nav2: type 0, base 0.0, multiplier 1.0\n");
-  else
-    remove_pair(keepout);
   if (has(edits, Kind::kSlow)) {
     const SpeedScale scale = scale_for(edits);
     const auto values = mask_values(
@@ -143,13 +135,8 @@ void write_zone_files(const std::filesystem::path& folder, const Grid& grid,
     write_mask_pair(speed, grid, values,
                     "# costmap_filter_info_server of nav2: type " + std::to_string(scale.type) + ", base " +
                         double_text(scale.base) + ", multiplier " + double_text(scale.multiplier) + '\n');
-  } else {
-    remove_pair(speed);
   }
-  if (has(edits, Kind::kKeepOut) || has(edits, Kind::kSlow))
-    return write_text_atomically(zones, zones_text(edits));
-  std::error_code ignored;
-  std::filesystem::remove(zones, ignored);
+  if (has(edits, Kind::kKeepOut) || has(edits, Kind::kSlow)) write_text_atomically(zones, zones_text(edits));
 }
 
 }  // namespace psi_slam

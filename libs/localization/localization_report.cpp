@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "base/atomic_folder.h"
 #include "base/degrees.h"
 #include "base/number_text.h"
 #include "trajectory/trajectory_file.h"
@@ -182,8 +183,10 @@ void write_localization(const std::vector<LocalizationStep>& steps, const std::f
   Trajectory trajectory;
   for (const LocalizationStep& step : steps)
     if (step.state == State::kTracking) trajectory.push_back({step.time_us, step.map_T_robot});
-  write_text_atomically(folder / "localization.csv", localization_csv(steps));
-  write_tum(folder / "trajectory.tum", trajectory);
+  write_files_atomically(folder, [&](const std::filesystem::path& temporary) {
+    write_text_atomically(temporary / "localization.csv", localization_csv(steps));
+    write_tum(temporary / "trajectory.tum", trajectory);
+  });
 }
 
 }  // namespace psi_slam

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "base/atomic_folder.h"
 #include "exports/mapped_trajectory.h"
 #include "frames/log_reader.h"
 #include "frames/pose_operations.h"

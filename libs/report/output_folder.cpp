@@ -3,11 +3,14 @@
 
 #include <unistd.h>
 
+#include <regex>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "base/atomic_folder.h"
+#include "base/partial_files.h"
 #include "exports/corrected_log.h"
 #include "exports/csv_tables.h"
 #include "psi_slam/user_error.h"
@@ -31,30 +34,38 @@ void check_no_file_in_the_way(const fs::path& path) {
   }
 }
 
+/// Returns whether a folder is empty, except for temporary files that a killed program left.
+bool holds_only_leftovers(const fs::path& folder, std::error_code& error) {
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (!is_partial_name(entry->path().filename().string())) return false;
+  return true;
+}
+
 /// Writes the corrected log of a single log. For several merged logs, whose times may overlap, writes a
-/// trajectory and a corrected log of each. Deletes files of these kinds that older results left.
+/// trajectory and a corrected log of each.
 void write_runs(const fs::path& folder, const MappingResult& result) {
   const auto file = [&](std::size_t run, const char* kind) {
     return folder / ("trajectory-" + std::to_string(run) + kind);
   };
-  const fs::path whole_log = folder / "trajectory.carmen";
   const Trajectory whole = trajectory_of(result.frames);
   const std::vector<mrpt::math::TPose2D> poses = mapped_poses(result);
-  std::vector<FrameSpan> runs = logs_of(result);
-  std::error_code ignored;
-  if (runs.size() == 1) {
-    write_corrected_log(whole_log, result.log, poses);
-    runs.clear();
-  } else {
-    fs::remove(whole_log, ignored);
-  }
+  const std::vector<FrameSpan> runs = logs_of(result);
+  if (runs.size() == 1) return write_corrected_log(folder / "trajectory.carmen", result.log, poses);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     write_tum(file(i + 1, ".tum"), Trajectory(whole.begin() + static_cast<std::ptrdiff_t>(runs[i].begin),
                                               whole.begin() + static_cast<std::ptrdiff_t>(runs[i].end)));
     write_corrected_log(file(i + 1, ".carmen"), result.log, poses, runs[i]);
   }
-  for (const char* kind : {".tum", ".carmen"})
-    for (std::size_t older = runs.size() + 1; fs::remove(file(older, kind), ignored);) ++older;
+}
+
+/// Returns whether some run writes a file of this name. Another run leaves it out if its settings, its edits
+/// or the number of its logs differ.
+bool is_optional_result(const std::string& name) {
+  static const std::regex kNames(
+      "map\\.(png|yaml|pgm|gridmap\\.gz|simplemap\\.gz|svg|dxf|tif|gpkg)|map_print\\.png|"
+      "trajectory(-[1-9][0-9]*)?\\.carmen|trajectory-[1-9][0-9]*\\.tum|loops\\.edits|"
+      "(keepout|speed)_mask\\.(yaml|pgm)|zones\\.txt");
+  return std::regex_match(name, kNames);
 }
 
 }  // namespace
@@ -66,7 +77,7 @@ void OutputFolder::check(const fs::path& path, bool force) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return;
   remove_leftovers(path);
-  const bool empty = fs::is_empty(path, error);
+  const bool empty = holds_only_leftovers(path, error);
   if (error) throw UserError("cannot read the output folder " + path.string() + ": " + error.message());
   if (!empty && !force)
     throw UserError("the output folder " + path.string() +
@@ -84,6 +95,11 @@ OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
     throw UserError("cannot create the output folder " + path.string() + ": " + error.message());
   check(path, force);
   return OutputFolder(path);
+}
+
+void OutputFolder::replace_results(const std::function<void(const OutputFolder&)>& write) const {
+  write_files_atomically(
+      path_, [&](const fs::path& temporary) { write(OutputFolder(temporary)); }, is_optional_result);
 }
 
 void export_results(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,

@@ -14,6 +14,7 @@
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
 #include <filesystem>
+#include <functional>
 #include <utility>
 
 #include "exports/map_files.h"
@@ -26,14 +27,20 @@ namespace psi_slam {
 /// A folder that exists and can be written to.
 class OutputFolder {
  public:
-  /// Creates the folder and its parents. An existing folder must be empty unless `force` is given; `force`
-  /// replaces the files of a run and keeps all others. Throws UserError if the folder is not empty, is a
-  /// file, or cannot be created or written to. Call it before mapping, so that the user sees the error at
-  /// once.
+  /// Creates the folder and its parents. An existing folder must be empty unless `force` is given, which
+  /// replaces the files of a run and keeps all others. Temporary files that a killed program left do not
+  /// count. Throws UserError if the folder is not empty, is a file, or cannot be created or written to. Call
+  /// it before mapping, so that the user sees the error at once.
   static OutputFolder prepare(const std::filesystem::path& path, bool force);
 
   /// Throws as prepare() does, but creates no folder. Call it before work that takes long.
   static void check(const std::filesystem::path& path, bool force);
+
+  /// Replaces the results of an earlier run. Calls `write` with a temporary folder for all files of this run
+  /// and moves them here when all are complete, so the earlier results stay whole if one cannot be written.
+  /// Then deletes earlier results that this run does not have, since they would show an older map. Throws
+  /// SystemFailure naming the file that cannot be written.
+  void replace_results(const std::function<void(const OutputFolder& temporary)>& write) const;
 
   const std::filesystem::path& path() const { return path_; }
 

@@ -54,18 +54,10 @@ void keep_first(std::size_t scans, SessionFacts& facts) {
   facts.runs.erase(lost, facts.runs.end());
 }
 
-/// Writes the edits, or removes the file of an earlier export if there are no edits.
-void write_edits(const EditJournal& edits, const fs::path& file) {
-  if (!edits.empty()) return edits.write(file);
-  std::error_code ignored;
-  fs::remove(file, ignored);
-}
-
 }  // namespace
 
 DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   Members& m = *m_;
-  if (folder) check_prior_apart(m.settings, folder->path());
   m.begin(SessionProgress::Phase::kWriting);
   WorkClock clock(m.work_s);
   m.result.stages.resize(m.stages_of_mapping);
@@ -100,7 +92,7 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   if (folder) {
     writing_clock.time([&] {
       write_g2o(m.result.graph, folder->path() / "graph.g2o");
-      write_edits(edits, folder->path() / "loops.edits");
+      if (!edits.empty()) edits.write(folder->path() / "loops.edits");
       export_results(m.result, *grid, *folder, placed.edits, m.settings.map_files);
       write_zone_files(folder->path(), *grid, placed.edits);
     });
@@ -117,7 +109,11 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
 }
 
 RunSummary MappingSession::export_to(const OutputFolder& folder) {
-  return draw_and_write(&folder).summary;
+  check_prior_apart(m_->settings, folder.path());
+  RunSummary summary;
+  folder.replace_results(
+      [&](const OutputFolder& temporary) { summary = draw_and_write(&temporary).summary; });
+  return summary;
 }
 
 DrawnMap MappingSession::draw() {

@@ -2,12 +2,13 @@
 #include "session/session_file.h"
 
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "base/atomic_file.h"
 #include "base/byte_cursor.h"
+#include "base/file_bytes.h"
 #include "base/file_checksum.h"
 #include "psi_slam/user_error.h"
 #include "session/journal_chunks.h"
@@ -28,10 +29,12 @@ std::string all_bytes(const fs::path& path) {
     throw UserError(path.string() + " does not exist, expected a session. Check the path");
   if (fs::is_directory(path, ignored))
     throw UserError(path.string() + " is a folder, expected a session. Check the path");
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw UserError("cannot read " + path.string() + ", expected a session. Check its permissions");
-  return bytes;
+  try {
+    return file_bytes(path);
+  } catch (const std::system_error& error) {
+    throw UserError("cannot read " + path.string() + ", expected a session: " + error.code().message() +
+                    ". Check its permissions and the disk");
+  }
 }
 
 /// Throws UserError unless all bytes are present and the checksum matches.

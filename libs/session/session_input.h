@@ -3,6 +3,7 @@
 // several times.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -52,7 +53,8 @@ class SessionInput {
   void calibrate(const LogOptions& options, const ShareObserver& progress = {});
 
   /// Returns a source of all frames, recorded frames first, numbered from 0. Throws UserError if the log is
-  /// unreadable, or if it continues the recording but begins before the recording's end.
+  /// unreadable, if it became shorter since this input was made, or if it continues the recording but begins
+  /// before the recording's end.
   std::unique_ptr<FrameSource> open(const LogOptions& options) const;
 
   /// Whether a stream is read.
@@ -68,10 +70,12 @@ class SessionInput {
 
  private:
   void check_kept_calibration(const LogOptions& options);
+  void require_unshortened() const;
 
   std::shared_ptr<const SessionRecording> recording_;
   OpenStream open_stream_;  ///< empty unless a stream is read
   std::filesystem::path log_;
+  std::uintmax_t bytes_ = 0;  ///< size of log_ on disk when this input was made; 0 for a folder
   std::vector<RecordedLog> logs_;
   EditJournal edits_;
   bool same_log_ = false;           ///< log_ is the last log of the recording

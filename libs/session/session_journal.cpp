@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/session_journal.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,31 +9,20 @@
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "base/partial_files.h"
 #include "base/thread_priority.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
-namespace {
 
-namespace fs = std::filesystem;
-
-constexpr int kMode = 0666;  // the umask applies
-
-SystemFailure cannot_write(const fs::path& path) {
-  return SystemFailure("cannot write " + path.string() + ": " + std::strerror(errno));
-}
-
-}  // namespace
-
-SessionJournal::SessionJournal(fs::path path, const SessionFacts& facts, const std::vector<Frame>& frames,
-                               double period_s)
+SessionJournal::SessionJournal(std::filesystem::path path, const SessionFacts& facts,
+                               const std::vector<Frame>& frames, double period_s)
     : path_(std::move(path)), period_(period_s) {
-  write_atomically(path_, [&](const fs::path& temporary) {
-    file_ = Descriptor(::open(temporary.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, kMode));
-    if (!file_.is_open()) return;
-    unwritten_ = chunks_.next(facts, frames);
-    write_unwritten();
-  });
+  AtomicFile file(path_);
+  const std::string first = chunks_.next(facts, frames);
+  file.write(first);
+  file_ = file.move_into_place();
+  written_ = first.size();
   thread_ = std::thread([this] { work(); });
 }
 
@@ -114,10 +102,11 @@ void SessionJournal::write_unwritten() {
   for (std::size_t done = 0; done < unwritten_.size();) {
     const ssize_t count = ::pwrite(file_.number(), unwritten_.data() + done, unwritten_.size() - done,
                                    static_cast<off_t>(written_ + done));
-    if (count < 0 && errno != EINTR) throw cannot_write(path_);
-    if (count > 0) done += static_cast<std::size_t>(count);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) throw cannot_write(path_, count < 0 ? errno : ENOSPC);
+    done += static_cast<std::size_t>(count);
   }
-  if (::fdatasync(file_.number()) != 0 && errno != EINVAL) throw cannot_write(path_);
+  if (::fdatasync(file_.number()) != 0 && errno != EINVAL) throw cannot_write(path_, errno);
   written_ += unwritten_.size();
   unwritten_.clear();
 }

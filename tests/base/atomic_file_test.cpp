@@ -2,26 +2,22 @@
 #include "base/atomic_file.h"
 
 #include <gmock/gmock.h>
-
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
-#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <string>
 
 #include "psi_slam/user_error.h"
 #include "temporary_folder.h"
-#include "test_files.h"
 
 namespace psi_slam {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::HasSubstr;
 
 std::string contents(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -88,75 +84,63 @@ TEST(AtomicFile, a_failing_write_is_an_error_with_the_file_name) {
   EXPECT_EQ(files_in(folder.path()), 0);
 }
 
-namespace fs = std::filesystem;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-
-std::set<std::string> names_in(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& file : fs::directory_iterator(folder)) names.insert(file.path().filename().string());
-  return names;
+TEST(AtomicFile, a_temporary_name_is_never_used_twice) {
+  const TemporaryFolder folder;
+  const AtomicFile a(folder.path() / "map.png");
+  const AtomicFile b(folder.path() / "map.png");
+  EXPECT_NE(a.temporary_path(), b.temporary_path());
 }
 
-TEST(AtomicFolder, moves_all_files_when_all_are_complete) {
+TEST(AtomicFile, replaces_a_symbolic_link_and_keeps_the_file_that_it_points_to) {
   const TemporaryFolder folder;
-  write_text_atomically(folder.path() / "map.png", "old");
   write_text_atomically(folder.path() / "other", "kept");
-  write_files_atomically(folder.path(), [&](const fs::path& temporary) {
-    EXPECT_EQ(temporary.parent_path(), folder.path());
-    std::ofstream(temporary / "map.png") << "new";
-    std::ofstream(temporary / "map_limits.txt") << "1 2";
-    EXPECT_EQ(read_file(folder.path() / "map.png"), "old");
-    EXPECT_FALSE(fs::exists(folder.path() / "map_limits.txt"));
-  });
-  EXPECT_EQ(read_file(folder.path() / "map.png"), "new");
-  EXPECT_THAT(names_in(folder.path()), ElementsAre("map.png", "map_limits.txt", "other"));
+  fs::create_symlink("other", folder.path() / "map.yaml");
+  write_text_atomically(folder.path() / "map.yaml", "new");
+  EXPECT_EQ(contents(folder.path() / "other"), "kept");
+  EXPECT_FALSE(fs::is_symlink(folder.path() / "map.yaml"));
+  EXPECT_EQ(contents(folder.path() / "map.yaml"), "new");
 }
 
-TEST(AtomicFolder, a_failing_writer_changes_nothing_and_leaves_no_temporary_folder) {
+TEST(AtomicFile, a_file_that_is_not_moved_leaves_nothing) {
   const TemporaryFolder folder;
-  write_text_atomically(folder.path() / "map.png", "old");
-  EXPECT_THROW(write_files_atomically(folder.path(),
-                                      [](const fs::path& temporary) {
-                                        std::ofstream(temporary / "map.png") << "half";
-                                        throw std::runtime_error("power cut");
-                                      }),
-               std::runtime_error);
-  EXPECT_EQ(read_file(folder.path() / "map.png"), "old");
-  EXPECT_THAT(names_in(folder.path()), ElementsAre("map.png"));
+  write_text_atomically(folder.path() / "map.yaml", "old");
+  {
+    AtomicFile file(folder.path() / "map.yaml");
+    file.write("half");
+  }
+  EXPECT_EQ(contents(folder.path() / "map.yaml"), "old");
+  EXPECT_EQ(files_in(folder.path()), 1);
 }
 
-TEST(AtomicFolder, removes_only_leftovers_of_ended_processes) {
+TEST(AtomicFile, the_returned_descriptor_is_that_of_the_file) {
   const TemporaryFolder folder;
-  const pid_t dead = fork();
-  if (dead == 0) _exit(0);
-  ASSERT_EQ(waitpid(dead, nullptr, 0), dead);
-  const std::string of_dead = ".partial-" + std::to_string(dead);
-  const std::string of_living = ".partial-" + std::to_string(getpid());
-  fs::create_directory(folder.path() / of_dead);
-  for (const std::string& name : {of_dead + "/map.png", of_dead + "-map.png", of_living + "-map.png",
-                                  std::string(".partial-notes"), std::string("map.png")})
-    std::ofstream(folder.path() / name) << "half";
-  const auto hours_ago = fs::file_time_type::clock::now() - std::chrono::hours(2);
-  remove_leftovers(folder.path());
-  EXPECT_TRUE(fs::exists(folder.path() / of_dead)) << "its writer may run on another machine";
-  for (const auto& entry : fs::directory_iterator(folder.path()))
-    fs::last_write_time(entry.path(), hours_ago);
-  remove_leftovers(folder.path());
-  EXPECT_THAT(names_in(folder.path()), ElementsAre(of_living + "-map.png", ".partial-notes", "map.png"));
+  AtomicFile file(folder.path() / "my.journal");
+  file.write("a");
+  const Descriptor descriptor = file.move_into_place();
+  ASSERT_EQ(::write(descriptor.number(), "b", 1), 1);
+  EXPECT_EQ(contents(folder.path() / "my.journal"), "ab");
 }
 
-TEST(AtomicFolder, an_obstacle_is_an_error_with_its_name) {
+TEST(AtomicFile, a_missing_folder_is_an_error_that_says_what_to_do) {
   const TemporaryFolder folder;
-  fs::create_directories(folder.path() / "map.png" / "full");
+  const fs::path path = folder.path() / "missing" / "map.yaml";
   try {
-    write_files_atomically(folder.path(),
-                           [](const fs::path& temporary) { std::ofstream(temporary / "map.png") << "new"; });
+    write_text_atomically(path, "x");
     FAIL() << "no exception";
   } catch (const SystemFailure& failure) {
-    EXPECT_THAT(failure.what(), HasSubstr("cannot write " + (folder.path() / "map.png").string() + ": "));
+    EXPECT_EQ(failure.what(), "cannot write " + path.string() +
+                                  ": No such file or directory. Choose a folder that exists and is writable");
   }
-  EXPECT_THROW(write_files_atomically(folder.path() / "missing", [](const fs::path&) {}), SystemFailure);
+}
+
+TEST(AtomicFile, a_long_name_has_a_temporary_name_that_ends_like_it) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / (std::string(245, 'm') + ".png");
+  write_atomically(path, [](const fs::path& temporary) {
+    EXPECT_EQ(temporary.extension(), ".png");
+    std::ofstream(temporary) << "x";
+  });
+  EXPECT_EQ(contents(path), "x");
 }
 
 }  // namespace

@@ -135,6 +135,32 @@ TEST(CompressedFile, reports_damaged_data) {
             path.string() + " is damaged: its data cannot be decompressed. Fetch it again");
 }
 
+TEST(CompressedFile, reports_a_file_that_becomes_shorter_while_it_is_read) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "log";
+  write_file(path, std::string(2'000'000, 'x'));
+  CompressedFile file(path);
+  std::string part(1000, '\0');
+  EXPECT_EQ(file.read(part.data(), part.size()), part.size());
+  std::filesystem::resize_file(path, 1'000'000);
+  std::string rest(2'000'000, '\0');
+  EXPECT_LE(file.read(rest.data(), rest.size()), 1'000'000U);
+  EXPECT_EQ(
+      sentence_of([&] { file.read(rest.data(), rest.size()); }),
+      path.string() + " became shorter while it was read, expected a file that is complete. Fetch it again");
+}
+
+TEST(CompressedFile, reads_a_file_that_grows_or_is_replaced_while_it_is_read) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "log";
+  write_file(path, "first");
+  CompressedFile file(path);
+  write_file(folder.path() / "other", "x");
+  std::filesystem::rename(folder.path() / "other", path);
+  std::string part(1000, '\0');
+  EXPECT_EQ(file.read(part.data(), part.size()), 5U);
+}
+
 TEST(CompressedFile, reports_missing_files_and_folders) {
   const TemporaryFolder folder;
   EXPECT_EQ(sentence_of([&] { CompressedFile{folder.path()}; }),

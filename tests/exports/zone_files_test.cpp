@@ -120,9 +120,8 @@ TEST_F(ZoneFiles, mrpt_reads_the_polygons) {
   EXPECT_FALSE(slow.contains({1.5, 0.5}));
 }
 
-TEST_F(ZoneFiles, files_of_older_zones_are_deleted) {
-  write({zone(Kind::kKeepOut, 1, 2), zone(Kind::kSlow, 4, 6, 40)});
-  write({});
+TEST_F(ZoneFiles, without_zones_no_file_is_written) {
+  write({zone(Kind::kErase, 4, 5)});
   for (const char* name :
        {"keepout_mask.yaml", "keepout_mask.pgm", "speed_mask.yaml", "speed_mask.pgm", "zones.txt"})
     EXPECT_FALSE(exists(name)) << name;

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <set>
 
+#include "base/partial_files.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"
 #include "simulated_room.h"
@@ -95,6 +96,44 @@ TEST(OutputFolder, force_replaces_results_and_keeps_other_files) {
   export_room(OutputFolder::prepare(temporary.path(), true));
   EXPECT_EQ(contents(temporary.path() / "notes.txt"), "mine");
   EXPECT_THAT(contents(temporary.path() / "map.yaml"), HasSubstr("image: map.pgm"));
+}
+
+TEST(OutputFolder, replaced_results_lose_the_files_that_the_new_ones_do_not_have) {
+  const TemporaryFolder temporary;
+  const std::set<std::string> outdated{"map.tif",           "map.gridmap.gz",    "trajectory-1.tum",
+                                       "trajectory-12.tum", "trajectory.carmen", "speed_mask.pgm",
+                                       "zones.txt",         "loops.edits",       "map_print.png"};
+  const std::set<std::string> others{"map.txt", "my.edits", "trajectory-0.tum", "report.html", "maps.png"};
+  for (const std::string& name : outdated) std::ofstream(temporary.path() / name) << "old";
+  for (const std::string& name : others) std::ofstream(temporary.path() / name) << "kept";
+  OutputFolder::prepare(temporary.path(), true).replace_results([&](const OutputFolder& folder) {
+    std::ofstream(folder.path() / "map.png") << "new";
+    EXPECT_EQ(contents(temporary.path() / "map.tif"), "old") << "until the new results are complete";
+  });
+  std::set<std::string> expected = others;
+  expected.insert("map.png");
+  EXPECT_EQ(names_in(temporary.path()), expected);
+}
+
+TEST(OutputFolder, results_that_cannot_be_written_leave_the_old_ones) {
+  const TemporaryFolder temporary;
+  std::ofstream(temporary.path() / "map.png") << "old";
+  const OutputFolder folder = OutputFolder::prepare(temporary.path(), true);
+  EXPECT_THROW(folder.replace_results([](const OutputFolder& results) {
+    std::ofstream(results.path() / "map.png") << "new";
+    throw SystemFailure("the disk is full");
+  }),
+               SystemFailure);
+  EXPECT_EQ(contents(temporary.path() / "map.png"), "old");
+  EXPECT_EQ(names_in(temporary.path()), std::set<std::string>{"map.png"});
+}
+
+TEST(OutputFolder, is_empty_if_it_only_has_temporary_files_of_a_killed_program) {
+  const TemporaryFolder temporary;
+  std::ofstream(temporary.path() / new_partial_name("map.png")) << "half";
+  EXPECT_EQ(complaint(temporary.path()), "no complaint");
+  std::ofstream(temporary.path() / ".hidden") << "x";
+  EXPECT_THAT(complaint(temporary.path()), HasSubstr("is not empty"));
 }
 
 TEST(OutputFolder, equal_results_give_equal_bytes) {

@@ -1,0 +1,342 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Makes writes and reads of psi-slam fail, kills it, and checks what it leaves.
+
+    faults_test.py BUILD SOURCE [--every N] [--kills N] [--jobs N]
+
+Maps, resumes, merges, localizes and compares maps of a short simulated log in a folder that has older results. Every call that
+writes a file fails in turn with ENOSPC (as do all later ones that need space), with EIO, or after half of its bytes. Before every such
+call, psi-slam is also killed. Then reads of the log fail, the log is truncated while it is read, and the clock is set back. At last
+psi-slam is killed at random moments, again and again in the same folders.
+
+Each file must then be whole: that of the older results, or that of a run without fault. psi-slam must print one sentence with the name
+of the file and the reason, return the right exit code, and leave no temporary file unless it was killed.
+
+--every N tests every N-th call only; --kills N is the number of kills at random moments.
+"""
+import argparse
+import collections
+import concurrent.futures
+import gzip
+import json
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+PARTIAL = re.compile(r"\.partial-\d+-[0-9a-f]{16}(-|$)")
+REASONS = {"enospc": "No space left on device", "short": "No space left on device", "eio": "Input/output error"}
+TIMED = {"frames.csv", "loops.csv", "summary.json", "report.html"}  # state times, so no two runs give the same bytes
+SETTINGS = {
+    "new": "[map]\nwrite_print = true\nwrite_geotiff = true\nwrite_gpkg = true\nepsg = 25832\norigin_easting_m = 500000\n"
+           "origin_northing_m = 5500000\nprint_dpi = 100\n",
+    "old": "[map]\nresolution_m = 0.1\nwrite_dxf = false\nwrite_geotiff = true\nepsg = 25832\n",
+}
+EDITS = "keep_out polygon=-1,-1;-0.5,-1;-0.5,1;-1,1\nslow polygon=1,-1;2,-1;2,1 percent=40\n"
+LOG_COMMANDS = ("map", "merge")  # commands whose reads fail, too
+
+Command = collections.namedtuple("Command", "name words")
+Run = collections.namedtuple("Run", "code err calls")
+Call = collections.namedtuple("Call", "number name path failed")
+
+
+class Fault(Exception):
+    """psi-slam did not keep its promise."""
+
+
+def commands(inputs, variant):
+    """The commands with their outputs in the current folder. `variant` names the settings."""
+    settings = ["-c", str(inputs / f"{variant}.ini")]
+    log, first, rest, late, session, grid = (str(inputs / name) for name in (
+        "log.clf", "first.clf", "rest.clf", "late.clf", "first.session", "grid/map.yaml"))
+    edits = ["--edits", str(inputs / "zones.edits")] if variant == "new" else []
+    seed = ["--seed", "1" if variant == "new" else "2"]
+    to = ["-o", "out", "--force"]
+    map_words = [log, *settings, *seed, *edits, *to, "--save-session", "s.session"]
+    return [
+        Command("map", [*map_words, "--journal", "j.journal"]),
+        Command("resume", ["--resume", session, rest, *settings, *to, "--save-session", "s.session"]),
+        Command("merge", ["merge", log, late, *settings, *seed, *to]),
+        Command("localize", ["localize", grid, log if variant == "new" else first, *to]),
+        Command("diff", ["diff", str(inputs / "old_grid/map.yaml") if variant == "new" else grid, grid, *to]),
+    ]
+
+
+def files_in(folder):
+    """Bytes of all files below a folder, by relative path."""
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+def is_whole(name, content, model):
+    """Whether a file that states times is complete, compared with the same file of another run."""
+    if name == "summary.json":
+        return json.loads(content).keys() == json.loads(model).keys()
+    if name == "report.html":
+        return content.rstrip().endswith(b"</html>")
+    commas = [[line.count(b",") for line in text.split(b"\n")[:-1]] for text in (content, model)]
+    return content.endswith(b"\n") and commas[0] == commas[1]
+
+
+def sort_out(folder, before, after, killed):
+    """Says for each file in a folder whether it is old or new. Raises Fault if it is neither, or is missing."""
+    kinds = {}
+    for name, content in files_in(folder).items():
+        parts = name.split("/")
+        is_partial = any(PARTIAL.match(part) for part in parts)
+        if is_partial and killed:
+            continue
+        if is_partial or any(part.startswith(".") for part in parts):
+            raise Fault(f"the temporary file {name} was left")
+        if before.get(name) == content:
+            kinds[name] = "old"
+        elif name == "j.journal" and content.startswith(b"psi-slam journal"):
+            kinds[name] = "journal"
+        elif name not in after:
+            raise Fault(f"{name} belongs to no results")
+        elif content == after[name] or (Path(name).name in TIMED and is_whole(Path(name).name, content, after[name])):
+            kinds[name] = "new"
+        else:
+            raise Fault(f"{name} has {len(content)} bytes that belong to neither results")
+    gone = [name for name in before if name in after and name not in kinds]
+    if gone:
+        raise Fault(f"{gone} vanished")
+    return kinds
+
+
+class Tests:
+    def __init__(self, build, source, work, options, pool):
+        self.program = build / "apps/psi-slam/psi-slam"
+        self.inputs = work / "inputs"
+        self.work = work
+        self.options = options
+        self.pool = pool
+        self.tasks = []
+        self.library = work / "failing_system.so"
+        self.counts = collections.Counter()
+        self.failures = []
+        subprocess.run(["cc", "-shared", "-fPIC", "-O2", "-o", self.library, source / "tests/scripts/failing_system.c", "-ldl"],
+                       check=True)
+        self.make_inputs(build / "apps/psi-slam-bench/psi-slam-bench")
+
+    def make_inputs(self, bench):
+        self.inputs.mkdir()
+        simulated = self.inputs / "simulated.clf.gz"
+        subprocess.run([bench, "simulate", "--path-m", "20", "--write-log", simulated], check=True, stdout=subprocess.DEVNULL)
+        lines = gzip.decompress(simulated.read_bytes()).decode().splitlines(keepends=True)
+        head, scans = lines[:8], lines[8:]
+        for name, part in {"log": scans[:50], "first": scans[:30], "rest": scans[30:50], "late": scans[20:60]}.items():
+            (self.inputs / f"{name}.clf").write_text("".join(head + part))
+        (self.inputs / "log.clf.gz").write_bytes(gzip.compress((self.inputs / "log.clf").read_bytes(), mtime=0))
+        for name, text in SETTINGS.items():
+            (self.inputs / f"{name}.ini").write_text(text)
+        (self.inputs / "zones.edits").write_text(EDITS)
+        for words in (["first.clf", "-o", "grid", "--save-session", "first.session"],
+                      ["late.clf", "-o", "old_grid", "--seed", "2"]):
+            self.run(self.inputs, words)
+
+    def run(self, folder, words, **faults):
+        """Runs psi-slam in a folder with faults of the preloaded library: those of failing_system.c, in small letters."""
+        trace = folder.with_suffix(".trace")
+        trace.unlink(missing_ok=True)
+        environment = dict(os.environ, LD_PRELOAD=str(self.library), PSI_FAULT_TRACE=str(trace), PSI_FAULT_FOLDER=str(folder))
+        environment.update({f"PSI_FAULT_{name.upper()}": str(value) for name, value in faults.items()})
+        done = subprocess.run([self.program, *words], cwd=folder, env=environment, capture_output=True, text=True, timeout=120)
+        lines = trace.read_text().splitlines() if trace.exists() else []
+        calls = [Call(int(line.split()[0]), *line.split()[1:3], line.endswith(" failed")) for line in lines]
+        return Run(done.returncode, done.stderr.splitlines(), calls)
+
+    def folder(self, name, content=None):
+        """A new folder with copies of files."""
+        folder = self.work / name
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        for path, bytes_ in (content or {}).items():
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            (folder / path).write_bytes(bytes_)
+        return folder
+
+    def results(self, name, words, content=None):
+        """Runs psi-slam without fault. Returns the run and the files after it."""
+        folder = self.folder(name, content)
+        run = self.run(folder, words)
+        if run.code not in (0, 1 if words[0] == "diff" else 0):
+            raise Fault(f"exit code {run.code} without fault: {run.err}")
+        return run, files_in(folder)
+
+    def submit(self, test, *words):
+        self.tasks.append(self.pool.submit(test, *words))
+
+    def expect(self, what, test, *words):
+        """Runs one test, counts it and collects its failure."""
+        self.counts[what] += 1
+        try:
+            test(*words)
+        except (Fault, ValueError, subprocess.TimeoutExpired) as fault:
+            self.failures.append(f"{what}, {' '.join(str(word) for word in words if isinstance(word, (int, str)))}: {fault}")
+            print(self.failures[-1], file=sys.stderr, flush=True)
+
+    def complaint(self, run, good):
+        """The only sentence that a run without fault does not print, besides notices about the journal."""
+        new = [line for line in run.err if line not in good.err and "psi-slam: the journal is" not in line]
+        if len(new) != 1:
+            raise Fault(f"exit code {run.code} and {len(new)} sentences: {new}")
+        return new[0]
+
+    def fail_write(self, name, number, kind, command, before, good, after):
+        folder = self.folder(f"{name}-{kind}-{number}", before)
+        run = self.run(folder, command.words, call=number, kind=kind)
+        failed = [call for call in run.calls if call.failed]
+        if not failed:
+            raise Fault(f"only {len(run.calls)} calls")
+        call = failed[0]
+        killed = kind == "kill"
+        kinds = sort_out(folder, before, after, killed or "/.partial-" in call.path and call.name in ("remove", "unlink"))
+        results = {kinds[path] for path in kinds if path.startswith("out/")}
+        final = re.compile(rf"(\./)?{re.escape('out/')}[^.][^/]*$")
+        moves = [other.number for other in run.calls if other.name == "rename" and final.match(other.path)]
+        if run.code != good.code and (not moves or moves[0] >= call.number) and "new" in results:
+            raise Fault(f"only some results are new, though {call.name} of {call.path} failed before the first was moved")
+        if killed and run.code != -9:
+            raise Fault(f"exit code {run.code} after a kill")
+        if killed:
+            self.run_again(folder, command, good, after)
+        elif run.code == good.code:
+            harmless = "j.journal" in call.path or "/.partial-" in call.path and call.name == "remove"
+            if not harmless or "old" in results:
+                raise Fault(f"no failure, though {call.name} of {call.path} failed")
+        elif run.code != (2 if command.name == "diff" else 1):
+            raise Fault(f"exit code {run.code}: {run.err}")
+        else:
+            sentence = self.complaint(run, good)
+            parts = [part for part in call.path.split("/") if not re.fullmatch(r"\.partial-\d+-[0-9a-f]{16}", part)]
+            place = PARTIAL.sub("", parts[-1]) if parts[-1] else parts[-2]
+            place = "" if place == folder.name else place  # the entries of the current folder: any of its files may be named
+            if REASONS[kind] not in sentence or place not in sentence or ".partial" in sentence:
+                raise Fault(f"{call.name} of {call.path}: {sentence}")
+        shutil.rmtree(folder)
+
+    def run_again(self, folder, command, good, after):
+        run = self.run(folder, command.words)
+        if run.code != good.code or set(sort_out(folder, {}, after, True).values()) != {"new"}:
+            raise Fault(f"the next run ends with {run.code}: {run.err}")
+
+    def writes(self, command, old_command):
+        _, before = self.results(f"{command.name}-before", old_command.words)
+        good, after = self.results(f"{command.name}-after", command.words, before)
+        counted = [call for call in good.calls if call.name != "read"]
+        for call in counted[::self.options.every]:
+            kinds = ["enospc", "eio", "kill"] + (["short"] if "write" in call.name else [])
+            for kind in kinds if self.options.every == 1 else [random.choice(kinds)]:
+                what = f"{command.name}: {'kills before a write' if kind == 'kill' else 'failing writes, ' + kind}"
+                self.submit(self.expect, what, self.fail_write, command.name, call.number, kind, command, before, good, after)
+
+    def fail_read(self, name, end, cut, log, words, good, after):
+        folder = self.folder(f"{name}-read-{end}-{cut}")
+        copy = folder.with_suffix("".join(log.suffixes))
+        shutil.copy(log, copy)
+        faults = {"read": copy, "read_end": end, **({"read_cut": cut} if cut else {})}
+        run = self.run(folder, [str(copy) if word == str(log) else word for word in words], **faults)
+        if run.code == 0:
+            if set(sort_out(folder, {}, after, False).values()) != {"new"}:
+                raise Fault("exit code 0 with other results")
+            if not cut:
+                raise Fault("exit code 0 after a read error")
+            return
+        sentences = [line for line in run.err if str(copy.name) in line]
+        if run.code != 2 or len(sentences) != 1 or (not cut and REASONS["eio"] not in sentences[0]):
+            raise Fault(f"exit code {run.code}: {run.err}")
+        shutil.rmtree(folder)
+
+    def reads(self):
+        words = commands(self.inputs, "new")[0].words
+        for log in (self.inputs / "log.clf", self.inputs / "log.clf.gz"):
+            size = log.stat().st_size
+            line = log.read_bytes().find(b"\n", size // 2) + 1 if log.suffix == ".clf" else size // 3
+            _, after = self.results(f"read-after{log.suffix}", [str(log), *words[1:]])
+            good = self.run(self.folder("read-count"), [str(log), *words[1:]], read=log)
+            reads = sum(call.name == "read" for call in good.calls)
+            with_log = [str(log), *words[1:]]
+            for end in sorted({0, 1, size // 2, line, size - 1}):
+                self.submit(self.expect, "read errors", self.fail_read, log.name, end, 0, log, with_log, good, after)
+            for cut in range(1, reads + 1, self.options.every):
+                for end in (0, size // 2, line):
+                    self.submit(self.expect, "truncated logs", self.fail_read, log.name, end, cut, log, with_log, good, after)
+
+    def set_clock_back(self, call, words, after):
+        folder = self.folder(f"clock-{call}")
+        run = self.run(folder, words, clock=call)
+        if run.code != 0 or set(sort_out(folder, {}, after, False).values()) != {"new"}:
+            raise Fault(f"exit code {run.code}: {run.err}")
+
+    def clocks(self):
+        words = commands(self.inputs, "new")[0].words
+        _, after = self.results("clock-after", words)
+        for call in (1, 2, 5, 20):
+            self.submit(self.expect, "clock set back", self.set_clock_back, call, words, after)
+
+    def kill_often(self, name, kills, variants):
+        """Kills a command again and again in one folder, each time with other settings than the time before."""
+        versions = []
+        for variant, command in variants.items():
+            start = time.monotonic()
+            good, after = self.results(f"{name}-{variant}-kills", command.words)
+            versions.append((command, good, after, time.monotonic() - start))
+        folder = self.folder(f"{name}-kills", versions[0][2])
+        for kill in range(kills):
+            command, good, after, duration_s = versions[(kill + 1) % 2]
+            before = {path: content for path, content in files_in(folder).items() if ".partial-" not in path}
+            moment_s = random.uniform(0, 1.1 * duration_s)
+            child = subprocess.Popen([self.program, *command.words], cwd=folder, stdout=subprocess.DEVNULL,
+                                     stderr=subprocess.DEVNULL)
+            try:
+                child.wait(moment_s)
+                self.counts[f"{name}: ended before the kill"] += 1
+            except subprocess.TimeoutExpired:
+                child.kill()
+                child.wait()
+            def check():
+                sort_out(folder, before, after, True)
+                if kill % 10 == 9:
+                    self.run_again(folder, command, good, after)
+                    for left in list(folder.rglob(".partial-*")):
+                        shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink()
+            self.expect(f"{name}: random kills", check)
+
+    def kills(self):
+        pairs = list(zip(commands(self.inputs, "old"), commands(self.inputs, "new")))[:3]
+        for count, (old, new) in enumerate(pairs):
+            share = self.options.kills // len(pairs) + (count < self.options.kills % len(pairs))
+            self.submit(self.kill_often, new.name, share, {"old": old, "new": new})
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=Path)
+    parser.add_argument("source", type=Path)
+    parser.add_argument("--every", type=int, default=1)
+    parser.add_argument("--kills", type=int, default=1000)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    options = parser.parse_args()
+    random.seed(1)
+    with tempfile.TemporaryDirectory() as work, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        tests = Tests(options.build.resolve(), options.source.resolve(), Path(work), options, pool)
+        tests.kills()
+        for new, old in zip(commands(tests.inputs, "new"), commands(tests.inputs, "old")):
+            tests.submit(tests.writes, new, old)
+        tests.submit(tests.reads)
+        tests.submit(tests.clocks)
+        for task in tests.tasks:  # tasks add others
+            task.result()
+    for what, count in sorted(tests.counts.items()):
+        print(f"{what}: {count}")
+    print(f"{len(tests.failures)} failures")
+    return 1 if tests.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

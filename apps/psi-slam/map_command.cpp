@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -59,6 +58,16 @@ LogDiagnosis diagnosis_of(const std::filesystem::path& log, const LogOptions& op
     return diagnose(log, options);
   } catch (const UserError& error) {
     throw UserError("verdict: cannot be mapped: " + std::string(error.what()));
+  }
+}
+
+/// Writes the results. If that fails, too, the exception names both failures.
+RunSummary export_after(const std::string& failure, MappingSession& session, const OutputFolder& folder) {
+  try {
+    return session.export_to(folder);
+  } catch (const SystemFailure& error) {
+    if (failure.empty()) throw;
+    throw SystemFailure(failure + ", and the results are not written: " + error.what());
   }
 }
 
@@ -145,16 +154,16 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
                     const Streams& streams, std::optional<ProgressLine>& progress_line) {
   const bool to_save = !line.save_session.empty();
   SavedSession saved;
-  std::exception_ptr failure;
+  std::string failure;  // to save the session; the results are written anyway
   try {
     if (to_save) saved = session.save(line.save_session);
-  } catch (...) {
-    failure = std::current_exception();
+  } catch (const SystemFailure& error) {
+    failure = error.what();
   }
-  const RunSummary summary = session.export_to(folder);
+  const RunSummary summary = export_after(failure, session, folder);
   progress_line.reset();
   session.set_observer({});
-  print_result(session, summary, folder, line, streams, to_save && !failure && saved.remark.empty());
+  print_result(session, summary, folder, line, streams, to_save && failure.empty() && saved.remark.empty());
   const auto warn = [&](const std::string& sentence) { streams.err << "psi-slam: " << sentence << '\n'; };
   if (!saved.remark.empty()) warn(saved.remark);
   if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0 && !session.broken_off())
@@ -169,7 +178,7 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   if (const auto broken = broken_map_text(summary)) warn(*broken);
   for (const std::string& warning : session.warnings_of_logs_before()) warn(warning);
   if (session.broken_off()) warn(broken_off_text(*session.broken_off(), session.result().frames.size()));
-  if (failure) std::rethrow_exception(failure);
+  if (!failure.empty()) throw SystemFailure(failure);
   session.remove_journal();
   return session.breaks_off() ? kExitWrongUsageOrInput : kExitDone;
 }

@@ -222,16 +222,16 @@ void SessionInput::check_kept_calibration(const LogOptions& options) {
   }
 }
 
-void SessionInput::require_unshortened() const {
-  if (bytes_of(log_) < bytes_)
-    throw UserError(log_.string() +
-                    " became shorter while it was read, expected a log that is complete. Fetch it again");
+bool SessionInput::is_shortened() const {
+  return bytes_of(log_) < bytes_;
 }
 
 std::unique_ptr<FrameSource> SessionInput::open(const LogOptions& options) const {
   if (open_stream_ && recording_) return std::make_unique<ResumedStream>(recording_, open_stream_(options));
   if (open_stream_) return open_stream_(options);
-  require_unshortened();
+  if (is_shortened())
+    throw UserError(log_.string() +
+                    " became shorter while it was read, expected a log that is complete. Fetch it again");
   if (!recording_) return open_log(log_, options);
   return std::make_unique<RecordedSource>(recording_, log_.empty() ? nullptr : open_log(log_, options),
                                           same_log_, log_);

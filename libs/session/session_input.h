@@ -63,6 +63,8 @@ class SessionInput {
   const std::shared_ptr<const SessionRecording>& recording() const { return recording_; }
   /// Path of the log that is read; empty if there is none.
   const std::filesystem::path& log() const { return log_; }
+  /// Returns whether the log became shorter since this input was made.
+  bool is_shortened() const;
   /// All logs, in the order of their frames. The checksum of the last log is empty until it is computed.
   const std::vector<RecordedLog>& logs() const { return logs_; }
   /// The edits, each with the time at which it is made.
@@ -70,7 +72,6 @@ class SessionInput {
 
  private:
   void check_kept_calibration(const LogOptions& options);
-  void require_unshortened() const;
 
   std::shared_ptr<const SessionRecording> recording_;
   OpenStream open_stream_;  ///< empty unless a stream is read

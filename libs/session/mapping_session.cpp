@@ -64,6 +64,7 @@ MappingSession::MappingSession(const SessionInput& input, const Settings& settin
     : m_(std::make_unique<Members>()) {
   m_->recording = input.recording();
   m_->log_path = input.log();
+  m_->log_bytes = input.log_bytes();
   m_->logs = input.logs();
   m_->settings = settings;
   m_->settings_text = settings_file_text(settings);
@@ -361,6 +362,7 @@ void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
       run.edits().of_run(m.scans, inner ? inner->frames.size() : 0, m.mapper->keyframes().local_maps.size()));
   m.recording.reset();  // the recording no longer covers all logs
   m.log_path = run.log();
+  m.log_bytes = run.log_bytes();
   m.log_sha256.clear();
   m.logs = logs_before;
   m.logs.insert(m.logs.end(), run.logs().begin(), run.logs().end());

@@ -47,13 +47,14 @@ struct MappingSession::Members {
   const std::vector<Frame>& mapped_log() const {
     return state == State::kFinished ? result.log : mapper->log();
   }
-  /// SHA-256 of the log; empty if the log is no longer readable.
+  /// SHA-256 of the log; empty if the log is no longer readable or became shorter.
   std::string checksum_of_log() const;
   void begin(SessionProgress::Phase new_phase);
   void report(double share) const;
 
   std::shared_ptr<const SessionRecording> recording;  ///< null if there is no recorded session
   std::filesystem::path log_path;                     ///< the log that is read; empty without a log
+  std::uintmax_t log_bytes = 0;                       ///< its size when it was opened
   mutable std::string log_sha256;                     ///< cache of checksum_of_log()
   /// For the last log, scans_left means that readable scans are known to remain.
   std::vector<RecordedLog> logs;

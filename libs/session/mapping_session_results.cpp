@@ -149,7 +149,7 @@ SavedSession MappingSession::save(const fs::path& file) const {
   SavedSession saved{frames.size(), ""};
   if (facts.logs.back().sha256.empty())
     saved.remark = "The session holds all scans that were mapped, but " + facts.logs.back().name +
-                   " is no longer readable, so the session cannot be resumed from it";
+                   " is no longer readable or became shorter, so the session cannot be resumed from it";
   return saved;
 }
 
@@ -199,6 +199,7 @@ std::string MappingSession::Members::checksum_of_log() const {
   if (!log_sha256.empty()) return log_sha256;
   std::error_code ignored;
   if (!fs::is_regular_file(log_path, ignored) && !fs::is_directory(log_path, ignored)) return "";
+  if (bytes_on_disk(log_path) < log_bytes) return "";  // it is not the log that was read
   try {
     log_sha256 = sha256_of_log(log_path);
   } catch (const UserError&) {

@@ -21,14 +21,6 @@ std::string name_of(const std::filesystem::path& log) {
   return (log.has_filename() ? log : log.parent_path()).filename().string();
 }
 
-/// Size of a file; 0 if it is no regular file.
-std::uintmax_t bytes_of(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::uintmax_t bytes =
-      std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
-  return error ? 0 : bytes;
-}
-
 /// Returns the calibration of a log that continues `last`: the robot and its lasers stay the same.
 std::optional<LogCalibration> continued(const RecordedLog& last, const std::string& name) {
   if (!last.calibration || last.calibration->estimates.empty()) return std::nullopt;
@@ -143,8 +135,15 @@ class ResumedStream : public FrameSource {
 
 }  // namespace
 
+std::uintmax_t bytes_on_disk(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::uintmax_t bytes =
+      std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
+  return error ? 0 : bytes;
+}
+
 SessionInput::SessionInput(std::filesystem::path log)
-    : log_(std::move(log)), bytes_(bytes_of(log_)), logs_{{name_of(log_), "", 0}} {}
+    : log_(std::move(log)), log_bytes_(bytes_on_disk(log_)), logs_{{name_of(log_), "", 0}} {}
 
 SessionInput::SessionInput(const std::string& name, OpenStream open)
     : open_stream_(std::move(open)), logs_{{name, "", 0}} {}
@@ -152,7 +151,7 @@ SessionInput::SessionInput(const std::string& name, OpenStream open)
 SessionInput::SessionInput(std::shared_ptr<const SessionRecording> recording, std::filesystem::path log)
     : recording_(std::move(recording)),
       log_(std::move(log)),
-      bytes_(bytes_of(log_)),
+      log_bytes_(bytes_on_disk(log_)),
       logs_(recording_->facts.logs),
       edits_(recording_->facts.edits) {
   edits_.rewind();
@@ -222,14 +221,10 @@ void SessionInput::check_kept_calibration(const LogOptions& options) {
   }
 }
 
-bool SessionInput::is_shortened() const {
-  return bytes_of(log_) < bytes_;
-}
-
 std::unique_ptr<FrameSource> SessionInput::open(const LogOptions& options) const {
   if (open_stream_ && recording_) return std::make_unique<ResumedStream>(recording_, open_stream_(options));
   if (open_stream_) return open_stream_(options);
-  if (is_shortened())
+  if (std::filesystem::exists(log_) && bytes_on_disk(log_) < log_bytes_)
     throw UserError(log_.string() +
                     " became shorter while it was read, expected a log that is complete. Fetch it again");
   if (!recording_) return open_log(log_, options);

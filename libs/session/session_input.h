@@ -20,6 +20,9 @@ namespace psi_slam {
 
 struct Settings;
 
+/// Returns the size of a file on disk in bytes; 0 if it is no regular file.
+std::uintmax_t bytes_on_disk(const std::filesystem::path& path);
+
 class SessionInput {
  public:
   /// Opens a stream of frames.
@@ -63,8 +66,8 @@ class SessionInput {
   const std::shared_ptr<const SessionRecording>& recording() const { return recording_; }
   /// Path of the log that is read; empty if there is none.
   const std::filesystem::path& log() const { return log_; }
-  /// Returns whether the log became shorter since this input was made.
-  bool is_shortened() const;
+  /// Size of the log on disk when this input was made, in bytes; 0 for a folder or without a log.
+  std::uintmax_t log_bytes() const { return log_bytes_; }
   /// All logs, in the order of their frames. The checksum of the last log is empty until it is computed.
   const std::vector<RecordedLog>& logs() const { return logs_; }
   /// The edits, each with the time at which it is made.
@@ -76,7 +79,7 @@ class SessionInput {
   std::shared_ptr<const SessionRecording> recording_;
   OpenStream open_stream_;  ///< empty unless a stream is read
   std::filesystem::path log_;
-  std::uintmax_t bytes_ = 0;  ///< size of log_ on disk when this input was made; 0 for a folder
+  std::uintmax_t log_bytes_ = 0;
   std::vector<RecordedLog> logs_;
   EditJournal edits_;
   bool same_log_ = false;           ///< log_ is the last log of the recording

@@ -82,7 +82,7 @@ static void trace(long number, const char* name, const char* path, int fails) {
 
 enum Fate { kWorks, kFails, kIsShort };
 
-/// Fate of a call that writes `path`. Sets errno if it fails.
+/// Fate of a call that writes `path`. Sets errno unless it works. A call that writes no bytes fails instead of being short.
 static enum Fate fate_of(const char* name, const char* path, int needs_space) {
   if (!is_below(path, "PSI_FAULT_FOLDER")) return kWorks;
   const long number = ++calls;
@@ -90,10 +90,9 @@ static enum Fate fate_of(const char* name, const char* path, int needs_space) {
   trace(number, name, path, is_chosen);
   if (is_chosen && is_kind("kill")) raise(SIGKILL);
   if (is_chosen && !is_kind("eio")) is_full = 1;
-  if (is_chosen && is_kind("short")) return kIsShort;
   if (!is_chosen && !(is_full && needs_space)) return kWorks;
   errno = is_chosen && is_kind("eio") ? EIO : ENOSPC;
-  return kFails;
+  return is_chosen && is_kind("short") ? kIsShort : kFails;
 }
 
 static int open_file(int folder, const char* path, int flags, mode_t mode) {

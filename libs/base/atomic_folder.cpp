@@ -2,8 +2,10 @@
 #include "base/atomic_folder.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -61,6 +63,11 @@ void move_files(const std::set<std::string>& names, const fs::path& from, const 
   }
 }
 
+void remove_file(const fs::path& path) {
+  if (::unlink(path.c_str()) != 0)
+    throw SystemFailure("cannot delete " + path.string() + ": " + std::strerror(errno));
+}
+
 }  // namespace
 
 void write_files_atomically(const fs::path& folder, const std::function<void(const fs::path&)>& write,
@@ -74,10 +81,8 @@ void write_files_atomically(const fs::path& folder, const std::function<void(con
   const std::set<std::string> written = names_in(temporary.path());
   move_files(written, temporary.path(), folder);
   if (is_outdated)
-    for (const std::string& name : names_in(folder)) {
-      std::error_code ignored;
-      if (written.count(name) == 0 && is_outdated(name)) fs::remove(folder / name, ignored);
-    }
+    for (const std::string& name : names_in(folder))
+      if (written.count(name) == 0 && is_outdated(name)) remove_file(folder / name);
   wait_for_disk(folder_of(folder / "file"), folder);
 }
 

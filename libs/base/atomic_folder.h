@@ -15,7 +15,7 @@ namespace psi_slam {
 /// `is_outdated` accepts.
 ///
 /// If `write` throws, `folder` stays unchanged and the temporary folder is removed. Throws SystemFailure that
-/// names the file or folder that cannot be written, by its final place.
+/// names the file or folder that cannot be written or deleted, by its final place.
 void write_files_atomically(const std::filesystem::path& folder,
                             const std::function<void(const std::filesystem::path& temporary_folder)>& write,
                             const std::function<bool(const std::string& name)>& is_outdated = {});

@@ -97,6 +97,7 @@ void check_image(const std::filesystem::path& path, const std::filesystem::path&
   std::ifstream stream(file, std::ios::binary);
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(stream.gcount()));
+  if (stream.bad()) throw UserError("cannot read " + file.string() + ". Check its permissions and the disk");
   const std::optional<ImageSize> size = image_size(head);
   if (!size)
     throw UserError(file.string() +

@@ -95,8 +95,10 @@ class McapBag : public RecordBag {
       // The summary is damaged. The records before it state the topics too.
     }
     McapBag whole{BagStream(stream_.path())};
-    whole.read_to_end();
-    return whole.channels_.topics();
+    const std::optional<UserError> failure = whole.read_to_end();
+    std::vector<BagTopic> topics = whole.channels_.topics();
+    if (failure && topics.empty() && !stream_.is_growing()) throw UserError(*failure);
+    return topics;
   }
 
  protected:

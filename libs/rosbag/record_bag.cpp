@@ -102,12 +102,13 @@ void RecordBag::unpack_chunk(std::string_view compression, std::string_view byte
   chunk_ = is_plain ? std::string(bytes) : decompress(compression, bytes, size);
 }
 
-void RecordBag::read_to_end() {
+std::optional<UserError> RecordBag::read_to_end() {
   try {
     for (BagMessage message; next(message);) continue;
-  } catch (const UserError&) {
-    // The error is reported when the bag is read for its messages.
+  } catch (const UserError& error) {
+    return error;
   }
+  return std::nullopt;
 }
 
 std::string RecordBag::place() const {

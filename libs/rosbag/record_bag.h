@@ -91,8 +91,8 @@ class RecordBag : public BagFile {
   void unpack_chunk(std::string_view compression, std::string_view bytes, std::uint64_t size);
   /// Makes next() continue with the records in chunk_.
   void begin_chunk() { in_chunk_.emplace(chunk_); }
-  /// Reads all records up to the end or the first error.
-  void read_to_end();
+  /// Reads all records up to the end or the first error, which it returns.
+  std::optional<UserError> read_to_end();
 
   BagStream stream_;
   std::string chunk_;

@@ -92,8 +92,9 @@ class Ros1Bag final : public RecordBag {
     }
     topics.clear();
     Ros1Bag whole{BagStream(stream_.path())};
-    whole.read_to_end();
+    const std::optional<UserError> failure = whole.read_to_end();
     for (const auto& [number, topic] : whole.connections_) add_topic(topics, topic);
+    if (failure && topics.empty() && !stream_.is_growing()) throw UserError(*failure);
     return topics;
   }
 

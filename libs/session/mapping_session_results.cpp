@@ -199,12 +199,12 @@ std::string MappingSession::Members::checksum_of_log() const {
   if (!log_sha256.empty()) return log_sha256;
   std::error_code ignored;
   if (!fs::is_regular_file(log_path, ignored) && !fs::is_directory(log_path, ignored)) return "";
-  if (bytes_on_disk(log_path) < log_bytes) return "";  // it is not the log that was read
   try {
     log_sha256 = sha256_of_log(log_path);
   } catch (const UserError&) {
   } catch (const fs::filesystem_error&) {  // the log is a folder
   }
+  if (bytes_on_disk(log_path) < log_bytes) log_sha256.clear();  // it is not the log that was read
   return log_sha256;
 }
 

@@ -221,15 +221,20 @@ void SessionInput::check_kept_calibration(const LogOptions& options) {
   }
 }
 
-std::unique_ptr<FrameSource> SessionInput::open(const LogOptions& options) const {
-  if (open_stream_ && recording_) return std::make_unique<ResumedStream>(recording_, open_stream_(options));
-  if (open_stream_) return open_stream_(options);
+void SessionInput::require_unshortened() const {
   if (std::filesystem::exists(log_) && bytes_on_disk(log_) < log_bytes_)
     throw UserError(log_.string() +
                     " became shorter while it was read, expected a log that is complete. Fetch it again");
-  if (!recording_) return open_log(log_, options);
-  return std::make_unique<RecordedSource>(recording_, log_.empty() ? nullptr : open_log(log_, options),
-                                          same_log_, log_);
+}
+
+std::unique_ptr<FrameSource> SessionInput::open(const LogOptions& options) const {
+  if (open_stream_ && recording_) return std::make_unique<ResumedStream>(recording_, open_stream_(options));
+  if (open_stream_) return open_stream_(options);
+  require_unshortened();
+  std::unique_ptr<FrameSource> opened = recording_ && log_.empty() ? nullptr : open_log(log_, options);
+  require_unshortened();  // the log was looked over
+  if (!recording_) return opened;
+  return std::make_unique<RecordedSource>(recording_, std::move(opened), same_log_, log_);
 }
 
 void check(const Settings& settings) {

@@ -75,6 +75,7 @@ class SessionInput {
 
  private:
   void check_kept_calibration(const LogOptions& options);
+  void require_unshortened() const;
 
   std::shared_ptr<const SessionRecording> recording_;
   OpenStream open_stream_;  ///< empty unless a stream is read

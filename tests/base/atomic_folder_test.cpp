@@ -63,6 +63,18 @@ TEST(AtomicFolder, deletes_outdated_files_that_were_not_written) {
   EXPECT_THAT(names_in(folder.path()), ElementsAre("map.png", "notes"));
 }
 
+TEST(AtomicFolder, an_outdated_file_that_cannot_be_deleted_is_an_error) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "map.dxf");
+  try {
+    write_files_atomically(
+        folder.path(), [](const fs::path&) {}, [](const std::string& name) { return name == "map.dxf"; });
+    FAIL() << "no exception";
+  } catch (const SystemFailure& failure) {
+    EXPECT_THAT(failure.what(), HasSubstr("cannot delete " + (folder.path() / "map.dxf").string() + ": "));
+  }
+}
+
 TEST(AtomicFolder, only_this_user_can_read_the_temporary_folder) {
   const TemporaryFolder folder;
   write_files_atomically(folder.path(), [](const fs::path& temporary) {

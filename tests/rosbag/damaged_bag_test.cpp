@@ -144,6 +144,16 @@ INSTANTIATE_TEST_SUITE_P(
                          }}),
     [](const auto& tested) { return tested.param.name; });
 
+TEST(CutOffBag, within_its_only_chunk_is_not_taken_for_a_bag_without_scans) {
+  const TemporaryFolder folder;
+  const Path path = folder.path() / "bag";
+  write_ros1_bag(path, recorded_run(8), {"none", 1000, true});
+  const std::uintmax_t bag_header_bytes = 4117;
+  ASSERT_GT(std::filesystem::file_size(path), bag_header_bytes + 1000);
+  std::filesystem::resize_file(path, bag_header_bytes + 1000);
+  EXPECT_THAT(read_to_the_end(path).sentence, testing::HasSubstr("the file is cut off"));
+}
+
 // ---- Stated sizes ----
 
 constexpr std::uint64_t kGigabytes = 3'000'000'000;

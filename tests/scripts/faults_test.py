@@ -38,7 +38,8 @@ SETTINGS = {
            "origin_northing_m = 5500000\nprint_dpi = 100\n",
     "old": "[map]\nresolution_m = 0.1\nwrite_dxf = false\nwrite_geotiff = true\nepsg = 25832\n",
 }
-EDITS = "keep_out polygon=-1,-1;-0.5,-1;-0.5,1;-1,1\nslow polygon=1,-1;2,-1;2,1 percent=40\n"
+KILLS_IN_FOLDER = 50
+EDITS = "keep_out polygon=0.5,-0.5;1,-0.5;1,0.5;0.5,0.5\nslow polygon=1,-0.5;2,-0.5;2,0.5 percent=40\n"
 
 Command = collections.namedtuple("Command", "name words")
 Run = collections.namedtuple("Run", "code err calls duration_s")
@@ -202,8 +203,9 @@ class Tests:
         folder = self.folder(f"{name}-{kind}-{number}", before)
         run = self.run(folder, command.words, call=number, kind=kind)
         failed = [call for call in run.calls if call.failed]
-        if not failed:
-            raise Fault(f"only {len(run.calls)} calls")
+        if not failed:  # the thread of the journal makes one call less or more in each run
+            self.counts[f"{command.name}: runs that ended before the call"] += 1
+            return self.run_again(folder, command, good, after)
         call = failed[0]
         killed = kind == "kill"
         kinds = sort_out(folder, before, after, killed or "/.partial-" in call.path and call.name in ("remove", "unlink"))
@@ -242,6 +244,8 @@ class Tests:
 
     def writes(self, command, old_command):
         _, before = self.results(f"{command.name}-before", old_command.words)
+        if command.name in ("map", "resume", "merge"):
+            before = {**before, "out/trajectory-3.tum": b"1 0 0 0 0 0 0 1\n"}  # of older results with more logs
         good, after = self.results(f"{command.name}-after", command.words, before)
         counted = [call for call in good.calls if call.name != "read"]
         if not counted:
@@ -266,7 +270,7 @@ class Tests:
             if not cut:
                 raise Fault("exit code 0 after a read error")
             return
-        sentences = [line for line in run.err if str(copy.name) in line]
+        sentences = [line for line in run.err if str(copy.name) in line and "cannot be resumed from it" not in line]
         if run.code != 2 or len(sentences) != 1 or (not cut and REASONS["eio"] not in sentences[0]):
             raise Fault(f"exit code {run.code}: {run.err}")
         shutil.rmtree(copy.parent)
@@ -283,7 +287,7 @@ class Tests:
             with_log = [str(log), *words[1:]]
             for end in sorted({0, 1, size // 2, line, size - 1} if self.options.every == 1 else {line}):
                 self.submit(self.expect, "read errors", self.fail_read, log.name, end, 0, log, with_log, good, after)
-            for cut in range(1, reads + 1, self.options.every):
+            for cut in range(2, reads + 1, self.options.every):  # before the first read, the log is not yet known to be longer
                 for end in (0, size // 2, line) if self.options.every == 1 else (line,):
                     self.submit(self.expect, "truncated logs", self.fail_read, log.name, end, cut, log, with_log, good, after)
 
@@ -299,12 +303,9 @@ class Tests:
         for call in (1, 2, 5, 20)[::self.options.every]:
             self.submit(self.expect, "clock set back", self.set_clock_back, call, words, after)
 
-    def kill_often(self, name, kills, variants):
+    def kill_often(self, name, part, kills, versions):
         """Kills a command again and again in one folder, each time with other settings than the time before."""
-        versions = []
-        for variant, command in variants.items():
-            versions.append((command, *self.results(f"{name}-{variant}-kills", command.words)))
-        folder = self.folder(f"{name}-kills", versions[0][2])
+        folder = self.folder(f"{name}-kills-{part}", versions[0][2])
         for kill in range(kills):
             command, good, after = versions[(kill + 1) % 2]
             before = {path: content for path, content in files_in(folder).items() if ".partial-" not in path}
@@ -322,14 +323,16 @@ class Tests:
                 if kill % 10 == 9:
                     self.run_again(folder, command, good, after)
                     for left in list(folder.rglob(".partial-*")):
-                        shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink()
+                        shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink(missing_ok=True)
             self.expect(f"{name}: random kills", check)
 
     def kills(self, pairs):
         """Divides the kills among the commands."""
-        for count, (new, old) in enumerate(pairs):
-            share = self.options.kills // len(pairs) + (count < self.options.kills % len(pairs))
-            self.submit(self.kill_often, new.name, share, {"old": old, "new": new})
+        versions = [[(command, *self.results(f"{command.name}-kills", command.words)) for command in (old, new)] for new, old in pairs]
+        for part in range(0, self.options.kills, KILLS_IN_FOLDER):
+            number = part // KILLS_IN_FOLDER % len(pairs)
+            kills = min(KILLS_IN_FOLDER, self.options.kills - part)
+            self.submit(self.kill_often, pairs[number][0].name, part, kills, versions[number])
 
 
 def main():

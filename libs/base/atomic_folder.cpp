@@ -82,7 +82,7 @@ void write_files_atomically(const fs::path& folder, const std::function<void(con
   move_files(written, temporary.path(), folder);
   if (is_outdated)
     for (const std::string& name : names_in(folder))
-      if (written.count(name) == 0 && is_outdated(name)) remove_file(folder / name);
+      if (written.count(name) == 0 && !is_partial_name(name) && is_outdated(name)) remove_file(folder / name);
   wait_for_disk(folder_of(folder / "file"), folder);
 }
 

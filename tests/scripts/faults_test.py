@@ -39,6 +39,7 @@ SETTINGS = {
     "old": "[map]\nresolution_m = 0.1\nwrite_dxf = false\nwrite_geotiff = true\nepsg = 25832\n",
 }
 KILLS_IN_FOLDER = 50
+MAPPING = ("map", "resume", "merge")  # commands that write a whole map
 EDITS = "keep_out polygon=0.5,-0.5;1,-0.5;1,0.5;0.5,0.5\nslow polygon=1,-0.5;2,-0.5;2,0.5 percent=40\n"
 
 Command = collections.namedtuple("Command", "name words")
@@ -207,35 +208,40 @@ class Tests:
             self.counts[f"{command.name}: runs that ended before the call"] += 1
             return self.run_again(folder, command, good, after)
         call = failed[0]
-        killed = kind == "kill"
-        kinds = sort_out(folder, before, after, killed or "/.partial-" in call.path and call.name in ("remove", "unlink"))
+        is_removal = ".partial-" in call.path and call.name in ("remove", "unlink")  # of temporary files
+        kinds = sort_out(folder, before, after, kind == "kill" or is_removal)
         results = {kinds[path] for path in kinds if path.startswith("out/")}
-        final = re.compile(rf"(\./)?{re.escape('out/')}[^.][^/]*$")
-        is_result = "out" in Path(call.path).parts[:-1] or call.path == "out"
-        moves = [other.number for other in run.calls if other.name == "rename" and final.match(other.path)]
-        if is_result and run.code != good.code and (not moves or moves[0] >= call.number) and "new" in results:
-            raise Fault(f"only some results are new, though {call.name} of {call.path} failed before the first was moved")
-        if killed and run.code != -9:
-            raise Fault(f"exit code {run.code} after a kill")
-        if killed and number % 5 == 1:
-            self.run_again(folder, command, good, after)
-        elif killed:
-            pass
+        if run.code != good.code:
+            self.check_old_results(run, call, results)
+        if kind == "kill":
+            if run.code != -9:
+                raise Fault(f"exit code {run.code} after a kill")
+            if number % 5 == 1:
+                self.run_again(folder, command, good, after)
         elif run.code == good.code:
-            harmless = "j.journal" in call.path or "/.partial-" in call.path and call.name == "remove"
-            if not harmless or "old" in results:
+            if not (is_removal or "j.journal" in call.path) or "old" in results:
                 raise Fault(f"no failure, though {call.name} of {call.path} failed")
         elif run.code != (2 if command.name == "diff" else 1):
             raise Fault(f"exit code {run.code}: {run.err}")
         else:
-            sentence = self.complaint(run, good)
-            parts = [part for part in call.path.split("/") if not re.fullmatch(r"\.partial-\d+-[0-9a-f]{16}", part)]
-            place = PARTIAL.sub("", parts[-1]) if parts[-1] else parts[-2]
-            if place in (folder.name, "j.journal"):  # entries of the current folder; journal: mapping goes on until other writes fail
-                place = ""
-            if REASONS[kind] not in sentence or place not in sentence or ".partial" in sentence:
-                raise Fault(f"{call.name} of {call.path}: {sentence}")
+            self.check_sentence(call, self.complaint(run, good), kind, folder)
         shutil.rmtree(folder)
+
+    def check_old_results(self, run, call, results):
+        """Raises Fault if there are new results although none was complete when a call for them failed."""
+        is_of_results = "out" in Path(call.path).parts[:-1] or call.path == "out"
+        moves = [other.number for other in run.calls if other.name == "rename" and re.match(r"(\./)?out/[^.][^/]*$", other.path)]
+        if is_of_results and "new" in results and (not moves or moves[0] >= call.number):
+            raise Fault(f"only some results are new, though {call.name} of {call.path} failed before the first was moved")
+
+    def check_sentence(self, call, sentence, kind, folder):
+        """Raises Fault unless a sentence names the reason and the file, by its final name."""
+        parts = [part for part in call.path.split("/") if not re.fullmatch(r"\.partial-\d+-[0-9a-f]{16}", part)]
+        place = PARTIAL.sub("", parts[-1]) if parts[-1] else parts[-2]
+        if place in (folder.name, "j.journal"):  # entries of the current folder; journal: mapping goes on until other writes fail
+            place = ""
+        if REASONS[kind] not in sentence or place not in sentence or ".partial" in sentence:
+            raise Fault(f"{call.name} of {call.path}: {sentence}")
 
     def run_again(self, folder, command, good, after):
         run = self.run(folder, command.words)
@@ -244,7 +250,7 @@ class Tests:
 
     def writes(self, command, old_command):
         _, before = self.results(f"{command.name}-before", old_command.words)
-        if command.name in ("map", "resume", "merge"):
+        if command.name in MAPPING:
             before = {**before, "out/trajectory-3.tum": b"1 0 0 0 0 0 0 1\n"}  # of older results with more logs
         good, after = self.results(f"{command.name}-after", command.words, before)
         counted = [call for call in good.calls if call.name != "read"]
@@ -318,18 +324,22 @@ class Tests:
             except subprocess.TimeoutExpired:
                 child.kill()
                 child.wait()
-            def check():
-                sort_out(folder, before, after, True)
-                if kill % 10 == 9:
-                    self.run_again(folder, command, good, after)
-                    for left in list(folder.rglob(".partial-*")):
-                        shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink(missing_ok=True)
-            self.expect(f"{name}: random kills", check)
+            self.expect(f"{name}: random kills", self.check_kill, folder, before, command, good, after, kill % 10 == 9)
+
+    def check_kill(self, folder, before, command, good, after, runs_again):
+        sort_out(folder, before, after, True)
+        if not runs_again:
+            return
+        self.run_again(folder, command, good, after)
+        for left in list(folder.rglob(".partial-*")):
+            shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink(missing_ok=True)
 
     def kills(self, pairs):
-        """Divides the kills among the commands."""
-        versions = [[(command, *self.results(f"{command.name}-kills", command.words)) for command in (old, new)] for new, old in pairs]
-        for part in range(0, self.options.kills, KILLS_IN_FOLDER):
+        """Divides the kills among the commands that map."""
+        pairs = [(new, old) for new, old in pairs if new.name in MAPPING]
+        versions = [[(command, *self.results(f"{command.name}-kills", command.words)) for command in (old, new)]
+                    for new, old in pairs]
+        for part in range(0, self.options.kills if pairs else 0, KILLS_IN_FOLDER):
             number = part // KILLS_IN_FOLDER % len(pairs)
             kills = min(KILLS_IN_FOLDER, self.options.kills - part)
             self.submit(self.kill_often, pairs[number][0].name, part, kills, versions[number])

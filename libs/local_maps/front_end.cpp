@@ -330,13 +330,17 @@ bool FrontEnd::contradicts(const ScanPoints& scan, const TPose2D& local_T_robot,
          agreement.share() < least_agreement;
 }
 
-// Returns whether a match may find the points on their own earlier ends. This is so if the predicted pose is
-// near the last scan that was drawn into the map, so that the match can reach the place of that scan.
+// Returns whether a match may find the points on their own earlier ends instead of where the robot moved.
+// This is so if the predicted pose is near the last scan that was drawn into the map, so that the match can
+// reach the place of that scan. Nearer than the smoothing, the place agrees with the prediction; if odometry
+// has stalled, all points must show that the robot moved.
 bool FrontEnd::sees_own_ends(const Motion& motion) const {
-  const TPose2D since_drawn =
-      between(last_node_local_T_robot_, compose(last_local_T_robot_, motion.predicted));
-  return length_m(since_drawn) <= options_.window_m + options_.window_per_metre * motion.length_m +
-                                      kAttractedSigmas * options_.local_map.smoothing_sigma_m;
+  const double since_drawn_m =
+      length_m(between(last_node_local_T_robot_, compose(last_local_T_robot_, motion.predicted)));
+  const double sigma_m = options_.local_map.smoothing_sigma_m;
+  return since_drawn_m >= sigma_m && since_drawn_m <= options_.window_m +
+                                                          options_.window_per_metre * motion.length_m +
+                                                          kAttractedSigmas * sigma_m;
 }
 
 bool FrontEnd::is_lost(const FrontEndStep& step, const Motion& motion, TimeUs time_us,

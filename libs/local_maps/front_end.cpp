@@ -46,8 +46,6 @@ constexpr double kSureShare = 0.6;
 // a pose that was only predicted.
 constexpr double kLeastMatchedAgreement = 0.85;
 constexpr double kLeastAgreement = 0.5;
-// Distance over which a point on an earlier end attracts the match, in standard deviations of the smoothing.
-constexpr double kAttractedSigmas = 3;
 constexpr int kLostMisses = 5;      // the robot may be lost after this many successive scans without a match
 constexpr double kLostAfter_s = 5;  // and this time
 
@@ -330,17 +328,11 @@ bool FrontEnd::contradicts(const ScanPoints& scan, const TPose2D& local_T_robot,
          agreement.share() < least_agreement;
 }
 
-// Returns whether a match may find the points on their own earlier ends instead of where the robot moved.
-// This is so if the predicted pose is near the last scan that was drawn into the map, so that the match can
-// reach the place of that scan. Nearer than the smoothing, the place agrees with the prediction; if odometry
-// has stalled, all points must show that the robot moved.
-bool FrontEnd::sees_own_ends(const Motion& motion) const {
-  const double since_drawn_m =
-      length_m(between(last_node_local_T_robot_, compose(last_local_T_robot_, motion.predicted)));
-  const double sigma_m = options_.local_map.smoothing_sigma_m;
-  return since_drawn_m >= sigma_m && since_drawn_m <= options_.window_m +
-                                                          options_.window_per_metre * motion.length_m +
-                                                          kAttractedSigmas * sigma_m;
+// Returns whether odometry states that the robot has left the place of the last scan that was drawn. If it
+// has stalled instead, all points must show that the robot moved.
+bool FrontEnd::has_left_last_node(const Motion& motion) const {
+  return length_m(between(last_node_local_T_robot_, compose(last_local_T_robot_, motion.predicted))) >=
+         options_.local_map.smoothing_sigma_m;
 }
 
 bool FrontEnd::is_lost(const FrontEndStep& step, const Motion& motion, TimeUs time_us,
@@ -361,7 +353,7 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   const PlacedLocalMap& older = active_.front();
   const ScoreGrid& grid = older.map->scores();
   const TrackedPoints tracked =
-      sees_own_ends(motion) ? points_along_walls(*step.points) : TrackedPoints{*step.points, {}};
+      has_left_last_node(motion) ? points_along_walls(*step.points) : TrackedPoints{*step.points, {}};
   MatchResult best;
   PosePrior best_prior;
   const std::vector<TPose2D> tested = hypotheses(motion);

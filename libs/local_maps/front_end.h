@@ -210,7 +210,7 @@ class FrontEnd {
   SearchExtent wide_extent(const Motion& motion) const;
   void match(FrontEndStep& step, const Motion& motion);
   std::vector<mrpt::math::TPose2D> hypotheses(const Motion& motion) const;
-  bool sees_own_ends(const Motion& motion) const;
+  bool has_left_last_node(const Motion& motion) const;
   bool contradicts(const ScanPoints& scan, const mrpt::math::TPose2D& local_T_robot,
                    double least_agreement) const;
   /// `expected_response` is the value before the match of this scan.

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "base/portable_math.h"
+#include "local_maps/grazed_wall.h"
 #include "local_maps/surface_normals.h"
 
 namespace psi_slam {
@@ -16,59 +15,34 @@ namespace {
 
 using Point = mrpt::math::TPoint2Df;
 
-constexpr std::size_t kPoints = 4;     // number of points on the line of a grazed wall
-constexpr double kMaxOffset_m = 0.04;  // largest distance of a point from the line through the outer points
-constexpr double kMaxGapRatio = 16;    // largest ratio of the widest gap between the points to the narrowest
-
 bool is_set(const Point& normal) {
   return normal.x != 0.0F || normal.y != 0.0F;
 }
 
-struct Line {
-  Point normal;         // unit vector
-  double offset_m = 0;  // largest distance of a point from the line
-};
-
-double gap_m(const Point& a, const Point& b) {
-  return static_cast<double>(portable::hypot(b.x - a.x, b.y - a.y));
+std::optional<GrazedWall> wall_from(const Point* points) {
+  std::array<mrpt::math::TPoint2D, kWallEnds> ends;
+  for (std::size_t k = 0; k < kWallEnds; ++k)
+    ends[k] = {static_cast<double>(points[k].x), static_cast<double>(points[k].y)};
+  return grazed_wall(ends);
 }
 
-/// Returns the line through the first and the last of kPoints points. Empty if the points do not lie on it,
-/// or are not spread along it.
-std::optional<Line> line_through(const Point* points) {
-  std::array<double, kPoints - 1> gaps_m{};
-  for (std::size_t k = 0; k < gaps_m.size(); ++k) gaps_m[k] = gap_m(points[k], points[k + 1]);
-  const auto [narrowest, widest] = std::minmax_element(gaps_m.begin(), gaps_m.end());
-  if (*widest > kMaxGapRatio * *narrowest) return {};
-  const double length = gap_m(points[0], points[kPoints - 1]);
-  if (length < *widest) return {};  // the points turn back
-  const double x = static_cast<double>(points[0].y - points[kPoints - 1].y) / length;
-  const double y = static_cast<double>(points[kPoints - 1].x - points[0].x) / length;
-  Line line{{static_cast<float>(x), static_cast<float>(y)}, 0};
-  for (std::size_t k = 1; k + 1 < kPoints; ++k) {
-    const double offset = std::abs(x * static_cast<double>(points[k].x - points[0].x) +
-                                   y * static_cast<double>(points[k].y - points[0].y));
-    line.offset_m = std::max(line.offset_m, offset);
-  }
-  if (line.offset_m > kMaxOffset_m) return {};
-  return line;
-}
-
-/// Normals of the points of one laser. A point without a normal gets that of the straightest line through it.
+/// Normals of the points of one laser. A point without a normal gets that of the straightest wall through it.
 std::vector<Point> normals_along_walls(const std::vector<Point>& points, const std::vector<Point>& normals) {
-  std::vector<std::optional<Line>> lines;  // by their first point
-  for (std::size_t i = 0; i + kPoints <= points.size(); ++i) lines.push_back(line_through(&points[i]));
+  std::vector<std::optional<GrazedWall>> walls;  // by their first point
+  for (std::size_t i = 0; i + kWallEnds <= points.size(); ++i) walls.push_back(wall_from(&points[i]));
   std::vector<Point> result;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (is_set(normals[i])) {
       result.push_back(normal_of_neighbours(points, i));
       continue;
     }
-    const Line* straightest = nullptr;
-    for (std::size_t k = i < kPoints ? 0 : i - (kPoints - 1); k <= i && k < lines.size(); ++k)
-      if (lines[k] && (straightest == nullptr || lines[k]->offset_m < straightest->offset_m))
-        straightest = &*lines[k];
-    result.push_back(straightest == nullptr ? Point(0, 0) : straightest->normal);
+    const GrazedWall* straightest = nullptr;
+    for (std::size_t k = i < kWallEnds ? 0 : i - (kWallEnds - 1); k <= i && k < walls.size(); ++k)
+      if (walls[k] && (straightest == nullptr || walls[k]->offset_m < straightest->offset_m))
+        straightest = &*walls[k];
+    result.push_back(straightest == nullptr ? Point(0, 0)
+                                            : Point(static_cast<float>(straightest->normal.x),
+                                                    static_cast<float>(straightest->normal.y)));
   }
   return result;
 }

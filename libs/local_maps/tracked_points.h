@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points of a scan for the match with a local map that holds a scan from nearly the same place.
+// Points of a scan for the match with the local map that the front end draws.
 //
-// Such a match along a bare corridor must not tie the robot to the place of the earlier scan. Two properties
+// Such a match along a bare corridor must not tie the robot to the place of an earlier scan. Two properties
 // of matching_points() would tie it:
 //  - Far ahead, neighbouring beams graze a wall metres apart, too far apart for a normal. The beams hit the
 //    walls at the same ranges wherever the robot stands. Matched as single objects, these points would lie
@@ -24,10 +24,9 @@ struct TrackedPoints {
 /// Returns the points of a scan with normals that do not tie the robot to an earlier place.
 ///  - A point with a normal gets the normal of its neighbours without the point itself, or none if these are
 ///    not on a straight line.
-///  - A point without a normal gets that of the straight line through four successive points that hold the
-///    point. The points must lie on the line except for noise. The widest gap between them must be at most 16
-///    times the narrowest, because any line passes through points on one object, such as a post.
-///    TrackedPoints::judged leaves out these points.
+///  - A point without a normal gets that of the straightest grazed_wall() through four successive points that
+///    hold the point. TrackedPoints::judged leaves out these points.
+/// In a scan of a full circle, the first and the last point are not taken for neighbours.
 /// If the normals of the scan are unknown, returns its points as they are.
 TrackedPoints points_along_walls(const ScanPoints& scan);
 

@@ -5,6 +5,7 @@
 #include <ostream>
 #include <string>
 
+#include "base/instruction_set.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -16,6 +17,7 @@ int run_program(const CLI::App& app, std::ostream& out, std::ostream& err, const
     return code;
   };
   try {
+    can_use(InstructionSet::kBaseline);  // refuses a wrong environment variable before work begins
     const int code = work();
     out.flush();
     return out ? code : fail("cannot write to standard output", failed);

@@ -65,7 +65,7 @@ LogDiagnosis diagnosis_of(const std::filesystem::path& log, const LogOptions& op
 RunSummary export_after(const std::string& failure, MappingSession& session, const OutputFolder& folder) {
   try {
     return session.export_to(folder);
-  } catch (const SystemFailure& error) {
+  } catch (const std::exception& error) {
     if (failure.empty()) throw;
     throw SystemFailure(failure + ", and the results are not written: " + error.what());
   }
@@ -157,7 +157,7 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   std::string failure;  // to save the session; the results are written anyway
   try {
     if (to_save) saved = session.save(line.save_session);
-  } catch (const SystemFailure& error) {
+  } catch (const std::exception& error) {
     failure = error.what();
   }
   const RunSummary summary = export_after(failure, session, folder);

@@ -76,7 +76,7 @@ void write_files_atomically(const fs::path& folder, const std::function<void(con
   try {
     write(temporary.path());
   } catch (const SystemFailure& failure) {
-    throw SystemFailure(replaced(failure.what(), temporary.path().string(), folder.string()));
+    throw SystemFailure(replaced(failure.what(), (temporary.path() / "").string(), (folder / "").string()));
   }
   const std::set<std::string> written = names_in(temporary.path());
   move_files(written, temporary.path(), folder);

@@ -26,8 +26,8 @@ std::filesystem::path folder_of(const std::filesystem::path& path);
 /// Returns the exception for a file that cannot be written for a reason of the system, such as ENOSPC.
 SystemFailure cannot_write(const std::filesystem::path& path, int error_number);
 
-/// Waits until the disk holds an open file or the entries of an open folder, so that a power failure cannot
-/// undo what was reported as written. Throws SystemFailure that names `path`.
+/// Waits until the disk holds an open file or the entries of an open folder. A power failure cannot undo it
+/// then. Throws SystemFailure that names `path`.
 void wait_for_disk(const Descriptor& written, const std::filesystem::path& path);
 
 /// Waits until the disk holds a file or the entries of a folder. Does nothing without permission to read it.

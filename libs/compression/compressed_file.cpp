@@ -33,11 +33,11 @@ CompressedFile::CompressedFile(fs::path path, const std::string& expected) : pat
     throw UserError(path_.string() + " does not exist, expected " + expected + ". Check the path");
   if (fs::is_directory(status))
     throw UserError(path_.string() + " is a folder, expected " + expected + ". Name a file");
-  errno = 0;
   file_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
+  bytes_on_disk_ = size_of(file_).value_or(0);
+  errno = 0;
   decoder_ = open_decoder(path_);
   if (!decoder_) throw UserError("cannot read " + path_.string() + ": " + std::strerror(errno));
-  bytes_on_disk_ = size_of(file_).value_or(0);
 }
 
 bool CompressedFile::became_shorter() const {

@@ -18,7 +18,7 @@ namespace psi_slam {
 void check_zones(const std::vector<MapEdit>& edits);
 
 /// Writes keepout_mask.yaml, speed_mask.yaml, their images, and zones.txt, for the zones among the edits.
-/// Writes none of those that have no zone. The masks have the cells of `grid`. In a keep-out zone,
+/// Leaves out files without a zone. The masks have the cells of `grid`. In a keep-out zone,
 /// the value is 100, elsewhere 0. A slow zone has the value for which nav2's speed filter computes the zone's
 /// limit, rounded down; the comment in the file states its type, base and multiplier. Where slow zones
 /// overlap, the slower one counts. Throws SystemFailure if a file cannot be written, and UserError as

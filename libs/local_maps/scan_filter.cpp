@@ -15,6 +15,7 @@ namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
+
 ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
                             const ScanFilterOptions& options) {
   ScanPoints result;

@@ -16,8 +16,8 @@ namespace psi_slam {
 mrpt::math::TPoint2Df surface_normal(const std::vector<mrpt::math::TPoint2Df>& points, std::size_t index,
                                      bool is_ring);
 
-/// Returns the unit normal of the line through the neighbours of a point without the point itself, so that
-/// the errors of the normal and of the point are independent. Returns (0, 0) like surface_normal().
+/// Returns the unit normal of the line through the neighbours of a point, without the point itself. So the
+/// errors of the normal and of the point are independent. Returns (0, 0) like surface_normal().
 mrpt::math::TPoint2Df normal_of_neighbours(const std::vector<mrpt::math::TPoint2Df>& points,
                                            std::size_t index);
 

@@ -34,7 +34,7 @@ void check_no_file_in_the_way(const fs::path& path) {
   }
 }
 
-/// Returns whether a folder is empty, except for temporary files that a killed program left.
+/// Returns whether a folder is empty, except for temporary files.
 bool holds_only_leftovers(const fs::path& folder, std::error_code& error) {
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
     if (!is_partial_name(entry->path().filename().string())) return false;

@@ -36,8 +36,8 @@ class OutputFolder {
   /// Throws as prepare() does, but creates no folder. Call it before work that takes long.
   static void check(const std::filesystem::path& path, bool force);
 
-  /// Replaces the results of an earlier run. Calls `write` with a temporary folder for all files of this run
-  /// and moves them here when all are complete, so the earlier results stay whole if one cannot be written.
+  /// Replaces the results of an earlier run. Calls `write` with a temporary folder for all files of this run.
+  /// Moves them here when all are complete. If one cannot be written, the earlier results stay whole.
   /// Then deletes earlier results that this run does not have, since they would show an older map. Throws
   /// SystemFailure naming the file that cannot be written.
   void replace_results(const std::function<void(const OutputFolder& temporary)>& write) const;

@@ -222,7 +222,8 @@ void SessionInput::check_kept_calibration(const LogOptions& options) {
 }
 
 void SessionInput::require_unshortened() const {
-  if (std::filesystem::exists(log_) && bytes_on_disk(log_) < log_bytes_)
+  std::error_code missing;  // open_log() says so
+  if (std::filesystem::exists(log_, missing) && bytes_on_disk(log_) < log_bytes_)
     throw UserError(log_.string() +
                     " became shorter while it was read, expected a log that is complete. Fetch it again");
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Checks all sources of libraries and programs with cppcheck: warnings, performance and portability. Prints what it finds, and
-# ends with exit code 1 if it finds anything. tests/cppcheck.supp lists the wrong findings, with a reason for each.
+# Checks all sources of libraries and programs with cppcheck: warnings, performance and portability. Prints the findings, and
+# ends with exit code 1 if there are any. tests/cppcheck.supp lists the wrong findings, with a reason for each.
 #
 #     share/scripts/check-sources.sh
 #
@@ -12,6 +12,11 @@ cd "$(dirname "$0")/../.."
 
 command -v cppcheck >/dev/null || {
   echo "check-sources.sh: cppcheck is missing. Install it with sudo apt-get install cppcheck" >&2
+  exit 2
+}
+
+[ -d build/release/include ] || {
+  echo "check-sources.sh: build/release/include is missing. Make it with share/scripts/build.sh" >&2
   exit 2
 }
 

@@ -26,11 +26,12 @@ variants=("threads=1" "threads=1" "threads=1" "threads=2" "threads=4" "threads=8
 checksum_of_run() {
   local threads=2 set=avx512
   local "${3?}"  # sets one of the two
-  PSI_SLAM_MAX_INSTRUCTIONS=$set "$program" -c "$2" "$1" -o "$outputs/map" --force --threads "$threads" --quiet </dev/null \
-    2>/dev/null
+  rm -rf "$outputs/map"
+  PSI_SLAM_MAX_INSTRUCTIONS=$set "$program" -c "$2" "$1" -o "$outputs/map" --threads "$threads" --quiet </dev/null \
+    2>"$outputs/words" || { echo "$0: $1 with $3 failed: $(cat "$outputs/words")" >&2; exit 1; }
   # The files left out contain times, or are computed by MRPT when it writes them (map.simplemap.gz).
   (cd "$outputs/map" && find . -type f ! -name frames.csv ! -name loops.csv ! -name report.html ! -name summary.json \
-    ! -name map.simplemap.gz | sort | xargs sha256sum | sha256sum | cut -c1-16)
+    ! -name map.simplemap.gz | LC_ALL=C sort | xargs sha256sum | sha256sum | cut -c1-16)
 }
 
 echo "| log | runs | checksum | other files |"

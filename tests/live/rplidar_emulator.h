@@ -3,6 +3,8 @@
 // mrpt::hwdrivers::CRoboPeakLidar needs it. Its firmware is older than the express scans.
 #pragma once
 
+#include <mrpt/version.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -24,6 +26,10 @@ namespace psi_slam {
 /// the object exists.
 class RplidarEmulator {
  public:
+  /// The driver since MRPT 2.9 has another library of SLAMTEC. It gets no scans from the emulator.
+  static constexpr bool kDriverUnderstands = MRPT_VERSION < 0x292;
+  static constexpr const char* kNotUnderstood = "the emulator does not speak to the driver of this MRPT";
+
   static constexpr std::size_t kBeams = 360;  ///< one each degree, clockwise from the laser's 0 degrees
 
   struct Message {

@@ -38,7 +38,9 @@ Map map_of(FrameSource& source) {
   MappingResult result = mapper.finish();
   Map map;
   for (const FrameRecord& frame : result.frames) map.map_T_robot.push_back(frame.map_T_robot);
-  map.grid = draw_grid_map(result.log, map.map_T_robot);
+  GridMapOptions everything;
+  everything.keep_moving = true;  // the ghosts of a body would vanish with other moving things
+  map.grid = draw_grid_map(result.log, map.map_T_robot, everything);
   map.log = std::move(result.log);
   return map;
 }

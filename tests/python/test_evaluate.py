@@ -43,7 +43,7 @@ def files(result, tmp_path_factory):
     folder = tmp_path_factory.mktemp("evaluation")
     result.save(folder / "out")
     with open(folder / "relations", "w") as file:
-        for time1, time2, x, y, yaw in relations_array():
+        for time1, time2, x, y, yaw in relations_array().tolist():
             file.write(f"{time1!r} {time2!r} {x!r} {y!r} 0 0 0 {yaw!r}\n")
     return folder / "out" / "trajectory.tum", folder / "relations"
 

@@ -74,6 +74,10 @@ def files_in(folder):
     return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
+def partial_folders_in(folder):
+    return [path for path in folder.rglob("*") if path.is_dir() and PARTIAL.match(path.name)]
+
+
 def is_whole(name, content, model):
     """Whether a file that states times is complete, compared with the same file of another run."""
     if name == "summary.json":
@@ -88,6 +92,8 @@ def sort_out(folder, before, after, killed):
     """Says for each file in a folder whether it is old, new, or the same in both results. Raises Fault if it is none of these or
     is missing."""
     kinds = {}
+    if not killed and partial_folders_in(folder):
+        raise Fault(f"{partial_folders_in(folder)} was left")
     for name, content in files_in(folder).items():
         parts = name.split("/")
         is_partial = any(PARTIAL.match(part) for part in parts)
@@ -130,6 +136,7 @@ class Tests:
     def can_preload(self):
         """Sanitizers do not work with preloaded libraries."""
         environment = dict(os.environ, LD_PRELOAD=str(self.library))
+        subprocess.run([self.program, "--version"], check=True, capture_output=True)
         return subprocess.run([self.program, "--version"], env=environment, capture_output=True).returncode == 0
 
     def make_inputs(self):
@@ -271,7 +278,8 @@ class Tests:
         if run.code == 0:
             if any("cannot be resumed from it" in line for line in run.err):
                 (folder / "s.session").write_bytes(after["s.session"])
-            if set(sort_out(folder, {}, after, False).values()) != {"new"}:
+            kinds = sort_out(folder, {}, after, False)
+            if set(kinds.values()) != {"new"} or kinds.keys() != after.keys():
                 raise Fault("exit code 0 with other results")
             if not cut:
                 raise Fault("exit code 0 after a read error")
@@ -300,7 +308,8 @@ class Tests:
     def set_clock_back(self, call, words, after):
         folder = self.folder(f"clock-{call}")
         run = self.run(folder, words, clock=call)
-        if run.code != 0 or set(sort_out(folder, {}, after, False).values()) != {"new"}:
+        kinds = sort_out(folder, {}, after, False)
+        if run.code != 0 or set(kinds.values()) != {"new"} or kinds.keys() != after.keys():
             raise Fault(f"exit code {run.code}: {run.err}")
 
     def clocks(self):
@@ -321,6 +330,8 @@ class Tests:
             try:
                 child.wait(moment_s)
                 self.counts[f"{name}: ended before the kill"] += 1
+                if child.returncode != good.code:
+                    self.failures.append(f"{name}: exit code {child.returncode} without a kill")
             except subprocess.TimeoutExpired:
                 child.kill()
                 child.wait()

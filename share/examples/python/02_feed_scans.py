@@ -70,7 +70,7 @@ def main() -> int:
         return 2
     random = np.random.default_rng(1)
     path = true_path(400)
-    odometry = np.zeros(3)
+    odometry: Array = np.zeros(3)
     mapper = psi_slam.Mapper({"map.resolution_m": 0.05}, name="simulated hall", estimate_covariance=True)
     for i, (x, y, yaw) in enumerate(path):
         if i > 0:  # wheels slip: odometry is wrong by a few percent

@@ -39,7 +39,7 @@ class ArchiveStream {
     ahead_.reset();
     const std::size_t got = 1 + read_file(target + 1, size - 1);
     ended_early_ = got < size;
-    return got;
+    return ended_early_ ? 0 : got;  // MRPT would take the first bytes of a number for a number
   }
 
   static std::size_t Write(const void*, std::size_t) { return 0; }

@@ -28,7 +28,6 @@ std::optional<GrazedWall> grazed_wall(const std::array<TPoint2D, kWallEnds>& end
   if (*narrowest <= 0 || *widest > kMaxGapRatio * *narrowest || length < *widest) return {};
   GrazedWall wall;
   wall.normal = {(ends.front().y - ends.back().y) / length, (ends.back().x - ends.front().x) / length};
-  wall.widest_gap_m = *widest;
   for (std::size_t k = 1; k + 1 < kWallEnds; ++k)
     wall.offset_m = std::max(wall.offset_m, std::abs(wall.normal.x * (ends[k].x - ends.front().x) +
                                                      wall.normal.y * (ends[k].y - ends.front().y)));

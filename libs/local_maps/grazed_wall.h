@@ -16,7 +16,6 @@ inline constexpr std::size_t kWallEnds = 4;
 struct GrazedWall {
   mrpt::math::TPoint2D normal;  ///< unit vector
   double offset_m = 0;          ///< largest distance of an end from the line through the outer ends
-  double widest_gap_m = 0;      ///< between successive ends
 };
 
 /// Returns the wall through successive ends of beams. Empty if an end is more than 4 cm off the line through

@@ -4,23 +4,21 @@
 #include <mrpt/math/TPoint2D.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "base/portable_math.h"
 #include "frames/scan_neighbours.h"
-#include "local_maps/grazed_wall.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kMinGap_m = 0.05;         // smaller gaps leave no cell to draw
-constexpr double kMaxGap_m = 2.0;          // largest distance between joined ends
-constexpr double kMaxGapPerSpacing = 5;    // largest ratio of end distance to beam spacing
-constexpr double kMaxWallGap_m = 10;       // largest distance between joined ends of a grazed wall
+constexpr double kMinGap_m = 0.05;  // smaller gaps leave no cell to draw
+constexpr double kMaxGap_m = 2.0;   // largest distance between joined ends
+constexpr double kMaxGapPerSpacing =
+    5;  // largest ratio of end distance to beam spacing; excludes grazing beams
 constexpr double kMaxOffset_m = 0.06;      // largest distance of a third end from the line through two ends
 constexpr double kMaxOffsetPerGap = 0.15;  // the same limit as a share of the gap; the larger limit applies
 
@@ -52,19 +50,6 @@ std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m,
 
   // False for beams without a return, whose range is infinite or NaN.
   const auto hit = [&](std::size_t i) { return i < beams && range(i) <= max_range_m; };
-  // Whether four successive ends, with that of a beam and that before it, lie on a grazed wall.
-  const auto is_on_grazed_wall = [&](std::size_t i) {
-    std::size_t last = i;
-    for (std::size_t k = 0; k + 1 < kWallEnds && hit(last); ++k, last = after(last)) {
-      std::array<TPoint2D, kWallEnds> wall_ends;
-      std::size_t count = 0;
-      for (std::size_t beam = last; count < kWallEnds && hit(beam); beam = before(beam))
-        wall_ends[count++] = ends[beam];
-      const auto wall = count == kWallEnds ? grazed_wall(wall_ends) : std::nullopt;
-      if (wall && wall->widest_gap_m <= kMaxWallGap_m) return true;
-    }
-    return false;
-  };
   std::vector<bool> joined(beams, false);
   for (std::size_t i = 0; i < beams; ++i) {
     const std::size_t last = before(i);
@@ -72,11 +57,8 @@ std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m,
     const double gap = gap_m(ends[last], ends[i]);
     const double turn_rad = std::remainder(bearing(i) - bearing(last), 2 * M_PI);
     const double spacing = std::abs(turn_rad) * std::min(range(last), range(i));
-    if (spacing < min_spacing_m || gap < kMinGap_m) continue;
-    if (gap > kMaxGap_m || gap > kMaxGapPerSpacing * spacing) {
-      joined[i] = is_on_grazed_wall(i);
+    if (spacing < min_spacing_m || gap < kMinGap_m || gap > kMaxGap_m || gap > kMaxGapPerSpacing * spacing)
       continue;
-    }
     const auto continues_to = [&](std::size_t third) {
       return hit(third) && in_line(ends[last], ends[i], ends[third]);
     };

@@ -14,12 +14,8 @@ namespace psi_slam {
 /// full circle, the last beam comes before the first. Both must be returns of at most `max_range_m`, with
 /// ends 5 cm to 2 m apart. The beams must be at least `min_spacing_m` apart at the nearer end. Otherwise
 /// range noise, not the surface, determines the direction between the ends. The surface must continue
-/// straight to the end of a third neighbouring beam.
-///
-/// Where beams graze a wall, ends may be 10 m apart, if four successive ones lie on a grazed_wall(). Without
-/// these walls, the far points of a scan in a corridor would score best at the place of an earlier scan,
-/// where they hit their own earlier ends. A door recess that such beams skip is drawn as wall until the robot
-/// is nearer.
+/// straight to the end of a third neighbouring beam. The beams must not meet the surface at a grazing angle,
+/// because such beams can skip door recesses.
 std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m, double min_spacing_m);
 
 }  // namespace psi_slam

@@ -12,7 +12,6 @@ TEST(GrazedWall, passes_through_ends_on_a_line_except_for_noise) {
   EXPECT_DOUBLE_EQ(wall->normal.x, 0);
   EXPECT_DOUBLE_EQ(wall->normal.y, 1);
   EXPECT_NEAR(wall->offset_m, 0.03, 1e-12);
-  EXPECT_NEAR(wall->widest_gap_m, 5, 1e-3);
 }
 
 TEST(GrazedWall, needs_ends_that_are_spread_along_a_line) {

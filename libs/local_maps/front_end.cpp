@@ -352,8 +352,9 @@ bool FrontEnd::is_lost(const FrontEndStep& step, const Motion& motion, TimeUs ti
 void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   const PlacedLocalMap& older = active_.front();
   const ScoreGrid& grid = older.map->scores();
-  const TrackedPoints tracked =
-      has_left_last_node(motion) ? points_along_walls(*step.points) : TrackedPoints{*step.points, {}};
+  const TrackedPoints tracked = options_.along_walls && has_left_last_node(motion)
+                                    ? points_along_walls(*step.points)
+                                    : TrackedPoints{*step.points, {}};
   MatchResult best;
   PosePrior best_prior;
   const std::vector<TPose2D> tested = hypotheses(motion);

@@ -96,6 +96,10 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
       .number("prior_per_surprise", front_end.prior_per_surprise, at_least(0).at_most(100), "",
               "Growth of prior_sigma_m and prior_sigma_theta_deg for each metre or degree by which odometry "
               "differs from the robot's last motion.")
+      .flag("along_walls", front_end.along_walls,
+            "Lets no point of a wall hold the robot along the wall while odometry says that it moves. Keeps "
+            "the "
+            "length of bare corridors, but other places may become worse.")
       .number("prediction_share", front_end.prediction_share, between(0, 1), "",
               "The refined prediction is preferred to the searched pose if it reaches this share of its "
               "response.")

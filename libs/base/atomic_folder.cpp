@@ -9,7 +9,6 @@
 #include <set>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "base/partial_files.h"
 #include "psi_slam/user_error.h"

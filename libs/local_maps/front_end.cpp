@@ -62,8 +62,9 @@ ScanPoints coarse_scan(const ScanPoints& scan) {
   return coarse;
 }
 
-double judged_score(const ScoreGrid& grid, const TrackedPoints& tracked, const RefinedPose& pose) {
-  return tracked.judged.points.empty() ? pose.mean_score : mean_score(grid, tracked.judged, pose.map_T_robot);
+// Returns the score of a pose for a comparison, of TrackedPoints::judged.
+double judged_score(const ScoreGrid& grid, const ScanPoints& judged, const RefinedPose& pose) {
+  return judged.points.empty() ? pose.mean_score : mean_score(grid, judged, pose.map_T_robot);
 }
 
 // Returns the motion during the sweep of the first laser, which the poses of the frame refer to.
@@ -352,9 +353,10 @@ bool FrontEnd::is_lost(const FrontEndStep& step, const Motion& motion, TimeUs ti
 void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   const PlacedLocalMap& older = active_.front();
   const ScoreGrid& grid = older.map->scores();
-  const TrackedPoints tracked = options_.along_walls && has_left_last_node(motion)
-                                    ? points_along_walls(*step.points)
-                                    : TrackedPoints{*step.points, {}};
+  const bool is_along_walls = options_.along_walls && has_left_last_node(motion);
+  const TrackedPoints along_walls = is_along_walls ? points_along_walls(*step.points) : TrackedPoints();
+  const ScanPoints& points = is_along_walls ? along_walls.matched : *step.points;
+  const ScanPoints& judged = along_walls.judged;
   MatchResult best;
   PosePrior best_prior;
   const std::vector<TPose2D> tested = hypotheses(motion);
@@ -366,7 +368,7 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
                                    ? std::max(options_.min_response_share, kSureShare)
                                    : options_.min_response_share;
     const MatchResult match =
-        search(step, tracked.matched, grid, prior, step.window, least_share * expected_response_);
+        search(step, points, grid, prior, step.window, least_share * expected_response_);
     if (!match.found || (best.found && match.response <= best.response)) continue;
     best = match;
     best_prior = prior;
@@ -387,12 +389,12 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
     doubtful_corrections_.add_unjudged();
   } else {
     const RefinedPose predicted =
-        refine(grid, tracked.matched, best_prior.map_T_robot, options_.refinement, best_prior);
-    if (judged_score(grid, tracked, predicted) >=
-        options_.prediction_share * judged_score(grid, tracked, chosen))
+        refine(grid, points, best_prior.map_T_robot, options_.refinement, best_prior);
+    if (judged_score(grid, judged, predicted) >=
+        options_.prediction_share * judged_score(grid, judged, chosen))
       chosen = predicted;
     if (motion.length_m > 0) {
-      if (const auto held = held_to_odometry(grid, tracked, chosen, best_prior)) chosen = *held;
+      if (const auto held = held_to_odometry(grid, points, judged, chosen, best_prior)) chosen = *held;
     } else {
       doubtful_corrections_.add_unjudged();  // perhaps a stalled encoder
     }
@@ -403,8 +405,9 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   step.local_T_robot = compose(older.local_T_map, chosen.map_T_robot);
 }
 
-std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, const TrackedPoints& tracked,
-                                                      const RefinedPose& matched, const PosePrior& prior) {
+std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, const ScanPoints& points,
+                                                      const ScanPoints& judged, const RefinedPose& matched,
+                                                      const PosePrior& prior) {
   constexpr double kSmallestCorrection_m = 1e-3;
   constexpr double kHeldSigma_m = 5e-3;
   const TPose2D& pose = matched.map_T_robot;
@@ -416,12 +419,11 @@ std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, con
   const Eigen::Vector2d along = correction.normalized();
   PosePrior tight = prior;
   tight.information.topLeftCorner<2, 2>() += along * along.transpose() / (kHeldSigma_m * kHeldSigma_m);
-  RefinedPose held =
-      refine(grid, tracked.matched, TPose2D(prior.map_T_robot.x, prior.map_T_robot.y, pose.phi),
-             options_.refinement, tight);
-  if (judged_score(grid, tracked, held) < options_.held_share * judged_score(grid, tracked, matched)) {
-    const ScanPoints& judged = tracked.judged.points.empty() ? tracked.matched : tracked.judged;
-    const CorrectionScores rest = scores_without_best_spot(grid, judged, pose, held.map_T_robot);
+  RefinedPose held = refine(grid, points, TPose2D(prior.map_T_robot.x, prior.map_T_robot.y, pose.phi),
+                            options_.refinement, tight);
+  if (judged_score(grid, judged, held) < options_.held_share * judged_score(grid, judged, matched)) {
+    const CorrectionScores rest =
+        scores_without_best_spot(grid, judged.points.empty() ? points : judged, pose, held.map_T_robot);
     if (rest.held < options_.held_share * rest.matched) {
       doubtful_corrections_.add_supported(correction.norm());
       return {};

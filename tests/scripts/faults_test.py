@@ -125,17 +125,17 @@ class Tests:
         self.options = options
         self.pool = pool
         self.tasks = []
-        self.library = work / "failing_system.so"
+        self.failing_system = work / "failing_system.so"
         self.counts = collections.Counter()
         self.failures = []
         self.known = {}
-        subprocess.run(["cc", "-shared", "-fPIC", "-O2", "-o", self.library, source / "tests/scripts/failing_system.c", "-ldl"],
+        subprocess.run(["cc", "-shared", "-fPIC", "-O2", "-o", self.failing_system, source / "tests/scripts/failing_system.c", "-ldl"],
                        check=True)
         self.bench = build / "apps/psi-slam-bench/psi-slam-bench"
 
     def can_preload(self):
         """Sanitizers do not work with preloaded libraries."""
-        environment = dict(os.environ, LD_PRELOAD=str(self.library))
+        environment = dict(os.environ, LD_PRELOAD=str(self.failing_system))
         subprocess.run([self.program, "--version"], check=True, capture_output=True)
         return subprocess.run([self.program, "--version"], env=environment, capture_output=True).returncode == 0
 
@@ -158,7 +158,7 @@ class Tests:
         """Runs psi-slam in a folder with faults of the preloaded library: those of failing_system.c, in small letters."""
         trace = folder.with_suffix(".trace")
         trace.unlink(missing_ok=True)
-        environment = dict(os.environ, LD_PRELOAD=str(self.library), PSI_FAULT_TRACE=str(trace), PSI_FAULT_FOLDER=str(folder))
+        environment = dict(os.environ, LD_PRELOAD=str(self.failing_system), PSI_FAULT_TRACE=str(trace), PSI_FAULT_FOLDER=str(folder))
         environment.update({f"PSI_FAULT_{name.upper()}": str(value) for name, value in faults.items()})
         start = time.monotonic()
         done = subprocess.run([self.program, *words], cwd=folder, env=environment, capture_output=True, text=True, timeout=120)

@@ -27,18 +27,31 @@ std::vector<double> optimized_chi(PoseGraph& graph, SparsePoseAdjustment& solver
 }
 
 // Disables the worst loops and optimises, until no loop is contradicted. Every round disables at least one
-// loop.
+// loop. Never disables the loops that `kept` marks.
 void switch_off_worst_first(PoseGraph& graph, SparsePoseAdjustment& solver,
-                            const std::vector<std::size_t>& loops, double max_chi, std::vector<double>& chi) {
+                            const std::vector<std::size_t>& loops, double max_chi,
+                            const std::vector<bool>& kept, std::vector<double>& chi) {
   while (true) {
     double worst = 0;
     for (std::size_t i = 0; i < loops.size(); ++i)
-      if (graph.enabled(loops[i])) worst = std::max(worst, chi[i]);
+      if (!kept[i] && graph.enabled(loops[i])) worst = std::max(worst, chi[i]);
     if (worst <= max_chi) return;
     for (std::size_t i = 0; i < loops.size(); ++i)
-      if (chi[i] > max_chi && chi[i] >= kShareOfWorst * worst) graph.set_enabled(loops[i], false);
+      if (!kept[i] && chi[i] > max_chi && chi[i] >= kShareOfWorst * worst) graph.set_enabled(loops[i], false);
     chi = optimized_chi(graph, solver, loops);
   }
+}
+
+// Marks the disabled loops that path_chi() does not contradict.
+std::vector<bool> plausible_along_path(const PoseGraph& graph, const std::vector<std::size_t>& loops) {
+  std::vector<std::size_t> disabled;
+  for (const std::size_t loop : loops)
+    if (!graph.enabled(loop)) disabled.push_back(loop);
+  const std::vector<double> off_path = path_chi(graph, disabled);
+  std::vector<bool> plausible;
+  auto chi = off_path.begin();
+  for (const std::size_t loop : loops) plausible.push_back(!graph.enabled(loop) && *chi++ <= kMaxPathChi);
+  return plausible;
 }
 
 double contradicted_share(const PoseGraph& graph, const std::vector<std::size_t>& loops, double max_chi,
@@ -71,16 +84,17 @@ std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustm
     select_inlier_loops(graph, solver, loops, max_chi);
     chi = optimized_chi(graph, solver, loops);
   }
-  switch_off_worst_first(graph, solver, loops, max_chi, chi);
+  switch_off_worst_first(graph, solver, loops, max_chi, std::vector<bool>(loops.size()), chi);
+  const std::vector<bool> plausible = plausible_along_path(graph, loops);
   bool any_fits_after_all = false;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (graph.enabled(loops[i]) || chi[i] > max_chi) continue;
+    if (graph.enabled(loops[i]) || (chi[i] > max_chi && !plausible[i])) continue;
     graph.set_enabled(loops[i], true);
     any_fits_after_all = true;
   }
   if (any_fits_after_all) {
     chi = optimized_chi(graph, solver, loops);
-    switch_off_worst_first(graph, solver, loops, max_chi, chi);
+    switch_off_worst_first(graph, solver, loops, max_chi, plausible, chi);
   }
   return chi;
 }

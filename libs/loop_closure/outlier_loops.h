@@ -4,6 +4,10 @@
 // before the graph is optimised again. This step repeats until no enabled loop is contradicted. Disabled
 // loops that then fit are enabled again.
 //
+// A few true loops that close a long ring may get large residuals too. The solver takes the errors along the
+// ring for independent, so it leaves too much of the ring's error to the loops. Therefore a loop is only an
+// outlier if its residual in the graph without it also exceeds the uncertainty along the path.
+//
 // If many loops are contradicted, false loops may outnumber true ones, and the loop with the largest residual
 // need not be false. Then select_inlier_loops() selects consistent loops first.
 #pragma once
@@ -19,9 +23,12 @@ namespace psi_slam {
 /// Share of contradicted loops above which select_inlier_loops() is needed.
 inline constexpr double kDoubtfulShare = 0.2;
 
+/// Largest value of path_chi() of a loop that is no outlier: about 99.7 % of right loops have a smaller one.
+inline constexpr double kMaxPathChi = 3.7;
+
 /// Optimises the graph. Enables and disables the constraints `loops` until no enabled loop has a residual
-/// above `max_chi` standard deviations. Returns the residuals in the order of `loops`. If `doubtful_share` is
-/// 1, never calls select_inlier_loops().
+/// above `max_chi` standard deviations and a path_chi() above kMaxPathChi. Returns the residuals in the order
+/// of `loops`. If `doubtful_share` is 1, never calls select_inlier_loops().
 std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
                                              const std::vector<std::size_t>& loops, double max_chi,
                                              double doubtful_share = kDoubtfulShare);

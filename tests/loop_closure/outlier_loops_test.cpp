@@ -119,6 +119,43 @@ TEST(OutlierLoops, keeps_a_loop_at_the_limit) {
   EXPECT_FALSE(copy.enabled(loops[0]));
 }
 
+// As odometry_chain(), but with fifty copies of each constraint. A solver that takes the errors of copies for
+// independent makes the chain much stiffer than its best path.
+PoseGraph stiff_chain() {
+  PoseGraph graph = odometry_chain();
+  const std::vector<Constraint> path = graph.constraints();
+  for (int copy = 1; copy < 50; ++copy)
+    for (const Constraint& step : path) graph.add_constraint(step);
+  return graph;
+}
+
+TEST(OutlierLoops, keeps_the_only_loop_of_a_ring_if_the_best_path_does_not_contradict_it) {
+  for (const double path_chi_of_loop : {3.5, 3.9}) {
+    PoseGraph graph = stiff_chain();
+    const std::size_t probe = add_bent_loop(graph, 19, 1);
+    graph.set_enabled(probe, false);
+    const double off_m = path_chi_of_loop / path_chi(graph, {probe}).front();
+    const std::vector<std::size_t> loops = {add_bent_loop(graph, 19, off_m)};
+    SparsePoseAdjustment solver = plain_solver();
+    const std::vector<double> chi = switch_off_outlier_loops(graph, solver, loops, kOutlierChi);
+    EXPECT_GT(chi[0], kOutlierChi) << "the stiff chain leaves most of the error to the loop";
+    EXPECT_EQ(graph.enabled(loops[0]), path_chi_of_loop < kMaxPathChi);
+  }
+}
+
+TEST(OutlierLoops, disables_a_loop_that_the_path_through_other_loops_contradicts) {
+  PoseGraph graph = stiff_chain();
+  std::vector<std::size_t> loops;
+  for (const std::size_t to : {17U, 18U, 18U, 19U}) loops.push_back(add_bent_loop(graph, to, 0));
+  loops.push_back(add_bent_loop(graph, 19, 0.5));
+  for (const std::size_t loop : loops) graph.set_enabled(loop, false);
+  ASSERT_LT(path_chi(graph, {loops.back()}).front(), kMaxPathChi) << "the path without loops does not tell";
+  for (const std::size_t loop : loops) graph.set_enabled(loop, true);
+  SparsePoseAdjustment solver = plain_solver();
+  switch_off_outlier_loops(graph, solver, loops, kOutlierChi);
+  for (std::size_t i = 0; i < loops.size(); ++i) EXPECT_EQ(graph.enabled(loops[i]), i < 4) << i;
+}
+
 TEST(OutlierLoops, a_graph_without_loops_is_optimised) {
   PoseGraph graph = odometry_chain();
   graph.set_pose(19, {25, 3, 1});

@@ -69,8 +69,8 @@ struct FrontEndOptions {
   double prior_per_radian = 0.5;
   double prior_per_surprise = 0.5;
   /// Matches points_along_walls() while odometry states that the robot moves. Keeps the length of maps of
-  /// bare corridors, but may lose the place of the robot where the scans contradict odometry.
-  bool along_walls = false;
+  /// bare corridors.
+  bool along_walls = true;
   /// The pose refined directly from the prediction replaces the searched pose if its score is at least this
   /// share of the searched pose's score. Along a corridor, noise decides where the search finds its best
   /// pose.

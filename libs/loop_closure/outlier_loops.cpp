@@ -43,14 +43,16 @@ void switch_off_worst_first(PoseGraph& graph, SparsePoseAdjustment& solver,
 }
 
 // Marks the disabled loops that path_chi() does not contradict.
-std::vector<bool> plausible_along_path(const PoseGraph& graph, const std::vector<std::size_t>& loops) {
+std::vector<bool> plausible_along_path(const PoseGraph& graph, const std::vector<std::size_t>& loops,
+                                       double max_chi) {
   std::vector<std::size_t> disabled;
   for (const std::size_t loop : loops)
     if (!graph.enabled(loop)) disabled.push_back(loop);
   const std::vector<double> off_path = path_chi(graph, disabled);
   std::vector<bool> plausible;
   auto chi = off_path.begin();
-  for (const std::size_t loop : loops) plausible.push_back(!graph.enabled(loop) && *chi++ <= kMaxPathChi);
+  for (const std::size_t loop : loops)
+    plausible.push_back(!graph.enabled(loop) && *chi++ <= kPlausibleShare * max_chi);
   return plausible;
 }
 
@@ -85,7 +87,7 @@ std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustm
     chi = optimized_chi(graph, solver, loops);
   }
   switch_off_worst_first(graph, solver, loops, max_chi, std::vector<bool>(loops.size()), chi);
-  const std::vector<bool> plausible = plausible_along_path(graph, loops);
+  const std::vector<bool> plausible = plausible_along_path(graph, loops, max_chi);
   bool any_fits_after_all = false;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (graph.enabled(loops[i]) || (chi[i] > max_chi && !plausible[i])) continue;

@@ -98,8 +98,7 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
               "differs from the robot's last motion.")
       .flag("along_walls", front_end.along_walls,
             "Lets no point of a wall hold the robot along the wall while odometry says that it moves. Keeps "
-            "the "
-            "length of bare corridors, but other places may become worse.")
+            "the length of bare corridors.")
       .number("prediction_share", front_end.prediction_share, between(0, 1), "",
               "The refined prediction is preferred to the searched pose if it reaches this share of its "
               "response.")

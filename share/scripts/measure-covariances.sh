@@ -36,8 +36,8 @@ measure() {
 
 echo "| run of $(awk "BEGIN { print $path_m / 1000 }") km"' | seed | independent: mean | beyond | any two nodes: mean | median | beyond | neighbours: mean | median | beyond | to the first: mean |'
 echo '|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|'
-for seed in 1 2 3; do measure 'no people, no glass' "$seed" --people 0 --glass 0; done
-for seed in 1 2 3; do measure '5 people for every 500 m, 10 % glass' "$seed"; done
+for seed in 1 2 3 4 5; do measure 'no people, no glass' "$seed" --people 0 --glass 0; done
+for seed in 1 2 3 4 5; do measure '5 people for every 500 m, 10 % glass' "$seed"; done
 for seed in 1 2; do measure '15 people for every 500 m, 30 % glass' "$seed" --people 15 --glass 0.3; done
 for seed in 1 2; do measure 'laser with a range of 15 m' "$seed" --max-range-m 15; done
 for seed in 1 2; do measure 'laser with a noise of 2 cm' "$seed" --range-noise-m 0.02; done

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lengths of maps of a bare corridor, which only odometry determines. With front_end.along_walls, no scan may
-// make them shorter. With
+// Lengths of maps of a bare corridor, which only odometry determines. No scan may make them shorter. With
 // PSI_SLAM_LONG_TESTS, prints the errors in share/doc/accuracy.md.
 #include <gtest/gtest.h>
 
@@ -10,7 +9,6 @@
 #include <cstdlib>
 
 #include "../local_maps/simulated_drive.h"
-#include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
 
 namespace psi_slam {
@@ -28,9 +26,7 @@ double length_error(double step_m, std::uint64_t seed) {
   errors.length_share = 0.05;
   const SimulatedDrive drive =
       drive_along(corridor, path_along({{2, 1.2}, {2 + kPath_m, 1.2}}, step_m), errors, seed);
-  MapperOptions options;
-  options.front_end.along_walls = true;
-  Mapper mapper(options);
+  Mapper mapper;
   for (const Frame& frame : drive.frames) mapper.add(frame);
   const MappingResult result = mapper.finish();
   return std::hypot(result.frames.back().map_T_robot.x, result.frames.back().map_T_robot.y) / kPath_m - 1;

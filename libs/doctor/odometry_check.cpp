@@ -28,6 +28,7 @@ const double kTrackTurn_rad = DEG2RAD(25.0);
 constexpr double kGoodCost_m = 0.06;
 constexpr double kLeastLength_m = 0.1;
 constexpr double kLengthDeviation_m = 0.02;
+constexpr double kUndecidedCost_m = 0.01;
 const double kHeadingDeviation_rad = DEG2RAD(0.4);
 constexpr std::size_t kFewestSamples = 8;
 const double kLeastTurn_rad = DEG2RAD(1.2);
@@ -45,6 +46,9 @@ struct Track {
   TPose2D by_scans;  // pose of the last frame relative to the first
   TPose2D by_odometry;
   double length_deviation_m = 0;
+  /// From a guess by odometry, the scans fit another pose about as well as `by_scans`. Along a bare corridor,
+  /// beams that graze the walls hold each scan where it is.
+  bool is_ambiguous = false;
   std::vector<Step> steps;
 };
 
@@ -68,6 +72,8 @@ std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vect
   Track track;
   TPose2D now{0, 0, 0};
   TPose2D last_step{0, 0, 0};
+  double cost_m = 0;
+  std::size_t last = frames.front();
   for (std::size_t k = 1; k < frames.size(); ++k) {
     const AlignableScan scan(library.at(frames[k]));
     const FramePair step{frames[k - 1], frames[k]};
@@ -88,9 +94,15 @@ std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vect
     const double laser_heading_rad = reference.robot_T_laser().phi;  // the covariance is in the laser's frame
     track.length_deviation_m = alignment.deviation_along_m(portable::atan2(now.y, now.x) - laser_heading_rad);
     track.steps.push_back({step, last_step.phi, wrapToPi(odometry_step.phi)});
+    cost_m = alignment.cost_m;
+    last = frames[k];
     if (now.norm() > kTrackLength_m || std::abs(now.phi) > kTrackTurn_rad) break;
   }
   if (track.steps.empty()) return std::nullopt;
+  const ScanAlignment by_odometry =
+      align_scans(reference, AlignableScan(library.at(last)), track.by_odometry);
+  track.is_ambiguous = by_odometry.cost_m <= cost_m + kUndecidedCost_m &&
+                       between(track.by_scans, by_odometry.reference_T_scan).norm() > kLengthDeviation_m;
   return track;
 }
 
@@ -110,7 +122,8 @@ void compare_lengths(const std::vector<Track>& tracks, OdometryAgreement& agreem
     const double by_odometry_m = track.by_odometry.norm();
     agreement.scan_path_m += by_scans_m;
     agreement.odometry_path_m += by_odometry_m;
-    if (by_scans_m < kLeastLength_m || track.length_deviation_m > kLengthDeviation_m) continue;
+    if (by_scans_m < kLeastLength_m || track.length_deviation_m > kLengthDeviation_m || track.is_ambiguous)
+      continue;
     ratios.push_back(by_odometry_m / by_scans_m);
     if (by_odometry_m == 0) continue;
     const double odometry_direction = portable::atan2(track.by_odometry.y, track.by_odometry.x);

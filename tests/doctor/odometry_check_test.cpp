@@ -16,8 +16,8 @@ using mrpt::math::TPose2D;
 /// turn the laser.
 class OdometryCheckTest : public testing::Test {
  protected:
-  OdometryAgreement check(const std::function<void(TPose2D&)>& change, const LogOptions& options = {}) {
-    SimulatedRun run = round_trips(1);
+  OdometryAgreement check(const std::function<void(TPose2D&)>& change, const LogOptions& options = {},
+                          const SimulatedRun& run = round_trips(1)) {
     const auto path = folder_.path() / "log";
     write_file(path, carmen_log(run));
     std::vector<FrameMark> marks;
@@ -98,6 +98,19 @@ TEST_F(OdometryCheckTest, follows_the_scans_if_odometry_is_constant) {
   const OdometryAgreement agreement = check([](TPose2D& pose) { pose = {0, 0, 0}; });
   EXPECT_GT(agreement.scan_path_m, 5);
   EXPECT_EQ(agreement.odometry_path_m, 0);
+}
+
+TEST_F(OdometryCheckTest, does_not_compare_lengths_in_a_bare_corridor) {
+  SimulatedRun run = simulated_run({{0.1, 0, 400}}, {5, 1.2, 0});
+  run.walls.clear();
+  add_box(run.walls, 0, 0, 60, 2.4);
+  run.put_into = [](std::vector<float>& ranges_m, std::size_t) {
+    for (float& range_m : ranges_m) range_m = range_m > 8 ? 60.0F : range_m;  // the ends are out of range
+  };
+  run.noise_m = 0.02;
+  const OdometryAgreement agreement = check([](TPose2D&) {}, {}, run);
+  EXPECT_GT(agreement.tracks, 20U);
+  EXPECT_EQ(agreement.length_ratio, 0) << agreement.length_samples;
 }
 
 TEST(OdometryCheck, is_unknown_for_an_empty_log) {

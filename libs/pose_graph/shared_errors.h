@@ -46,7 +46,7 @@ struct SharedErrorOptions {
   double common_loop_share = 0.8;
   /// Factor on the variance of the drift in position. Accounts for the part of the drift that repeats, such
   /// as a wrong scale of odometry along bare corridors, which a random walk lacks.
-  double drift_position_factor = 2;
+  double drift_position_factor = 3;
 };
 
 /// Returns the graph of the model at the poses of `graph`, for MarginalCovariance. The nodes of `graph` keep

@@ -236,7 +236,9 @@ class Judge {
     judge_heading(odometry);
     if (odometry.length_samples == 0 || odometry.heading == HeadingRelation::kUnknown) {
       note("odometry_unchecked",
-           "odometry could not be checked: too few scans could be aligned with each other");
+           "odometry could not be checked: too few scans could be aligned, or they fit several places, as in "
+           "a "
+           "bare corridor");
     }
   }
 

@@ -28,7 +28,7 @@ const double kTrackTurn_rad = DEG2RAD(25.0);
 constexpr double kGoodCost_m = 0.06;
 constexpr double kLeastLength_m = 0.1;
 constexpr double kLengthDeviation_m = 0.02;
-constexpr double kUndecidedCost_m = 0.01;
+constexpr double kUndecidedCost_m = 0.01;  // two poses with a smaller difference of cost fit equally well
 const double kHeadingDeviation_rad = DEG2RAD(0.4);
 constexpr std::size_t kFewestSamples = 8;
 const double kLeastTurn_rad = DEG2RAD(1.2);
@@ -46,8 +46,8 @@ struct Track {
   TPose2D by_scans;  // pose of the last frame relative to the first
   TPose2D by_odometry;
   double length_deviation_m = 0;
-  /// From a guess by odometry, the scans fit another pose about as well as `by_scans`. Along a bare corridor,
-  /// beams that graze the walls hold each scan where it is.
+  /// Aligned from the pose by odometry, the scans fit a pose more than kLengthDeviation_m away about as well
+  /// as `by_scans`. Along a bare corridor, beams that graze the walls hold each scan where it is.
   bool is_ambiguous = false;
   std::vector<Step> steps;
 };

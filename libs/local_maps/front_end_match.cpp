@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How the front end matches a scan with the older active local map: the window, the prior, the searches, and
-// whether a match is believed.
+// whether a match is accepted.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>

@@ -375,7 +375,7 @@ void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
                  "Standard deviation of a loop's heading, added to the covariance of its match.")
       .number("max_loop_chi", mapper.back_end.max_loop_chi, above(0), "sigma",
               "A loop whose residual in the finished graph exceeds this many standard deviations is switched "
-              "off.");
+              "off, unless the path without it explains three quarters of this many.");
   describe_kernel(table, "local_map", "the constraints between nodes and their local maps",
                   solver.local_map_kernel);
   describe_kernel(table, "loop", "loops", solver.loop_kernel);

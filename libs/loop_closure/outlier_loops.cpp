@@ -56,25 +56,6 @@ std::vector<bool> plausible_along_path(const PoseGraph& graph, const std::vector
   return plausible;
 }
 
-// Disables those of the loops `kept` that the path through the others contradicts, the worst first.
-void switch_off_kept_loops_that_disagree(PoseGraph& graph, SparsePoseAdjustment& solver,
-                                         const std::vector<std::size_t>& loops, double max_chi,
-                                         const std::vector<bool>& kept, std::vector<double>& chi) {
-  std::vector<std::size_t> doubtful;
-  for (std::size_t i = 0; i < loops.size(); ++i)
-    if (kept[i] && graph.enabled(loops[i]) && chi[i] > max_chi) doubtful.push_back(i);
-  std::stable_sort(doubtful.begin(), doubtful.end(),
-                   [&](std::size_t a, std::size_t b) { return chi[a] > chi[b]; });
-  bool any_disagrees = false;
-  for (const std::size_t i : doubtful) {
-    graph.set_enabled(loops[i], false);
-    const bool agrees = path_chi(graph, {loops[i]}).front() <= kPlausibleShare * max_chi;
-    graph.set_enabled(loops[i], agrees);
-    any_disagrees = any_disagrees || !agrees;
-  }
-  if (any_disagrees) chi = optimized_chi(graph, solver, loops);
-}
-
 double contradicted_share(const PoseGraph& graph, const std::vector<std::size_t>& loops, double max_chi,
                           const std::vector<double>& chi) {
   std::size_t on = 0;
@@ -116,7 +97,6 @@ std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustm
   if (any_fits_after_all) {
     chi = optimized_chi(graph, solver, loops);
     switch_off_worst_first(graph, solver, loops, max_chi, plausible, chi);
-    switch_off_kept_loops_that_disagree(graph, solver, loops, max_chi, plausible, chi);
   }
   return chi;
 }

@@ -157,18 +157,6 @@ TEST(OutlierLoops, disables_a_loop_that_the_path_through_other_loops_contradicts
   for (std::size_t i = 0; i < loops.size(); ++i) EXPECT_EQ(graph.enabled(loops[i]), i < 4) << i;
 }
 
-TEST(OutlierLoops, keeps_one_of_two_loops_that_are_plausible_but_contradict_each_other) {
-  PoseGraph graph = stiff_chain();
-  const std::vector<std::size_t> loops = {add_bent_loop(graph, 19, 1), add_bent_loop(graph, 19, -1.2)};
-  for (const std::size_t loop : loops) graph.set_enabled(loop, false);
-  for (const double chi : path_chi(graph, loops)) ASSERT_LT(chi, kPlausibleShare * kOutlierChi);
-  for (const std::size_t loop : loops) graph.set_enabled(loop, true);
-  SparsePoseAdjustment solver = plain_solver();
-  switch_off_outlier_loops(graph, solver, loops, kOutlierChi);
-  EXPECT_TRUE(graph.enabled(loops[0]));
-  EXPECT_FALSE(graph.enabled(loops[1])) << "it is off by more";
-}
-
 TEST(OutlierLoops, a_graph_without_loops_is_optimised) {
   PoseGraph graph = odometry_chain();
   graph.set_pose(19, {25, 3, 1});

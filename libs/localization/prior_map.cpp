@@ -47,7 +47,7 @@ constexpr double kMinResponse = 0.3;
 constexpr double kMinObserved = 0.5;
 constexpr double kMinAgree = 0.4;
 constexpr double kMinClear = 0.8;
-constexpr double kMinFits = 0.75;  // least share of the places in the space of the map that fit
+constexpr double kMinFits = 0.7;  // least share of the places in the space of the map that fit
 
 constexpr double kSearchResolution_m = 0.1;
 constexpr double kSmoothing_m = 0.03;

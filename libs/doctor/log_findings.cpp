@@ -236,9 +236,8 @@ class Judge {
     judge_heading(odometry);
     if (odometry.length_samples == 0 || odometry.heading == HeadingRelation::kUnknown) {
       note("odometry_unchecked",
-           "odometry could not be checked: too few scans could be aligned, or they fit several places, as in "
-           "a "
-           "bare corridor");
+           "odometry could not be checked: too few scans could be aligned, or they fit several places, "
+           "as in a bare corridor");
     }
   }
 

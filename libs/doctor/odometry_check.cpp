@@ -45,10 +45,7 @@ struct Step {
 struct Track {
   TPose2D by_scans;  // pose of the last frame relative to the first
   TPose2D by_odometry;
-  double length_deviation_m = 0;
-  /// Aligned from the pose by odometry, the scans fit a pose more than kLengthDeviation_m away about as well
-  /// as `by_scans`. Along a bare corridor, beams that graze the walls hold each scan where it is.
-  bool is_ambiguous = false;
+  bool tells_length = false;  ///< the scans determine the length of `by_scans`
   std::vector<Step> steps;
 };
 
@@ -66,14 +63,29 @@ std::vector<TPose2D> fan_of_guesses(const TPose2D& around) {
   return guesses;
 }
 
+/// Returns whether an alignment determines how far the robot moved. Along a bare corridor, beams that graze
+/// the walls hold each scan where it is: aligned from the pose by odometry, the scan then fits another pose
+/// about as well.
+bool determines_length(const ScanAlignment& alignment, const AlignableScan& reference,
+                       const AlignableScan& scan, const TPose2D& by_odometry) {
+  const TPose2D& by_scans = alignment.reference_T_scan;
+  const double laser_heading_rad = reference.robot_T_laser().phi;  // the covariance is in the laser's frame
+  if (by_scans.norm() < kLeastLength_m ||
+      alignment.deviation_along_m(portable::atan2(by_scans.y, by_scans.x) - laser_heading_rad) >
+          kLengthDeviation_m)
+    return false;
+  const ScanAlignment other = align_scans(reference, scan, by_odometry);
+  return other.cost_m > alignment.cost_m + kUndecidedCost_m ||
+         between(by_scans, other.reference_T_scan).norm() <= kLengthDeviation_m;
+}
+
 std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vector<std::size_t>& frames,
                             const ScanLibrary& library) {
   const AlignableScan reference(library.at(frames.front()));
   Track track;
   TPose2D now{0, 0, 0};
   TPose2D last_step{0, 0, 0};
-  double cost_m = 0;
-  std::size_t last = frames.front();
+  ScanAlignment newest;
   for (std::size_t k = 1; k < frames.size(); ++k) {
     const AlignableScan scan(library.at(frames[k]));
     const FramePair step{frames[k - 1], frames[k]};
@@ -91,18 +103,13 @@ std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vect
     now = alignment.reference_T_scan;
     track.by_scans = now;
     track.by_odometry = odometry_between(marks, {frames.front(), frames[k]});
-    const double laser_heading_rad = reference.robot_T_laser().phi;  // the covariance is in the laser's frame
-    track.length_deviation_m = alignment.deviation_along_m(portable::atan2(now.y, now.x) - laser_heading_rad);
+    newest = alignment;
     track.steps.push_back({step, last_step.phi, wrapToPi(odometry_step.phi)});
-    cost_m = alignment.cost_m;
-    last = frames[k];
     if (now.norm() > kTrackLength_m || std::abs(now.phi) > kTrackTurn_rad) break;
   }
   if (track.steps.empty()) return std::nullopt;
-  const ScanAlignment by_odometry =
-      align_scans(reference, AlignableScan(library.at(last)), track.by_odometry);
-  track.is_ambiguous = by_odometry.cost_m <= cost_m + kUndecidedCost_m &&
-                       between(track.by_scans, by_odometry.reference_T_scan).norm() > kLengthDeviation_m;
+  track.tells_length = determines_length(
+      newest, reference, AlignableScan(library.at(track.steps.back().frames.second)), track.by_odometry);
   return track;
 }
 
@@ -122,8 +129,7 @@ void compare_lengths(const std::vector<Track>& tracks, OdometryAgreement& agreem
     const double by_odometry_m = track.by_odometry.norm();
     agreement.scan_path_m += by_scans_m;
     agreement.odometry_path_m += by_odometry_m;
-    if (by_scans_m < kLeastLength_m || track.length_deviation_m > kLengthDeviation_m || track.is_ambiguous)
-      continue;
+    if (!track.tells_length) continue;
     ratios.push_back(by_odometry_m / by_scans_m);
     if (by_odometry_m == 0) continue;
     const double odometry_direction = portable::atan2(track.by_odometry.y, track.by_odometry.x);

@@ -43,8 +43,8 @@ class LoopLedger {
   /// returns nothing if the loop has another verdict or already is a constraint.
   std::optional<double> accept(std::size_t loop, PoseGraph& graph);
 
-  /// Optimises the graph and switches off loops with residuals above `max_chi` standard deviations. Never
-  /// switches off forced loops. `doubtful_share` is as in switch_off_outlier_loops().
+  /// Optimises the graph and switches off outlier loops; `max_chi` and `doubtful_share` are as in
+  /// switch_off_outlier_loops(). Never switches off forced loops.
   void settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi,
               double doubtful_share = kDoubtfulShare);
 

@@ -24,12 +24,14 @@ namespace psi_slam {
 inline constexpr double kDoubtfulShare = 0.2;
 
 /// A loop with a path_chi() up to this share of `max_chi` is no outlier. With the default of 5, the limit is
-/// 3.75 standard deviations, which 0.3 % of right loops exceed.
+/// 3.75 standard deviations, which 0.3 % of true loops exceed.
 inline constexpr double kPlausibleShare = 0.75;
 
 /// Optimises the graph. Enables and disables the constraints `loops` until no enabled loop has a residual
-/// above `max_chi` standard deviations and a path_chi() above kPlausibleShare * `max_chi`. Returns the
-/// residuals in the order of `loops`. If `doubtful_share` is 1, never calls select_inlier_loops().
+/// above `max_chi` standard deviations and a path_chi() above kPlausibleShare * `max_chi`. Computes
+/// path_chi() once, of the loops that are disabled when no enabled loop is contradicted any more; loops that
+/// are disabled after that stay disabled. Returns the residuals in the order of `loops`. If `doubtful_share`
+/// is 1, never calls select_inlier_loops().
 std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
                                              const std::vector<std::size_t>& loops, double max_chi,
                                              double doubtful_share = kDoubtfulShare);

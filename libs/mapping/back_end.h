@@ -40,9 +40,11 @@ struct BackEndOptions {
   JointRefinementOptions joint_refinement;
   double loop_sigma_m = 0.02;  ///< standard deviations of extra noise of each loop match, see LoopNoise
   double loop_sigma_rad = radians_from_degrees(0.25L);
-  double max_loop_chi = 5.0;  ///< residual in standard deviations above which a loop is switched off
-  std::uint64_t seed = 1;     ///< seed of all random numbers
-  int threads = 1;            ///< number of threads for matching, without effect on the results
+  /// Residual in standard deviations above which a loop is switched off, unless the uncertainty along the
+  /// path explains it, see outlier_loops.h.
+  double max_loop_chi = 5.0;
+  std::uint64_t seed = 1;  ///< seed of all random numbers
+  int threads = 1;         ///< number of threads for matching, without effect on the results
   /// Priority of the threads of the back end. If it is low, the front end answers first on a shared
   /// processor.
   ThreadPriority priority = ThreadPriority::kNormal;

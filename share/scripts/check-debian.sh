@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Checks psi-slam on a bare Debian: installs the release with debootstrap in a folder, runs quickstart.sh, build.sh and test.sh
 # there, and then runs the installed programs on a second bare Debian that has only the packages of the list `runtime`.
-# share/docker/Dockerfile has the same steps, without quickstart and tests.
+# Makes the Debian packages, and checks them with check-package.sh and lintian. Prints a checksum of path, map and pose graph of
+# the quickstart, which must be the same on all releases. share/docker/Dockerfile has the same steps, without quickstart and checks.
 #
 #     share/scripts/check-debian.sh 12|13 [FOLDER]
 #
@@ -50,6 +51,7 @@ fi
 cd "$(dirname "$0")/../.."
 readonly system=$work/build      # builds and tests
 readonly robot=$work/run         # runs only
+readonly bare=$work/bare         # stays bare, for the check of the packages
 readonly source=/psi-slam        # in both systems
 child=
 
@@ -139,6 +141,7 @@ run debootstrap --variant=minbase "$release" "$system" "$mirror" >"$work/deboots
   fail "debootstrap failed: $(tail -n 5 "$work/debootstrap.log")"
 echo force-unsafe-io >"$system/etc/dpkg/dpkg.cfg.d/unsafe-io"  # makes installation much faster
 cp --archive "$system" "$robot"
+cp --archive "$system" "$bare"
 prepare "$system"
 prepare "$robot"
 if [ -n "$data" ]; then
@@ -149,7 +152,7 @@ if [ -n "$metric_tool" ]; then cp "$metric_tool" "$system/usr/local/lib/metric-t
 
 say "Debian $version: running quickstart.sh"
 inside "$system" share/scripts/quickstart.sh || fail "quickstart.sh failed. Read its message above"
-for unwanted in libopenmpi-dev xvfb python3-rosbag libgtest-dev; do
+for unwanted in libopenmpi-dev openmpi-bin xvfb openbox python3-rosbag python3-gtsam pybind11-dev libgtest-dev; do
   inside "$system" dpkg-query --show "$unwanted" >/dev/null 2>&1 && fail "quickstart.sh installed $unwanted"
 done
 
@@ -174,5 +177,13 @@ for file in trajectory.csv map.pgm graph.g2o; do
   cmp "$robot/tmp/map/$file" "$built/$file" || fail "the installed psi-slam writes another $file than quickstart.sh"
 done
 
+say "Debian $version: checking the packages"
+mount_in "$system/bare" --bind "$bare"
+inside "$system" apt-get install --quiet --quiet --yes --no-install-recommends lintian >/dev/null ||
+  fail "lintian cannot be installed"
+inside "$system" env PSI_SLAM_BARE_DEBIAN=/bare share/scripts/check-package.sh ||
+  fail "the packages are faulty. Read the message above"
+
+say "Debian $version: checksum of the quickstart's results: $(cd "$built" && cat trajectory.csv map.pgm graph.g2o | sha256sum)"
 if [ "$status" -ne 0 ]; then fail "Debian $version: tests failed. Their names are above"; fi
-say "Debian $version: quickstart, tests and installed programs passed"
+say "Debian $version: quickstart, tests, installed programs and packages passed"

@@ -43,16 +43,44 @@ Pixel block_colour(const COccupancyGridMap2D& grid, int x_begin, int y_begin, in
   return mixed(ground, kWallInk, std::min(1.0, static_cast<double>(occupied) / side));
 }
 
-/// Returns a view of the raster's pixels.
-cv::Mat image_of(MapRaster& raster) {
-  return {raster.height_px, raster.width_px, CV_8UC4, raster.pixels.data()};
+/// The part of a grid that a picture shows, before it is enlarged.
+struct ShownPart : PicturePlace {
+  int x_begin = 0;  ///< column of the first cell
+  int y_end = 0;    ///< row after the last cell
+  int cells_a_pixel = 1;
+};
+
+ShownPart shown_part(const COccupancyGridMap2D& grid, const MapPictureOptions& options) {
+  const auto cell_m = static_cast<double>(grid.getResolution());
+  const SeenCells seen = seen_cells(grid);
+  const int margin = static_cast<int>(std::lround(options.margin_m / cell_m));
+  ShownPart part;
+  part.x_begin = seen.x_begin - margin;
+  part.y_end = seen.y_end + margin;
+  const int width = seen.x_end + margin - part.x_begin;
+  const int height = part.y_end - (seen.y_begin - margin);
+  part.cells_a_pixel =
+      std::max(1, (std::max(width, height) + options.max_side_px - 1) / std::max(1, options.max_side_px));
+  part.width_px = (width + part.cells_a_pixel - 1) / part.cells_a_pixel;
+  part.height_px = (height + part.cells_a_pixel - 1) / part.cells_a_pixel;
+  part.resolution_m = cell_m * part.cells_a_pixel;
+  part.x_min_m = static_cast<double>(grid.getXMin()) + part.x_begin * cell_m;
+  part.y_max_m = static_cast<double>(grid.getYMin()) + part.y_end * cell_m;
+  return part;
 }
 
-void add_scale_bar(cv::Mat& image, double resolution_m, const Pixel& ground) {
-  const int unit = std::max(6, std::max(image.cols, image.rows) / 160);
-  const ScaleBarPlace place{2 * unit, image.rows + 5 * unit / 2, unit};
-  cv::copyMakeBorder(image, image, 0, 5 * unit, 0, 0, cv::BORDER_CONSTANT, ground);
-  draw_scale_bar(image, place, scale_bar_m(image.cols * resolution_m, resolution_m), resolution_m);
+/// Draws into an image of this size with three or four channels.
+void draw(const COccupancyGridMap2D& grid, const ShownPart& part, const Pixel& unknown, cv::Mat& image) {
+  const int channels = image.channels();
+  for (int row = 0; row < image.rows; ++row) {
+    std::uint8_t* pixel = image.ptr(row);
+    for (int column = 0; column < image.cols; ++column, pixel += channels) {
+      const Pixel colour =
+          block_colour(grid, part.x_begin + column * part.cells_a_pixel,
+                       part.y_end - (row + 1) * part.cells_a_pixel, part.cells_a_pixel, unknown);
+      std::copy_n(colour.val, channels, pixel);
+    }
+  }
 }
 
 }  // namespace
@@ -108,51 +136,45 @@ SeenCells seen_cells(const COccupancyGridMap2D& grid) {
 }
 
 MapRaster map_raster(const COccupancyGridMap2D& grid, const MapPictureOptions& options) {
-  const auto cell_m = static_cast<double>(grid.getResolution());
-  const SeenCells seen = seen_cells(grid);
-  const int margin = static_cast<int>(std::lround(options.margin_m / cell_m));
-  const int x_begin = seen.x_begin - margin;
-  const int y_end = seen.y_end + margin;
-  const int width = seen.x_end + margin - x_begin;
-  const int height = y_end - (seen.y_begin - margin);
-  const int cells_a_pixel =
-      std::max(1, (std::max(width, height) + options.max_side_px - 1) / std::max(1, options.max_side_px));
-
-  const Pixel& unknown = options.transparent_unknown ? kTransparentInk : kUnknownInk;
-  MapRaster raster;
-  raster.width_px = (width + cells_a_pixel - 1) / cells_a_pixel;
-  raster.height_px = (height + cells_a_pixel - 1) / cells_a_pixel;
-  raster.resolution_m = cell_m * cells_a_pixel;
-  raster.x_min_m = static_cast<double>(grid.getXMin()) + x_begin * cell_m;
-  raster.y_max_m = static_cast<double>(grid.getYMin()) + y_end * cell_m;
-  raster.pixels.resize(sizeof(Pixel) * static_cast<std::size_t>(raster.width_px) *
-                       static_cast<std::size_t>(raster.height_px));
-  cv::Mat image = image_of(raster);
-  for (int row = 0; row < image.rows; ++row) {
-    auto* pixels = image.ptr<Pixel>(row);
-    for (int column = 0; column < image.cols; ++column)
-      pixels[column] = block_colour(grid, x_begin + column * cells_a_pixel, y_end - (row + 1) * cells_a_pixel,
-                                    cells_a_pixel, unknown);
-  }
+  const ShownPart part = shown_part(grid, options);
+  MapRaster raster{part, {}};
+  raster.pixels.resize(sizeof(Pixel) * static_cast<std::size_t>(part.width_px) *
+                       static_cast<std::size_t>(part.height_px));
+  cv::Mat image(part.height_px, part.width_px, CV_8UC4, raster.pixels.data());
+  draw(grid, part, options.transparent_unknown ? kTransparentInk : kUnknownInk, image);
   return raster;
 }
 
+// Large maps take hundreds of megabytes, so no copy of the image is made.
 MapPicture map_picture(const COccupancyGridMap2D& grid, const MapPictureOptions& options) {
-  MapRaster raster = map_raster(grid, options);
-  cv::Mat image = image_of(raster);
-  const int longer = std::max(image.cols, image.rows);
-  const bool reduced = raster.resolution_m > 1.5 * static_cast<double>(grid.getResolution());
-  const int pixels_a_cell = reduced ? 1 : std::max(1, (options.min_side_px + longer - 1) / longer);
-  if (pixels_a_cell > 1) cv::resize(image, image, {}, pixels_a_cell, pixels_a_cell, cv::INTER_NEAREST);
+  const ShownPart part = shown_part(grid, options);
+  const int longer = std::max(part.width_px, part.height_px);
+  const int pixels_a_cell =
+      part.cells_a_pixel > 1 ? 1 : std::max(1, (options.min_side_px + longer - 1) / longer);
 
-  MapPicture picture{raster, {}};
-  picture.resolution_m = raster.resolution_m / pixels_a_cell;
+  MapPicture picture{part, {}};
+  picture.resolution_m = part.resolution_m / pixels_a_cell;
+  picture.width_px = part.width_px * pixels_a_cell;
+  const int height_px = part.height_px * pixels_a_cell;
+  const int unit = std::max(6, std::max(picture.width_px, height_px) / 160);
+  picture.height_px = height_px + (options.scale_bar ? 5 * unit : 0);
+
   const Pixel& unknown = options.transparent_unknown ? kTransparentInk : kUnknownInk;
-  if (options.scale_bar) add_scale_bar(image, picture.resolution_m, unknown);
-  if (!options.transparent_unknown) cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
+  const int type = options.transparent_unknown ? CV_8UC4 : CV_8UC3;
+  cv::Mat image(picture.height_px, picture.width_px, type, cv::Scalar(unknown));
+  cv::Mat map = image.rowRange(0, height_px);
+  if (pixels_a_cell > 1) {
+    cv::Mat small(part.height_px, part.width_px, type);
+    draw(grid, part, unknown, small);
+    cv::resize(small, map, map.size(), 0, 0, cv::INTER_NEAREST);
+  } else {
+    draw(grid, part, unknown, map);
+  }
+  if (options.scale_bar) {
+    const double bar_m = scale_bar_m(picture.width_px * picture.resolution_m, picture.resolution_m);
+    draw_scale_bar(image, {2 * unit, height_px + 5 * unit / 2, unit}, bar_m, picture.resolution_m);
+  }
   picture.png = png_bytes(image);
-  picture.width_px = image.cols;
-  picture.height_px = image.rows;
   return picture;
 }
 

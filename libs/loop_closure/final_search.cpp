@@ -2,6 +2,7 @@
 #include "loop_closure/final_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/portable_math.h"
@@ -13,6 +14,38 @@ namespace {
 
 // Number of pairs matched between two reports of progress.
 constexpr std::size_t kBatch = 64;
+
+/// Chooses the first node of each stretch of travel. The stretches of different local maps begin at different
+/// places.
+class NodeChoice {
+ public:
+  NodeChoice(const std::vector<NodeScan>& nodes, double stretch_m) : stretch_m_(stretch_m) {
+    for (std::size_t node = 0; node < nodes.size(); ++node) {
+      if (node == 0) {
+        moved_m_.push_back(0);
+        continue;
+      }
+      const mrpt::math::TPose2D motion = between(nodes[node - 1].local_T_robot, nodes[node].local_T_robot);
+      moved_m_.push_back(moved_m_.back() + portable::hypot(motion.x, motion.y) +
+                         kTravelOfTurn_m * std::abs(motion.phi));
+    }
+  }
+
+  bool contains(std::size_t node, std::size_t local_map) const {
+    if (stretch_m_ <= 0 || node == 0) return true;
+    return stretch(node, local_map) != stretch(node - 1, local_map);
+  }
+
+ private:
+  double stretch(std::size_t node, std::size_t local_map) const {
+    constexpr double kGoldenRatio = 0.618033988749895;  // spreads the offsets of any number of local maps
+    const double turns = kGoldenRatio * static_cast<double>(local_map);
+    return std::floor(moved_m_[node] / stretch_m_ + (turns - std::floor(turns)));
+  }
+
+  double stretch_m_;
+  std::vector<double> moved_m_;  ///< travel and turns from the first node to each node
+};
 
 /// Bounding box of the nodes of a local map, to avoid computing distances to all nodes.
 struct Box {
@@ -55,6 +88,7 @@ struct Pair {
 std::vector<Pair> pairs_near_each_other(
     const KeyframeStore& keyframes, const PoseGraph& graph, const FinalSearchOptions& options,
     const std::function<bool(std::size_t node, std::size_t local_map)>& known) {
+  const NodeChoice chosen(keyframes.nodes, options.travel_m);
   std::vector<Pair> pairs;
   for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
     const PlacedLocalMap& local_map = keyframes.local_maps[m];
@@ -62,8 +96,7 @@ std::vector<Pair> pairs_near_each_other(
     for (std::size_t node = 0; node < keyframes.nodes.size(); ++node) {
       if (!box.is_near(graph.pose(node), options.reach_m)) continue;
       if (node >= local_map.first_node && node <= local_map.last_node) continue;
-      if (!begins_stretch(node, keyframes.nodes, options.travel_m) || known(node, m) ||
-          !are_joined(node, local_map.first_node, keyframes) ||
+      if (!chosen.contains(node, m) || known(node, m) || !are_joined(node, local_map.first_node, keyframes) ||
           !is_near(node, local_map, graph, options.reach_m))
         continue;
       Pair pair;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The final loop search: after the last scan, matches every node with every nearby local map in a small
-// window. Small windows suffice, because the map is then nearly correct.
+// The final loop search: after the last scan, matches nodes with all nearby local maps in small windows.
+// Small windows suffice, because the map is then nearly correct.
+//
+// Successive nodes see the same, so their matches with one local map would say nearly the same. Therefore
+// only one node in each stretch of the path is matched with a local map. Which one it is differs between
+// local maps, so all nodes are matched where local maps overlap.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +22,18 @@
 
 namespace psi_slam {
 
+/// A turn of 1 rad counts as this much travel: by default, after both of them the front end adds equally many
+/// nodes.
+inline constexpr double kTravelOfTurn_m = 1.5;
+
 struct FinalSearchOptions {
   int passes = 2;  ///< number of passes, each followed by an optimisation; 0: no final loop search
   double window_m = 0.3;
   double window_rad = radians_from_degrees(3.0L);
   double reach_m = 5.0;  ///< largest distance between a node and the nearest node of a local map
-  double travel_m = 0;   ///< matches the first node of each stretch of this path length; 0: every node
+  /// A local map is matched with one node in each stretch of this travel, where a turn of 1 rad counts as
+  /// kTravelOfTurn_m; 0: with every node.
+  double travel_m = 0.6;
 };
 
 struct FinalSearchOutcome {
@@ -31,7 +41,7 @@ struct FinalSearchOutcome {
   LoopEffort effort;
 };
 
-/// Matches each pair of a node and a nearby local map with `matchers`, several pairs in parallel.
+/// Matches pairs of a node and a nearby local map with `matchers`, several pairs in parallel.
 /// Skips nodes of the local map itself, and pairs for which `known(node, local_map)` is true. `run_seed`
 /// becomes MatchSeed::run. Calls `progress` in the calling thread with the completed share of the pairs, in
 /// [0, 1]. If `progress` returns false, the search ends.

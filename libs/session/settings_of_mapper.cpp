@@ -401,7 +401,8 @@ void describe_final_search(OptionTable& table, FinalSearchOptions& final_search)
       .number("reach_m", final_search.reach_m, at_least(0).at_most(1000), "m",
               "A node is matched with a local map if one of the map's nodes is at most this far away.")
       .number("travel_m", final_search.travel_m, at_least(0), "m",
-              "One node is matched in each stretch of this much travel. 0 matches every node.");
+              "A local map is matched with one node in each stretch of this much travel. A turn of 1 rad counts "
+              "as 1.5 m. 0 matches every node.");
 }
 
 void describe_joint_refinement(OptionTable& table, JointRefinementOptions& refinement) {

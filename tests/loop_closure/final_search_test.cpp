@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
 #include <vector>
 
 #include "matching/make_matcher.h"
@@ -44,6 +47,7 @@ TEST(FinalSearch, matches_all_pairs_near_each_other) {
   std::size_t near_pairs = 0;
   FinalSearchOptions options;
   options.reach_m = 1.5;
+  options.travel_m = 0;
   for (const PlacedLocalMap& local_map : rounds.keyframes.local_maps) {
     for (std::size_t node = 0; node < rounds.keyframes.nodes.size(); ++node) {
       if (node >= local_map.first_node && node <= local_map.last_node) continue;
@@ -60,6 +64,49 @@ TEST(FinalSearch, matches_all_pairs_near_each_other) {
       [](std::size_t, std::size_t) { return false; }, 1, pool, [](double) { return true; });
   EXPECT_EQ(outcome.effort.attempts, near_pairs);
   EXPECT_LT(near_pairs, rounds.keyframes.nodes.size() * rounds.keyframes.local_maps.size() / 2);
+}
+
+// Every local map is matched with one node in each stretch, and successive nodes with different local maps.
+TEST(FinalSearch, matches_one_node_in_each_stretch_of_travel_with_a_local_map) {
+  const TwoRounds& rounds = two_rounds();
+  FinalSearchOptions options;
+  options.travel_m = 1;
+  std::vector<double> moved_m{0};
+  for (std::size_t node = 1; node < rounds.keyframes.nodes.size(); ++node) {
+    const auto motion =
+        rounds.keyframes.nodes[node].local_T_robot - rounds.keyframes.nodes[node - 1].local_T_robot;
+    moved_m.push_back(moved_m.back() + std::hypot(motion.x, motion.y) +
+                      kTravelOfTurn_m * std::abs(motion.phi));
+  }
+  double longest_step_m = 0;
+  for (std::size_t node = 1; node < moved_m.size(); ++node)
+    longest_step_m = std::max(longest_step_m, moved_m[node] - moved_m[node - 1]);
+  ASSERT_LT(longest_step_m, options.travel_m / 2) << "a stretch has at least two nodes";
+
+  // Collects the pairs that the search asks about. Answers that all are known, so it matches none.
+  std::map<std::size_t, std::vector<std::size_t>> nodes_of;
+  std::set<std::size_t> matched;
+  WorkerPool pool(1);
+  options.reach_m = 1000;
+  final_search(
+      rounds.keyframes, rounds.graph(), {{MatcherKind::kCsm, kExact}}, {}, options,
+      [&](std::size_t node, std::size_t local_map) {
+        nodes_of[local_map].push_back(node);
+        matched.insert(node);
+        return true;
+      },
+      1, pool, [](double) { return true; });
+  ASSERT_EQ(nodes_of.size(), rounds.keyframes.local_maps.size());
+  for (const auto& [local_map, nodes] : nodes_of) {
+    const PlacedLocalMap& own = rounds.keyframes.local_maps[local_map];
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+      if (nodes[i - 1] == 0) continue;
+      if (nodes[i - 1] < own.first_node && nodes[i] > own.last_node) continue;  // its own nodes are between
+      const double between_m = moved_m[nodes[i]] - moved_m[nodes[i - 1]];
+      EXPECT_NEAR(between_m, options.travel_m, longest_step_m);
+    }
+  }
+  EXPECT_GT(matched.size(), rounds.keyframes.nodes.size() / 2) << "different local maps, different nodes";
 }
 
 TEST(FinalSearch, counts_the_matches_that_it_found) {

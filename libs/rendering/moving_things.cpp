@@ -57,29 +57,6 @@ std::int64_t cells_in(double length_m, double resolution_m) {
   return static_cast<std::int64_t>(std::ceil(length_m / resolution_m - 1e-9));
 }
 
-/// Replaces each negative number by minus the distance to the nearest number that is not negative: the number
-/// of a king's moves, at most `most`.
-void measure_distances(std::vector<std::int32_t>& cells, std::int64_t width, std::int64_t height,
-                       std::int32_t most) {
-  const auto update = [&](std::int64_t x, std::int64_t y, std::int64_t step) {
-    std::int32_t& cell = cells[static_cast<std::size_t>(y * width + x)];
-    if (cell >= 0) return;
-    std::int32_t nearest = -cell;
-    const auto look = [&](std::int64_t at_x, std::int64_t at_y) {
-      if (at_x < 0 || at_x >= width || at_y < 0 || at_y >= height) return;
-      nearest = std::min(nearest, 1 - std::min(0, cells[static_cast<std::size_t>(at_y * width + at_x)]));
-    };
-    look(x - step, y);
-    for (std::int64_t at_x = x - 1; at_x <= x + 1; ++at_x) look(at_x, y - step);
-    cell = -nearest;
-  };
-  for (std::int32_t& cell : cells) cell = cell < 0 ? -most : cell;
-  for (std::int64_t y = 0; y < height; ++y)
-    for (std::int64_t x = 0; x < width; ++x) update(x, y, 1);
-  for (std::int64_t y = height - 1; y >= 0; --y)
-    for (std::int64_t x = width - 1; x >= 0; --x) update(x, y, -1);
-}
-
 double distance_m(const TPoint2D& a, const TPoint2D& b) {
   return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
 }
@@ -123,10 +100,8 @@ MovingThings::MovingThings(const COccupancyGridMap2D& grid, const GridLayout& la
       near_(static_cast<std::int64_t>(std::max(kNear_m / layout.resolution_m, kNearCells))),
       beams_(static_cast<float>(std::max(1.0, kBeamsPerMetre * layout.resolution_m))),
       share_of_near_(share_of_near(layout.resolution_m)),
-      find_(static_cast<std::size_t>(layout.width * layout.height), -1) {
-  constexpr std::int32_t kFar = 10'000;
-  find_obstacles(grid);
-  measure_distances(find_, layout.width, layout.height, kFar);
+      obstacles_(grid) {
+  list_obstacles(grid);
   for (Sightings& cell : cells_) find_normal(cell);
 }
 
@@ -137,7 +112,7 @@ void MovingThings::for_each_around(std::int64_t x, std::int64_t y, std::int64_t 
   const std::int64_t x_end = std::min(x + reach, layout_.width - 1);
   for (std::int64_t at_y = std::max<std::int64_t>(y - reach, 0); at_y <= y_end; ++at_y)
     for (std::int64_t at_x = std::max<std::int64_t>(x - reach, 0); at_x <= x_end; ++at_x) {
-      const std::int32_t found = find_[static_cast<std::size_t>(at_y * layout_.width + at_x)];
+      const std::int32_t found = obstacles_.find(static_cast<std::size_t>(at_y * layout_.width + at_x));
       if (found >= 0) visit(found);
     }
 }
@@ -153,12 +128,11 @@ void MovingThings::for_each_near(std::int64_t x, std::int64_t y, const Visit& vi
   });
 }
 
-void MovingThings::find_obstacles(const COccupancyGridMap2D& grid) {
+void MovingThings::list_obstacles(const COccupancyGridMap2D& grid) {
   for (std::int64_t y = 0; y < layout_.height; ++y) {
     const auto* row = grid.getRow(static_cast<int>(y));
     for (std::int64_t x = 0; x < layout_.width; ++x) {
       if (row[x] >= 0) continue;
-      find_[static_cast<std::size_t>(y * layout_.width + x)] = static_cast<std::int32_t>(cells_.size());
       cells_.emplace_back();
       cells_.back().x = static_cast<std::int32_t>(x);
       cells_.back().y = static_cast<std::int32_t>(y);
@@ -243,7 +217,7 @@ void MovingThings::mark_hit(const TPoint2D& end, bool of_surface) {
     if (of_surface) cell.surface_in = interval_;
     return &cell;
   };
-  const std::int32_t at_end = find_[static_cast<std::size_t>(y * layout_.width + x)];
+  const std::int32_t at_end = obstacles_.find(static_cast<std::size_t>(y * layout_.width + x));
   if (at_end >= 0) {
     Sightings& cell = *mark(at_end);
     if (cell.first_end == 0) cell.first_end = interval_;
@@ -269,7 +243,7 @@ void MovingThings::mark_passes(const Fan& fan, const CellBox& map) {
     const TPoint2D along = (ray.end - fan.start) * (1 / length_m);
     const TPoint2D end = map.in_cells(fan.start + along * free_m);
     leap_line(start, end, layout_.width, [&](std::int64_t index) {
-      const std::int32_t found = find_[static_cast<std::size_t>(index)];
+      const std::int32_t found = obstacles_.find(static_cast<std::size_t>(index));
       if (found < 0) return std::int64_t{-found};
       const Sightings& cell = cells_[static_cast<std::size_t>(found)];
       const double range_m =

@@ -38,6 +38,7 @@
 #include "psi_slam/grid_map.h"
 #include "rendering/digital_line.h"
 #include "rendering/grid_layout.h"
+#include "rendering/obstacle_field.h"
 #include "rendering/scan_rays.h"
 
 namespace psi_slam {
@@ -81,7 +82,7 @@ class MovingThings {
     float crossed_after = 0;       ///< and after last_end
   };
 
-  void find_obstacles(const mrpt::maps::COccupancyGridMap2D& grid);
+  void list_obstacles(const mrpt::maps::COccupancyGridMap2D& grid);
   void find_normal(Sightings& cell) const;
   void mark_hits(const Fan& fan, const CellBox& map);
   void mark_hit(const mrpt::math::TPoint2D& end, bool of_surface);
@@ -112,8 +113,8 @@ class MovingThings {
   std::int64_t near_ = 0;            ///< reach of a hit, in cells
   float beams_ = 0;                  ///< weight of the beams that count as one free interval
   float share_of_near_ = 1;          ///< share by which the beams through cells near count
-  std::vector<Sightings> cells_;     ///< of the occupied cells of the map
-  std::vector<std::int32_t> find_;   ///< index in cells_, or minus the distance to an occupied cell, in cells
+  ObstacleField obstacles_;          ///< the occupied cells of the map
+  std::vector<Sightings> cells_;     ///< of the occupied cells, by their number
   std::vector<std::uint32_t> seen_;  ///< indices of the cells that this interval saw
   std::uint32_t interval_ = 0;       ///< number of this interval; 0 before the first frame
   TimeUs interval_start_us_ = 0;

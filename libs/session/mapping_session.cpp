@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/mapping_session.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -213,7 +215,10 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   m.contradictions_of_mapping = m.result.contradictions.size();
   m.check_log();
   m.enter(Members::State::kFinished);
-  if (m.after_finish == Mapper::AfterFinish::kNothing) m.mapper.reset();
+  if (m.after_finish == Mapper::AfterFinish::kNothing) {
+    m.mapper.reset();
+    malloc_trim(0);  // glibc would keep this memory, and drawing needs blocks that are too large for it
+  }
   m.result.stages.insert(m.result.stages.begin(), m.reading_clock.timing());
   if (m.prior) m.result.stages.push_back(prior_clock.timing());
   m.result.interrupted =

@@ -101,7 +101,7 @@ std::vector<std::string> names_with_values(const CLI::App& app) {
 }
 
 /// Lines that complete the arguments of other programs.
-std::string program_branches(const StartedPrograms& programs) {
+std::string program_branches(const std::map<std::string, std::string>& programs) {
   std::string text;
   for (const auto& [command, program] : programs)
     text += "      " + command + ") @FUNCTION@_program " + command + ' ' + program + "; return ;;\n";
@@ -120,6 +120,7 @@ std::string answer_for(WordKind kind, const std::string& function) {
 }
 
 /// Branches of `case "$command $previous" in` that complete an option's value, one for each kind of value.
+/// `app` has the options of the command.
 std::string value_branches(const CLI::App& app, const std::string& command, const std::string& function) {
   std::map<WordKind, std::vector<std::string>> patterns;
   for (const CLI::Option* option : shown_options(app))
@@ -132,20 +133,38 @@ std::string value_branches(const CLI::App& app, const std::string& command, cons
   return text;
 }
 
-/// Branch for a word that is not the value of an option. Completes options if the word begins with a dash,
-/// and commands and files otherwise.
-std::string word_branches(const CLI::App& app, const std::string& command) {
+/// Branch for a word that is not the value of an option. Completes options of `app` if the word begins with a
+/// dash, and `commands` and files otherwise.
+std::string word_branch(const CLI::App& app, const std::string& command, const std::string& commands) {
   std::vector<std::string> options;
   for (const CLI::Option* option : shown_options(app))
     for (const std::string& name : typed_names(*option)) options.push_back(name);
   std::string text = "    \"" + command + " \"*)\n      if [[ $current == -* ]]; then\n        " +
                      answer("-W \"" + joined(options, " ") + '"') + "\n      else\n";
-  const std::string commands = command_names(app);
   const std::string files = shown_positionals(app).empty() ? "" : "-f ";
   const std::string words = commands.empty() ? "" : "-W \"" + commands + "\" ";
   text += files.empty() && words.empty() ? "        :\n" : "        " + answer(files + words) + '\n';
   if (!files.empty()) text += "        compopt -o filenames 2>/dev/null\n";
   return text + "      fi\n      ;;\n";
+}
+
+/// True if the arguments of the command are the name of another command, as those of "help".
+bool explains_commands(const CLI::App& command) {
+  const auto positionals = shown_positionals(command);
+  return !positionals.empty() && kind_of_value(*positionals.front()) == WordKind::kCommand;
+}
+
+/// All branches for the words after a command; `app` is the program. None for a command that starts a
+/// program.
+std::string command_branches(const CLI::App& command, const CLI::App& app, const ProgramFacts& facts,
+                             const std::string& function) {
+  const std::string name = command.get_name();
+  if (facts.programs.count(name) > 0) return "";
+  if (explains_commands(command))
+    return "    \"" + name + ' ' + name + "\")\n      " + answer("-W \"" + command_names(app) + '"') +
+           "\n      ;;\n";
+  const CLI::App& options = name == facts.optional_command ? app : command;
+  return value_branches(options, name, function) + word_branch(options, name, "");
 }
 
 /// Shell function that completes SECTION.KEY=VALUE.
@@ -173,20 +192,18 @@ std::string setting_function(const OptionTable& settings, const std::string& fun
 
 }  // namespace
 
-std::string bash_completion(const CLI::App& app, const OptionTable* settings,
-                            const StartedPrograms& programs) {
+std::string bash_completion(const CLI::App& app, const ProgramFacts& facts) {
   const std::string function = '_' + replaced(app.get_name(), "-", "_");
   std::string script = "# bash completion for " + app.get_name() + ", generated from its command line\n\n";
-  if (settings != nullptr) script += setting_function(*settings, function);
-  if (!programs.empty()) script += kProgramFunction;
+  if (facts.settings) script += setting_function(*facts.settings, function);
+  if (!facts.programs.empty()) script += kProgramFunction;
   std::string begin = replaced(kBegin, "@COMMANDS@", command_names(app));
   begin = replaced(begin, "@TAKE_VALUES@", joined(names_with_values(app), " "));
-  script += replaced(begin, "@PROGRAMS@", program_branches(programs));
-  script += "  case \"$command $previous\" in\n" + value_branches(app, "", function);
+  script += replaced(begin, "@PROGRAMS@", program_branches(facts.programs));
+  script += "  case \"$command $previous\" in\n" + value_branches(app, "", function) +
+            word_branch(app, "", command_names(app));
   for (const CLI::App* command : shown_commands(app))
-    script += value_branches(*command, command->get_name(), function);
-  script += word_branches(app, "");
-  for (const CLI::App* command : shown_commands(app)) script += word_branches(*command, command->get_name());
+    script += command_branches(*command, app, facts, function);
   script += "  esac\n";
   return replaced(replaced(script + kEnd, "@FUNCTION@", function), "@PROGRAM@", app.get_name());
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_words.h"
 
+#include <algorithm>
+
 namespace psi_slam {
 
 WordKind kind_of_value(const CLI::Option& option) {
   if (option.nonpositional() && option.get_items_expected_max() == 0) return WordKind::kNothing;
+  if (!option.nonpositional() && option.get_name(true) == "COMMAND") return WordKind::kCommand;
   const std::string name = value_name(option);
   if (name == "DIR") return WordKind::kFolder;
   if (name.rfind("SECTION.KEY=VALUE", 0) == 0) return WordKind::kSetting;
@@ -14,8 +17,25 @@ WordKind kind_of_value(const CLI::Option& option) {
 
 std::string value_name(const CLI::Option& option) {
   if (option.nonpositional() && option.get_items_expected_max() == 0) return "";
-  const std::string name = option.get_type_name();
-  return name.substr(0, name.find(':'));
+  std::string name = option.get_type_name();
+  name.erase(std::min(name.find(':'), name.size()));
+  if (name == "INT" || name == "UINT") return "N";
+  return name == "FLOAT" ? "NUMBER" : name;
+}
+
+std::string option_text(const CLI::Option& option) {
+  std::string text = option.get_description();
+  std::string value = option.get_default_str();
+  // CLI11 writes a list of values in brackets, which the user does not type.
+  if (!value.empty() && value.front() == '[' && value.back() == ']')
+    value = value.substr(1, value.size() - 2);
+  if (!value.empty()) text += " (default " + value + ')';
+  if (option.nonpositional() && option.get_required()) text += " (required)";
+  return text;
+}
+
+bool takes_many(const CLI::Option& positional) {
+  return positional.get_items_expected_max() > 1;
 }
 
 std::vector<const CLI::Option*> shown_options(const CLI::App& app) {

@@ -10,13 +10,20 @@
 namespace psi_slam {
 
 /// Kind of an argument or of an option's value.
-enum class WordKind { kNothing, kFile, kFolder, kSetting, kOther };
+enum class WordKind { kNothing, kFile, kFolder, kSetting, kCommand, kOther };
 
 WordKind kind_of_value(const CLI::Option& option);
 
 /// Name of the option's value, such as "FILE" or "N", without CLI11's notes on accepted values. Empty for a
 /// flag.
 std::string value_name(const CLI::Option& option);
+
+/// Description of the option, with its default in parentheses, and with "(required)" after it if the option
+/// must be given.
+std::string option_text(const CLI::Option& option);
+
+/// True for an argument that may be repeated.
+bool takes_many(const CLI::Option& positional);
 
 /// Options and commands that are not hidden, and all positional arguments, in the order of their definition.
 std::vector<const CLI::Option*> shown_options(const CLI::App& app);

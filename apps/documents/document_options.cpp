@@ -9,6 +9,7 @@
 
 #include "command_words.h"
 #include "config/ini_file.h"
+#include "help_format.h"
 
 namespace psi_slam {
 namespace {
@@ -51,22 +52,29 @@ std::string in_a_line(const CLI::App& app) {
 }
 
 std::string synopsis(const CLI::App& app, const std::string& program) {
-  std::string line = roff_bold(program) + " [" + roff_italic("OPTION") + "]...";
+  std::string line = roff_bold(program);
+  if (!shown_options(app).empty()) line += " [" + roff_italic("OPTION") + "]...";
   for (const CLI::Option* positional : shown_positionals(app)) {
     const std::string name = roff_italic(positional->get_name(true));
     line += positional->get_required() ? ' ' + name : " [" + name + ']';
+    if (takes_many(*positional)) line += "...";
   }
   return line;
+}
+
+/// Synopsis of a command; `app` is the program.
+std::string command_synopsis(const CLI::App& command, const CLI::App& app, const ProgramFacts& facts) {
+  const std::string name = command.get_name();
+  const std::string words = app.get_name() + ' ' + name;
+  if (facts.programs.count(name) > 0) return roff_bold(words) + " [" + roff_italic("ARGUMENT") + "]...";
+  return synopsis(name == facts.optional_command ? app : command, words);
 }
 
 std::string option_item(const CLI::Option& option) {
   std::string tag;
   for (const std::string& name : typed_names(option)) tag += (tag.empty() ? "" : ", ") + roff_bold(name);
   if (const std::string value = value_name(option); !value.empty()) tag += ' ' + roff_italic(value);
-  std::string text = roff_text(option.get_description());
-  if (!option.get_default_str().empty()) text += " (default " + roff_text(option.get_default_str()) + ')';
-  if (option.get_required()) text += " (required)";
-  return roff_item(tag, text);
+  return roff_item(tag, roff_text(option_text(option)));
 }
 
 std::string option_items(const CLI::App& app) {
@@ -77,11 +85,19 @@ std::string option_items(const CLI::App& app) {
   return text;
 }
 
-std::string commands(const CLI::App& app) {
+/// What a command takes: its options, or where they are explained.
+std::string command_items(const CLI::App& command, const ProgramFacts& facts) {
+  if (command.get_name() == facts.optional_command) return ".PP\nTakes the options above.\n";
+  const auto program = facts.programs.find(command.get_name());
+  if (program == facts.programs.end()) return option_items(command);
+  return ".PP\nTakes the arguments of " + roff_bold(program->second) + "(1).\n";
+}
+
+std::string commands(const CLI::App& app, const ProgramFacts& facts) {
   std::string text;
   for (const CLI::App* command : shown_commands(app))
     text += ".SS \"" + roff_text(app.get_name() + ' ' + command->get_name()) + "\"\n" +
-            roff_text(command->get_description()) + '\n' + option_items(*command);
+            roff_text(command->get_description()) + '\n' + command_items(*command, facts);
   return text.empty() ? "" : roff_section("COMMANDS") + text;
 }
 
@@ -120,7 +136,7 @@ std::string roff_text(std::string_view text) {
   return roff;
 }
 
-std::string man_page(const CLI::App& app) {
+std::string man_page(const CLI::App& app, const ProgramFacts& facts) {
   const std::string name = app.get_name();
   std::string page = heading(name, 1, app.version());
   page += roff_section("NAME") + roff_text(name) + " \\- " + roff_text(in_a_line(app)) + '\n';
@@ -129,15 +145,13 @@ std::string man_page(const CLI::App& app) {
   if (!only_commands) page += synopsis(app, name) + '\n';
   for (const CLI::App* command : shown_commands(app))
     page += (page.compare(page.size() - 11, 11, "\"SYNOPSIS\"\n") == 0 ? "" : ".br\n") +
-            synopsis(*command, name + ' ' + command->get_name()) + '\n';
+            command_synopsis(*command, app, facts) + '\n';
   page += roff_section("DESCRIPTION") + roff_text(app.get_description()) + '\n';
   page += roff_section("OPTIONS") + option_items(app);
-  page += commands(app);
-  page += roff_section("EXIT STATUS") + roff_item("0", "Success.") +
-          roff_item("1",
-                    "Something failed, such as a full disk. Commands that give 1 another meaning say so in "
-                    "their description.") +
-          roff_item("2", "The arguments, the settings or the log are invalid.");
+  page += commands(app, facts);
+  page += roff_section("EXIT STATUS");
+  for (std::size_t code = 0; code < facts.exit_codes.size(); ++code)
+    page += roff_item(std::to_string(code), roff_text(facts.exit_codes[code]));
   page += footer(app);
   return page + roff_section("SEE ALSO") + see_also(name);
 }
@@ -165,8 +179,7 @@ std::string settings_man_page(const OptionTable& table, const std::string& versi
   return page + roff_section("SEE ALSO") + see_also("psi-slam.ini");
 }
 
-void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings,
-                          const StartedPrograms& programs) {
+void add_document_options(CLI::App& app, const ProgramFacts& facts) {
   const auto add_hidden = [&app](const std::string& name, const std::function<std::string()>& text) {
     // CLI11 appends a newline to the text of --version, so the last newline of the document is removed.
     const auto print = [text] {
@@ -176,12 +189,12 @@ void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> sett
     };
     app.add_flag_callback(name, print)->group("");
   };
-  add_hidden("--man-page", [&app] { return man_page(app); });
-  add_hidden("--bash-completion",
-             [&app, settings, programs] { return bash_completion(app, settings.get(), programs); });
-  if (settings)
+  add_hidden("--man-page", [&app, facts] { return man_page(app, facts); });
+  add_hidden("--bash-completion", [&app, facts] { return bash_completion(app, facts); });
+  if (facts.settings)
     add_hidden("--settings-man-page",
-               [&app, settings] { return settings_man_page(*settings, app.version()); });
+               [&app, settings = facts.settings] { return settings_man_page(*settings, app.version()); });
+  format_help(app);
 }
 
 }  // namespace psi_slam

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -19,25 +20,30 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, Member& member, 
   return app.add_option(names, member, help)->type_name(type);
 }
 
-/// Programs that commands of a program start, by the name of the command: "eval" starts "psi-slam-eval".
-using StartedPrograms = std::map<std::string, std::string>;
+/// What the documents of a program need beside the definition of its command line.
+struct ProgramFacts {
+  std::array<std::string, 3> exit_codes;  ///< sentences that say when the program ends with 0, 1 and 2
+  std::shared_ptr<const OptionTable> settings{};  ///< options that --set changes; null: none
+  std::string optional_command{};  ///< command that may be left out: it has the options of the program itself
+  /// Programs that commands start, by the name of the command: "eval" starts "psi-slam-eval".
+  std::map<std::string, std::string> programs{};
+};
 
-/// Adds the hidden options --man-page, --bash-completion and, if `settings` are given, --settings-man-page.
-/// Each prints its document and ends the program, as --version does. `app` must outlive the parsing.
-void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings = nullptr,
-                          const StartedPrograms& programs = {});
+/// Adds the hidden options --man-page, --bash-completion and, if there are settings, --settings-man-page.
+/// Each prints its document and ends the program, as --version does. Lets --help show options as the man page
+/// does. Call it after all commands are added. `app` must outlive the parsing.
+void add_document_options(CLI::App& app, const ProgramFacts& facts);
 
 /// Manual page of a program. The description of `app` may begin with the program's name and must go on with a
 /// verb, as in "psi-slam draws floor plans". The first clause of the description becomes the section NAME.
-std::string man_page(const CLI::App& app);
+std::string man_page(const CLI::App& app, const ProgramFacts& facts);
 
 /// Manual page psi-slam.ini(5) of the settings files. `version` names program and version, as --version does.
 std::string settings_man_page(const OptionTable& table, const std::string& version);
 
 /// Completion script for bash, and for zsh through its bashcompinit. Completes commands, options, files,
-/// folders, and the keys and values of `settings` after --set. `settings` may be null. After a command that
-/// starts another program, loads the script of that program from the same folder. The script needs bash 4.
-std::string bash_completion(const CLI::App& app, const OptionTable* settings,
-                            const StartedPrograms& programs = {});
+/// folders, and the keys and values of settings after --set. After a command that starts another program,
+/// loads the script of that program from the same folder. The script needs bash 4.
+std::string bash_completion(const CLI::App& app, const ProgramFacts& facts);
 
 }  // namespace psi_slam

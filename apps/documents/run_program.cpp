@@ -3,12 +3,17 @@
 
 #include <new>
 #include <ostream>
-#include <string>
 
 #include "base/instruction_set.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
+
+std::string parsed_words(const CLI::App& app) {
+  std::string words = app.get_name();
+  for (const CLI::App* command : app.get_subcommands()) words += ' ' + command->get_name();
+  return words;
+}
 
 int run_program(const CLI::App& app, std::ostream& out, std::ostream& err, const std::function<int()>& work,
                 const int& failed) noexcept {
@@ -25,7 +30,8 @@ int run_program(const CLI::App& app, std::ostream& out, std::ostream& err, const
     app.exit(asked, out, err);
     return kExitDone;
   } catch (const CLI::ParseError& error) {
-    return fail(std::string(error.what()) + " (see " + app.get_name() + " --help)", kExitWrongUsageOrInput);
+    return fail(std::string(error.what()) + " (see " + parsed_words(app) + " --help)",
+                kExitWrongUsageOrInput);
   } catch (const UserError& error) {
     return fail(error.what(), kExitWrongUsageOrInput);
   } catch (const std::bad_alloc&) {

@@ -83,7 +83,11 @@ void add_switches(CLI::App& app, GraphSlamCommandLine& line) {
                "Print all options of psi-slam's deciders and optimizer as a settings file and exit");
   app.set_version_flag("--version", "psi-graphslam " PSI_SLAM_VERSION, "Print the version and exit");
   app.footer(kExamples);
-  add_document_options(app);
+  add_document_options(
+      app, {{"Success. Ctrl-C ends the run with this code, too, and the results show the scans read so far.",
+             "Something failed, such as a full disk.",
+             "The arguments, the settings or the log are invalid. A log that breaks off is mapped up to the "
+             "break."}});
 }
 
 void check_inputs(const GraphSlamCommandLine& line) {

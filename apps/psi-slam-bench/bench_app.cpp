@@ -59,6 +59,11 @@ void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& 
   command.add_option("--seed", seed, purpose)->check(CLI::NonNegativeNumber)->capture_default_str();
 }
 
+/// Help for an option that chooses among the matchers of these names.
+std::string matchers_text(const std::vector<std::string>& names) {
+  return "Matchers to run, separated by commas: " + name_list(names) + ". Default: all";
+}
+
 void add_match_command(CLI::App& app, const Streams& streams) {
   const auto arguments = std::make_shared<Arguments<MatchBenchmarkOptions>>();
   MatchBenchmarkOptions& options = arguments->options;
@@ -309,7 +314,7 @@ void add_paper_command(CLI::App& app, const Streams& streams) {
   add_logs_option(command, *arguments);
   std::vector<std::string> names;
   for (const PaperCandidate& candidate : paper_candidates()) names.push_back(candidate.name);
-  command.add_option("--matchers", options.matchers, "Matchers to run, separated by commas; default: all")
+  command.add_option("--matchers", options.matchers, matchers_text(names))
       ->delimiter(',')
       ->check(CLI::IsMember(names))
       ->type_name("NAMES");
@@ -331,9 +336,10 @@ void add_psi_command(CLI::App& app, const Streams& streams) {
       *app.add_subcommand("psi", "Compare the matchers in whole runs, divided by the factor Psi");
   add_data_options(command, *arguments);
   add_logs_option(command, *arguments);
-  command.add_option("--matchers", options.matchers, "Matchers to run, separated by commas; default: all")
+  const std::vector<std::string> names = options.matchers;
+  command.add_option("--matchers", options.matchers, matchers_text(names))
       ->delimiter(',')
-      ->check(CLI::IsMember(PsiBenchmarkOptions().matchers))
+      ->check(CLI::IsMember(names))
       ->type_name("NAMES");
   add_seed_option(command, options.seed, "Seed of the genetic searches");
   run_on_logs(
@@ -432,7 +438,9 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_live_command(app, streams);
     app.require_subcommand(1);
     app.set_version_flag("--version", "psi-slam-bench " PSI_SLAM_VERSION, "Print the version and exit");
-    add_document_options(app);
+    add_document_options(app,
+                         {{"The benchmark is complete.", "Something failed, such as a run or a full disk.",
+                           "The arguments, the settings or a log are invalid or missing."}});
     app.parse(for_parser(arguments));
     return kExitDone;
   });

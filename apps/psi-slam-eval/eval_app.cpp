@@ -49,7 +49,8 @@ EvalOptions parse(const std::vector<std::string>& arguments, CLI::App& app) {
   app.add_flag("--force", options.force, "Replace an existing file of --per-relation");
   app.add_flag("--json", options.json, "Print the result as JSON");
   app.set_version_flag("--version", "psi-slam-eval " PSI_SLAM_VERSION, "Print the version and exit");
-  add_document_options(app);
+  add_document_options(app, {{"The errors were measured.", "Something failed, such as a full disk.",
+                              "The arguments, the trajectory or the relations are invalid."}});
   // CLI11 expects the last argument first.
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   return options;

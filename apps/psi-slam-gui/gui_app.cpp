@@ -52,7 +52,11 @@ Arguments parse(const std::vector<std::string>& arguments, CLI::App& app) {
             "FILE");
   add_settings_options(app, line.config, line.settings);
   app.set_version_flag("--version", "psi-slam-gui " PSI_SLAM_VERSION, "Print the version and exit");
-  add_document_options(app, default_settings());
+  add_document_options(
+      app,
+      {{"The window was closed.", "Something failed, such as opening the display.",
+        "The arguments, the settings or the edits are invalid. The window itself reports an invalid log."},
+       default_settings()});
   app.allow_extras();
   // CLI11 expects the last argument first.
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));

@@ -109,7 +109,9 @@ int run(CLI::App& app, const MpiProgram& program, int ranks, int argc, char** ar
   const std::function<int()> work = program.define(app, ranks, streams);
   app.set_version_flag("--version", program.name + " " PSI_SLAM_VERSION, "Print the version and exit");
   app.footer(program.examples);
-  add_document_options(app, program.settings);
+  add_document_options(app, {{"All runs are complete.", "A run failed, or the job was interrupted.",
+                              "The arguments, the settings or a log are invalid."},
+                             program.settings});
   app.parse(argc, argv);
   return ranks > 0 ? work() : kExitDone;
 }

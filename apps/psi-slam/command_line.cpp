@@ -16,11 +16,11 @@
 #include "mpi_option.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
+#include "run_program.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr const char* kSeeHelp = " (see psi-slam --help)";
 constexpr const char* kFolderHelp = "Folder for the results, new or empty";
 constexpr const char* kExamples =
     "\nExamples:\n"
@@ -38,8 +38,13 @@ constexpr const char* kExamples =
     "  psi-slam options range                   explain the options about a word\n"
     "  psi-slam gui my.log                      watch how the map is built\n";
 
-std::string unexpected_argument_text(const std::string& argument, const std::string& program) {
-  return "unexpected argument \"" + argument + "\" (see " + program + " --help)";
+/// Tells where options are explained; `words` are what starts the command, such as "psi-slam merge".
+std::string see_help(const std::string& words) {
+  return " (see " + words + " --help)";
+}
+
+std::string unexpected_argument_text(const std::string& argument, const std::string& words) {
+  return "unexpected argument \"" + argument + '"' + see_help(words);
 }
 
 bool is_option(const std::string& argument) {
@@ -143,12 +148,18 @@ CLI::App* add_options(CLI::App& app, CommandLine& line) {
   return options;
 }
 
-/// The commands that only stand for other arguments. They are listed, but must be the first word.
-std::vector<CLI::App*> add_first_words(CLI::App& app) {
-  std::vector<CLI::App*> words{app.add_subcommand("help", "Explain a command: psi-slam help COMMAND")};
+CLI::App* add_help(CLI::App& app, CommandLine& line) {
+  CLI::App* const help = app.add_subcommand("help", "Explain a command: psi-slam help COMMAND");
+  add_value(*help, "COMMAND", line.other_arguments, "Command to explain. Default: list all commands", "");
+  return help;
+}
+
+/// The commands that start other programs.
+std::vector<CLI::App*> add_other_programs(CLI::App& app) {
+  std::vector<CLI::App*> commands;
   for (const OtherProgram& other : other_programs())
-    words.push_back(app.add_subcommand(other.command, other.description));
-  return words;
+    commands.push_back(app.add_subcommand(other.command, other.description));
+  return commands;
 }
 
 std::vector<std::string> command_names(const CLI::App& app) {
@@ -160,33 +171,58 @@ std::vector<std::string> command_names(const CLI::App& app) {
 std::string unknown_command_text(const std::string& word, const std::vector<std::string>& names) {
   const auto near = nearest_name(word, names);
   return "there is no command \"" + word + '"' +
-         (near ? "; did you mean \"" + *near + "\"?" : std::string(kSeeHelp));
+         (near ? "; did you mean \"" + *near + "\"?" : see_help("psi-slam"));
 }
 
-/// Replaces "map" by nothing, and "help COMMAND" by "COMMAND --help". Throws UserError if "help" is not
-/// followed by one of the commands, or if "map" is.
-std::vector<std::string> in_long_form(std::vector<std::string> arguments,
-                                      const std::vector<std::string>& commands) {
-  if (arguments.empty() || (arguments[0] != "map" && arguments[0] != "help")) return arguments;
-  const bool asks = arguments[0] == "help";
+bool is_command(const std::string& word, const std::vector<std::string>& commands) {
+  return std::find(commands.begin(), commands.end(), word) != commands.end();
+}
+
+/// Removes the word "map" at the front. Throws UserError if one of the commands follows it.
+std::vector<std::string> without_map(std::vector<std::string> arguments,
+                                     const std::vector<std::string>& commands) {
   arguments.erase(arguments.begin());
-  const bool names_command =
-      !arguments.empty() && std::find(commands.begin(), commands.end(), arguments[0]) != commands.end();
-  if (!asks && names_command)
+  if (!arguments.empty() && is_command(arguments[0], commands))
     throw UserError("expected a log after map, not the command \"" + arguments[0] + "\". Write psi-slam " +
                     arguments[0] + ", or ./" + arguments[0] + " for a log of this name");
-  if (!asks) return arguments;
-  if (!arguments.empty() && !names_command) throw UserError(unknown_command_text(arguments[0], commands));
-  if (arguments.size() > 1) throw UserError(unexpected_argument_text(arguments[1], "psi-slam"));
-  if (names_command && (arguments[0] == "map" || arguments[0] == "help")) arguments.clear();
+  return arguments;
+}
+
+/// Replaces "help COMMAND", "-h COMMAND" and "--help COMMAND" by "COMMAND --help". Other programs get the
+/// words after the command, too: "help bench match" becomes "bench match --help". Throws UserError if "help"
+/// is followed by anything else.
+std::vector<std::string> in_long_form(std::vector<std::string> arguments,
+                                      const std::vector<std::string>& commands) {
+  if (!arguments.empty() && arguments[0] == "map") return without_map(std::move(arguments), commands);
+  const auto rest = std::find_if(arguments.begin(), arguments.end(), [](const std::string& word) {
+    return word != "help" && word != "-h" && word != "--help";
+  });
+  if (rest == arguments.begin()) return arguments;
+  const bool by_command = arguments[0] == "help";
+  arguments.erase(arguments.begin(), rest);
+  const bool names_command = !arguments.empty() && is_command(arguments[0], commands);
+  if (by_command && !arguments.empty() && !names_command)
+    throw UserError(unknown_command_text(arguments[0], commands));
+  const bool passes_on = names_command && other_program(arguments[0]) != nullptr;
+  if (by_command && arguments.size() > 1 && !passes_on)
+    throw UserError(unexpected_argument_text(arguments[1], "psi-slam"));
+  if (!passes_on) arguments.resize(names_command && arguments[0] != "map" ? 1 : 0);
   arguments.emplace_back("--help");
   return arguments;
 }
 
-StartedPrograms started_programs() {
-  StartedPrograms programs;
-  for (const OtherProgram& other : other_programs()) programs[other.command] = other.program;
-  return programs;
+/// What the man page and the completion of psi-slam need beside its options.
+ProgramFacts program_facts() {
+  ProgramFacts facts{
+      {"Success. Ctrl-C ends map and live with this code, too, and the results show the scans read so far.",
+       "Something failed, such as a full disk. Commands that give 1 another meaning say so in their "
+       "description.",
+       "The arguments, the settings or the log are invalid. A log that breaks off is mapped up to the break. "
+       "Failures of diff also give 2."},
+      default_settings(),
+      "map"};
+  for (const OtherProgram& other : other_programs()) facts.programs[other.command] = other.program;
+  return facts;
 }
 
 CLI::App* add_sweep(CLI::App& app, CommandLine& line) {
@@ -214,26 +250,26 @@ bool starts_other_program(const std::vector<std::string>& arguments, CommandLine
   return true;
 }
 
-/// Throws UserError for an argument that is neither the log nor a known option.
-[[noreturn]] void fail_unknown(const std::string& argument, const CommandLine& line, const CLI::App& app) {
-  const CLI::App* whole = &app;
-  while (whole->get_parent() != nullptr) whole = whole->get_parent();
-  const std::vector<std::string> names = command_names(*whole);
+/// Throws UserError for an argument that is neither the log nor an option of `parsed`, which is the program
+/// `app` or one of its commands.
+[[noreturn]] void fail_unknown(const std::string& argument, const CommandLine& line, const CLI::App& app,
+                               const CLI::App& parsed) {
+  const std::vector<std::string> names = command_names(app);
   if (nearest_name(line.log, names) && !is_option(argument))
     throw UserError(unknown_command_text(line.log, names));
-  throw UserError(unknown_argument_text(argument, app, "psi-slam"));
-}
-
-void require(bool given, const char* expected) {
-  if (!given) throw UserError(std::string(expected) + kSeeHelp);
+  throw UserError(unknown_argument_text(argument, parsed, parsed_words(app)));
 }
 
 void refuse(bool given, const char* why) {
   if (given) throw UserError(why);
 }
 
-void check_together(const CommandLine& line, const std::string& log_to_map) {
+/// Throws UserError if arguments are missing or contradict each other; `words` start the command.
+void check_together(const CommandLine& line, const std::string& log_to_map, const std::string& words) {
   using Command = CommandLine::Command;
+  const auto require = [&](bool given, const char* expected) {
+    if (!given) throw UserError(expected + see_help(words));
+  };
   const bool maps = line.command == Command::kMap;
   const bool is_live = line.command == Command::kLive;
   const bool merges = line.command == Command::kMerge;
@@ -265,7 +301,7 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
   refuse(!maps && !line.journal.empty(), "--journal is only for mapping a log");
   refuse(!maps && !merges && !is_live && !line.save_session.empty(),
          "--save-session is only for mapping and merging logs");
-  if (!maps && !log_to_map.empty()) throw UserError(unexpected_argument_text(log_to_map, "psi-slam"));
+  if (!maps && !log_to_map.empty()) throw UserError(unexpected_argument_text(log_to_map, words));
 }
 
 }  // namespace
@@ -316,7 +352,7 @@ std::string unknown_argument_text(const std::string& argument, const CLI::App& a
     for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
   const auto near = nearest_name(argument, options);
   return "there is no option \"" + argument + '"' +
-         (near ? "; did you mean \"" + *near + "\"?" : " (see " + program + " --help)");
+         (near ? "; did you mean \"" + *near + "\"?" : see_help(program));
 }
 
 CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& app) {
@@ -345,19 +381,21 @@ CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& 
   app.add_flag("-v,--verbose", line.verbose, "Also print the changed settings and the times of all stages");
   app.add_flag("--dump-config", dump_config, "Print a settings file with all options and exit");
   app.set_version_flag("--version", "psi-slam " PSI_SLAM_VERSION, "Print the version and exit");
+  // Commands that in_long_form() and starts_other_program() replace. They must be the first word.
   std::vector<CLI::App*> first_words{app.add_subcommand("map", "Map a log. The word map may be left out")};
   const std::vector<std::pair<CLI::App*, Command>> commands{
       {add_check(app, line), Command::kCheck}, {add_diff(app, line), Command::kDiff},
       {add_live(app, line), Command::kLive},   {add_localize(app, line), Command::kLocalize},
       {add_merge(app, line), Command::kMerge}, {add_options(app, line), Command::kOptions},
       {add_sweep(app, line), Command::kSweep}};
-  for (CLI::App* word : add_first_words(app)) first_words.push_back(word);
+  first_words.push_back(add_help(app, line));
+  for (CLI::App* command : add_other_programs(app)) first_words.push_back(command);
   app.require_subcommand(0, 1);
   app.allow_extras();
   for (const auto& [command, kind] : commands) command->allow_extras();
-  for (CLI::App* word : first_words) word->allow_extras();
+  for (CLI::App* word : first_words) word->allow_extras()->set_help_flag();
   app.footer(kExamples);
-  add_document_options(app, default_settings(), started_programs());
+  add_document_options(app, program_facts());
   const std::vector<std::string> arguments = in_long_form(given, command_names(app));
   if (starts_other_program(arguments, line)) return line;
   // CLI11 expects the last argument first.
@@ -372,9 +410,9 @@ CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& 
     if (command->parsed()) parsed = command, line.command = kind;
   if (line.command == Command::kMap) line.log = log_to_map;
   const std::vector<std::string> unknown = app.remaining(true);
-  if (!unknown.empty()) fail_unknown(unknown.front(), line, *parsed);
+  if (!unknown.empty()) fail_unknown(unknown.front(), line, app, *parsed);
   if (line.quiet && line.verbose) throw UserError("--quiet contradicts --verbose: give only one of them");
-  check_together(line, log_to_map);
+  check_together(line, log_to_map, parsed_words(app));
   return line;
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 using testing::AllOf;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 using Command = CommandLine::Command;
@@ -98,6 +99,18 @@ TEST(CommandLine, wrong_usage_gives_one_sentence) {
   EXPECT_THAT(complaint({"my.log", "-o", "out", "--seed"}), HasSubstr("--seed"));
 }
 
+TEST(CommandLine, errors_name_the_help_of_the_command) {
+  for (const char* command : {"check", "diff", "live", "localize", "merge", "sweep"}) {
+    const std::string help = std::string("(see psi-slam ") + command + " --help)\n";
+    EXPECT_THAT(complaint({command}), EndsWith(help));
+    EXPECT_THAT(complaint({command, "--foo"}), EndsWith(help));
+    EXPECT_THAT(complaint({command, "--set"}), EndsWith(help));
+  }
+  EXPECT_THAT(complaint({"options", "range", "x"}), EndsWith("(see psi-slam options --help)\n"));
+  EXPECT_THAT(complaint({"my.log", "-o"}), EndsWith("(see psi-slam --help)\n"));
+  EXPECT_THAT(complaint({"my.log", "--foo"}), EndsWith("(see psi-slam --help)\n"));
+}
+
 TEST(CommandLine, prints_version_and_help) {
   const AppRun version = run_app({"--version"});
   EXPECT_EQ(version.code, 0);
@@ -113,6 +126,23 @@ TEST(CommandLine, prints_version_and_help) {
   EXPECT_EQ(run_app({"help", "check"}).out, run_app({"check", "--help"}).out);
   EXPECT_THAT(run_app({"help", "check", "x"}).err, HasSubstr("unexpected argument \"x\""));
   EXPECT_EQ(help.err, "");
+}
+
+TEST(CommandLine, help_comes_before_or_after_the_command) {
+  const std::string whole = run_app({"--help"}).out;
+  const std::string check = run_app({"check", "--help"}).out;
+  for (const char* word : {"help", "-h", "--help"}) {
+    EXPECT_EQ(run_app({word}).out, whole);
+    EXPECT_EQ(run_app({word, "map"}).out, whole) << word;
+    EXPECT_EQ(run_app({word, "help"}).out, whole) << word;
+    EXPECT_EQ(run_app({word, "check"}).out, check) << word;
+    const CommandLine bench = parsed({word, "bench", "freiburg"});
+    EXPECT_STREQ(bench.other_program->program, "psi-slam-bench") << word;
+    EXPECT_THAT(bench.other_arguments, ElementsAre("freiburg", "--help")) << word;
+  }
+  EXPECT_EQ(run_app({"map", "--help"}).out, whole);
+  EXPECT_EQ(run_app({"--help", "my.log"}).out, whole);
+  EXPECT_EQ(run_app({"-h", "check", "my.log"}).out, check);
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 
 #include "command_words.h"
 #include "document_options.h"
+#include "help_format.h"
 
 namespace psi_slam {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -22,17 +24,25 @@ class Documents : public testing::Test {
     CLI::App* const pour = app_.add_subcommand("pour", "Pour it");
     pour->add_option("--into", text_, "Pot")->type_name("DIR");
     app_.add_subcommand("spill")->group("");
-    table_.section("tea", "Tea")
+    app_.add_subcommand("brew", "Make tea");
+    app_.add_subcommand("pot", "Run the teapot");
+    CLI::App* const help = app_.add_subcommand("help", "Explain a command");
+    help->add_option("COMMAND", texts_, "Command to explain")->type_name("");
+    for (const char* command : {"brew", "pot", "help"}) app_.get_subcommand(command)->set_help_flag();
+    table_->section("tea", "Tea")
         .flag("milk", milk_, "with milk")
         .choice("kind", kind_, {{"green", 0}, {"black", 1}}, "");
   }
 
   std::string text_;
+  std::vector<std::string> texts_;
   double minutes_ = 3;
+  std::vector<int> times_{1, 2};
   bool milk_ = false;
   int kind_ = 0;
   CLI::App app_{"tea makes tea - hot. Or not.", "tea"};
-  OptionTable table_;
+  std::shared_ptr<OptionTable> table_ = std::make_shared<OptionTable>();
+  ProgramFacts facts_{{"Drunk", "Spilt", "No tea"}, table_, "brew", {{"pot", "teapot"}}};
 };
 
 TEST(RoffText, escapes_special_characters) {
@@ -46,11 +56,11 @@ TEST_F(Documents, kinds_of_values_follow_from_their_names) {
   EXPECT_EQ(kind_of_value(*app_.get_option("CUP")), WordKind::kFile);
   EXPECT_EQ(kind_of_value(*app_.get_option("--minutes")), WordKind::kOther);
   EXPECT_EQ(kind_of_value(*app_.get_option("--version")), WordKind::kNothing);
-  EXPECT_EQ(value_name(*app_.get_option("--minutes")), "FLOAT") << "without CLI11's words on its range";
+  EXPECT_EQ(value_name(*app_.get_option("--minutes")), "NUMBER") << "without CLI11's words on its range";
 }
 
 TEST_F(Documents, the_page_has_the_name_all_options_and_the_default) {
-  const std::string page = man_page(app_);
+  const std::string page = man_page(app_, facts_);
   EXPECT_THAT(page, HasSubstr("tea \\- makes tea \\- hot\n"));
   EXPECT_THAT(page, HasSubstr("\\fBtea\\fR [\\fIOPTION\\fR]... \\fICUP\\fR\n"));
   EXPECT_THAT(page,
@@ -59,37 +69,61 @@ TEST_F(Documents, the_page_has_the_name_all_options_and_the_default) {
   EXPECT_THAT(page, HasSubstr(".SS \"tea pour\""));
   EXPECT_THAT(page, Not(HasSubstr("secret")));
   EXPECT_THAT(page, Not(HasSubstr("spill")));
+  EXPECT_THAT(page, HasSubstr(".SH \"EXIT STATUS\"\n.TP\n0\nDrunk\n.TP\n1\nSpilt\n.TP\n2\nNo tea\n"));
+}
+
+TEST_F(Documents, the_page_says_where_the_options_of_commands_are_explained) {
+  const std::string page = man_page(app_, facts_);
+  EXPECT_THAT(page, HasSubstr("\\fBtea brew\\fR [\\fIOPTION\\fR]... \\fICUP\\fR\n"));
+  EXPECT_THAT(page, HasSubstr("\\fBtea pot\\fR [\\fIARGUMENT\\fR]...\n"));
+  EXPECT_THAT(page, HasSubstr("\\fBtea help\\fR [\\fICOMMAND\\fR]...\n"));
+  EXPECT_THAT(page, HasSubstr("Make tea\n.PP\nTakes the options above.\n"));
+  EXPECT_THAT(page, HasSubstr("Run the teapot\n.PP\nTakes the arguments of \\fBteapot\\fR(1).\n"));
+}
+
+TEST_F(Documents, help_shows_values_without_notes_of_the_option_library) {
+  format_help(app_);
+  const std::string help = app_.help();
+  EXPECT_THAT(help, ContainsRegex("--minutes NUMBER +\\.3 to 5 \\(default 3\\)\n"));
+  EXPECT_THAT(help, ContainsRegex("  CUP +Where to\n"));
+  EXPECT_THAT(help, ContainsRegex("--leaves FILE +'Green'"));
+  app_.add_option("--times", times_, "How often")->check(CLI::Range(1, 9))->capture_default_str()->required();
+  EXPECT_THAT(app_.help(), ContainsRegex("--times N +How often \\(default 1,2\\) \\(required\\)\n"));
+  EXPECT_THAT(app_.get_subcommand("help")->help(),
+              ContainsRegex("  COMMAND \\.\\.\\. +Command to explain\n"));
 }
 
 TEST_F(Documents, the_settings_page_has_every_option) {
-  const std::string page = settings_man_page(table_, "tea 1.0");
+  const std::string page = settings_man_page(*table_, "tea 1.0");
   EXPECT_THAT(page, HasSubstr(".SH \"[tea]\"\nTea.\n"));
   EXPECT_THAT(page, HasSubstr("\\fBkind\\fR\n"));
   EXPECT_THAT(page, HasSubstr("one of green, black; default green"));
 }
 
 TEST_F(Documents, completion_knows_options_commands_and_values) {
-  const std::string script = bash_completion(app_, &table_);
+  const std::string script = bash_completion(app_, facts_);
   EXPECT_THAT(script, HasSubstr("tea.milk= tea.kind="));
   EXPECT_THAT(script, HasSubstr("tea.kind) values=\"green black\""));
-  EXPECT_THAT(script, HasSubstr("-W \"pour\""));
+  EXPECT_THAT(script, HasSubstr("-W \"pour brew pot help\""));
   EXPECT_THAT(script, HasSubstr("\"pour --into\")"));
   EXPECT_THAT(script, Not(HasSubstr("secret")));
-  EXPECT_THAT(bash_completion(app_, nullptr), Not(HasSubstr("_setting")));
-  EXPECT_THAT(bash_completion(app_, nullptr), Not(HasSubstr("_program")));
-  EXPECT_THAT(bash_completion(app_, nullptr, {{"pour", "teapot"}}),
-              HasSubstr("pour) _tea_program pour teapot; return ;;"));
+  EXPECT_THAT(script, HasSubstr("\"brew --leaves\")"));
+  EXPECT_THAT(script, HasSubstr("\"help help\")"));
+  EXPECT_THAT(script, HasSubstr("pot) _tea_program pot teapot; return ;;"));
+  const std::string alone = bash_completion(app_, ProgramFacts());
+  EXPECT_THAT(alone, Not(HasSubstr("_setting")));
+  EXPECT_THAT(alone, Not(HasSubstr("_program")));
 }
 
 TEST_F(Documents, hidden_options_work_without_required_arguments) {
-  add_document_options(app_);
+  add_document_options(app_, facts_);
   try {
     app_.parse("--man-page");
     FAIL() << "the parsing went on";
   } catch (const CLI::Success& asked) {
     std::ostringstream out;
     EXPECT_EQ(app_.exit(asked, out, out), 0);
-    EXPECT_EQ(out.str(), man_page(app_));
+    EXPECT_EQ(out.str(), man_page(app_, facts_));
   }
   EXPECT_THAT(app_.help(), Not(HasSubstr("man-page")));
 }

@@ -21,7 +21,13 @@ TEST(OtherPrograms, commands_run_the_programs_of_the_family) {
     EXPECT_THAT(run.out, HasSubstr(std::string(other.program) + ' '));
     const AppRun help = AppProcess({"help", other.command}, folder.path()).finish();
     EXPECT_THAT(help.out, HasSubstr(std::string(other.program)));
+    const AppRun option_first = AppProcess({"-h", other.command}, folder.path()).finish();
+    EXPECT_EQ(option_first.out, help.out);
   }
+  const AppRun freiburg = AppProcess({"help", "bench", "freiburg"}, folder.path()).finish();
+  EXPECT_EQ(freiburg.code, 0) << freiburg.err;
+  EXPECT_THAT(freiburg.out, HasSubstr("psi-slam-bench freiburg"));
+  EXPECT_THAT(freiburg.out, HasSubstr("--processes N "));
   const AppRun wrong = AppProcess({"eval", "x", "y", "z"}, folder.path()).finish();
   EXPECT_EQ(wrong.code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("psi-slam-eval: "));

@@ -97,7 +97,7 @@ CLI::App& add_freiburg_command(CLI::App& app, const Streams& streams, const Frei
                   "Matchers to run, of csm, csm_ga, ga, adaptive and adaptive_paper; default: all")
       ->delimiter(',')
       ->check(CLI::IsMember(freiburg_matchers()))
-      ->type_name("NAME,...");
+      ->type_name("NAMES");
   add_logs_option(freiburg, *arguments);
   freiburg.add_option("--threads", options.threads, "Number of threads of each run")
       ->check(CLI::Range(1, 1024))

@@ -9,10 +9,7 @@ set -euo pipefail
 source=$(cd "$1" && pwd)
 build=$(cd "$2" && pwd)
 shift 2
-for app in psi-slam psi-slam-eval psi-slam-bench psi-graphslam; do
-  PATH="$build/apps/$app:$PATH"
-done
-export PATH
+export PATH="$build/apps/psi-slam:$PATH"  # the line of the README; psi-slam finds the other programs
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
@@ -33,7 +30,7 @@ check_reasons() {
 write_logs() {
   mkdir -p "$scratch/logs/benchmark-logs"
   cd "$scratch/logs"
-  psi-slam-bench simulate --path-m 40 --people 0 --write-log benchmark-logs/intel.clf.gz >simulate.md
+  psi-slam bench simulate --path-m 40 --people 0 --write-log benchmark-logs/intel.clf.gz >simulate.md
   cp benchmark-logs/intel.clf.gz my.log
   cp my.log new.log  # a second run of the robot, for merge and localize
   cp benchmark-logs/intel.relations my.relations

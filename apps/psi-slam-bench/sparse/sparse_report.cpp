@@ -206,7 +206,7 @@ std::string markdown_of(const SparseBenchmark& benchmark, const SparseOptions& o
   text +=
       "## Measure it again\n\n"
       "<!-- not run with the other commands: all parts take minutes; tests/bench has its tests -->\n"
-      "```console\npsi-slam-bench sparse --data benchmark-logs -o out/sparse\n```\n\n"
+      "```console\npsi-slam bench sparse --data benchmark-logs -o out/sparse\n```\n\n"
       "writes this page, its pictures and its plots into `out/sparse`. Sparse logs are expected in "
       "`benchmark-logs/sparse`, with relations beside them.\n";
   if (!benchmark.identities.empty())

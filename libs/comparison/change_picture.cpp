@@ -102,7 +102,7 @@ class Picture {
                                                             {"vanished", kVanishedInk},
                                                             {"moved", kMovedInk},
                                                             {"in both maps", kWallInk},
-                                                            {"other map shows nothing", kWallOfOneInk}};
+                                                            {"other map shows too little", kWallOfOneInk}};
     for (const auto& [text, ink] : entries) {
       cv::rectangle(image_, {left, middle - unit_ / 2, unit_, unit_}, colour(ink), cv::FILLED);
       const double font_scale = unit_ / 18.0;

@@ -6,10 +6,9 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <optional>
-#include <set>
 #include <utility>
 
-#include "base/portable_math.h"
+#include "comparison/moved_walls.h"
 #include "frames/pose_operations.h"
 #include "matching/score_grid.h"
 #include "rendering/map_image.h"
@@ -21,11 +20,10 @@ using Grid = mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 using Kind = WallChange::Kind;
-using Cells = std::vector<cv::Point>;
 
-constexpr int kBridgedCells = 2;        // changed cells this far apart belong to one change
-constexpr double kLeastFilled = 0.5;    // share of the length of a change that has cells; others are dotted
-constexpr double kLeastParallel = 0.6;  // share of a moved wall's cells that have moved by the same distance
+// Share of the cells around a changed wall that the other map must show as free. More than half, so that free
+// space on one side of a wall is no evidence; less than one, because maps have unseen specks.
+constexpr double kLeastClear = 0.9;
 
 /// The value of an expression of masks, such as `a & b`.
 cv::Mat1b mask(const cv::Mat& expression) {
@@ -120,31 +118,6 @@ Layer layer_of(const Grid& map, const TPose2D& a_T_map, const ComparedCells& lay
   return layer;
 }
 
-/// The cells of a mask that are nearest to each cell, with their distances in cells.
-class NearestCells {
- public:
-  explicit NearestCells(const cv::Mat1b& cells) {
-    cv::distanceTransform(~cells, distance_, labels_, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
-    for (int y = 0; y < cells.rows; ++y) {
-      for (int x = 0; x < cells.cols; ++x) {
-        if (cells(y, x) == 0) continue;
-        const auto label = static_cast<std::size_t>(labels_(y, x));
-        if (cells_.size() <= label) cells_.resize(label + 1);
-        cells_[label] = {x, y};
-      }
-    }
-  }
-
-  bool empty() const { return cells_.empty(); }
-  double distance(const cv::Point& cell) const { return static_cast<double>(distance_(cell)); }
-  cv::Point nearest(const cv::Point& cell) const { return cells_[static_cast<std::size_t>(labels_(cell))]; }
-
- private:
-  cv::Mat1f distance_;
-  cv::Mat1i labels_;
-  Cells cells_;
-};
-
 /// Returns the cells of `walls` without a wall of `others` within the tolerance.
 cv::Mat1b without_counterpart(const cv::Mat1b& walls, const cv::Mat1b& others, double tolerance_cells) {
   cv::Mat1f distance;
@@ -152,120 +125,36 @@ cv::Mat1b without_counterpart(const cv::Mat1b& walls, const cv::Mat1b& others, d
   return mask(walls & (distance > tolerance_cells));
 }
 
-/// A connected set of changed cells and its extent.
-struct Change {
-  Cells cells;
-  double filled_cells = 0;  ///< length of the parts that have cells, along the main direction
-  cv::Point2d from;         ///< ends along the main direction, in cells
-  cv::Point2d to;
-
-  double length_cells() const { return portable::hypot(to.x - from.x, to.y - from.y) + 1; }
-};
-
-Change change_of(Cells cells) {
-  cv::Point2d mean(0, 0);
-  for (const cv::Point& cell : cells) mean += cv::Point2d(cell);
-  mean /= static_cast<double>(cells.size());
-  double xx = 0;
-  double xy = 0;
-  double yy = 0;
-  for (const cv::Point& cell : cells) {
-    const cv::Point2d offset = cv::Point2d(cell) - mean;
-    xx += offset.x * offset.x;
-    xy += offset.x * offset.y;
-    yy += offset.y * offset.y;
-  }
-  const double direction_rad = 0.5 * portable::atan2(2 * xy, xx - yy);
-  const cv::Point2d direction(portable::cos(direction_rad), portable::sin(direction_rad));
-  double least = 0;
-  double most = 0;
-  std::set<int> filled;
-  for (const cv::Point& cell : cells) {
-    const double along = direction.dot(cv::Point2d(cell) - mean);
-    least = std::min(least, along);
-    most = std::max(most, along);
-    filled.insert(static_cast<int>(std::floor(along)));
-  }
-  return {std::move(cells), static_cast<double>(filled.size()), mean + least * direction,
-          mean + most * direction};
+/// Returns the free cells with free space around them: at least kLeastClear of the cells in the square that
+/// reaches as far as the tolerance, and at least to the neighbours.
+cv::Mat1b clear_cells(const cv::Mat1b& free, double tolerance_cells) {
+  const int reach = std::clamp(floor_to_int(tolerance_cells), 1, std::max(free.cols, free.rows));
+  const int side = 2 * reach + 1;
+  cv::Mat1i count;
+  cv::boxFilter(free & 1, count, CV_32S, {side, side}, {-1, -1}, false, cv::BORDER_CONSTANT);
+  return mask(free & (count >= kLeastClear * side * side));
 }
 
-/// Returns the connected changes of a mask that are long and dense enough.
-std::vector<Change> changes_in(const cv::Mat1b& changed, double min_length_cells) {
-  cv::Mat1b bridged;
-  const int side = 1 + kBridgedCells;
-  cv::dilate(changed, bridged, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
-  cv::Mat1i labels;
-  const int count = cv::connectedComponents(bridged, labels, 8, CV_32S);
-  std::vector<Cells> parts(static_cast<std::size_t>(count));
-  for (int y = 0; y < changed.rows; ++y)
-    for (int x = 0; x < changed.cols; ++x)
-      if (changed(y, x) != 0) parts[static_cast<std::size_t>(labels(y, x))].emplace_back(x, y);
-  std::vector<Change> changes;
-  for (Cells& part : parts) {
-    if (part.empty()) continue;
-    Change change = change_of(std::move(part));
-    const double length = change.length_cells();
-    if (length >= min_length_cells && change.filled_cells >= kLeastFilled * length)
-      changes.push_back(std::move(change));
-  }
-  return changes;
+std::vector<ChangedWall> walls_in(const cv::Mat1b& cells, double min_length_cells) {
+  WallCells found;
+  cv::findNonZero(cells, found);
+  return connected_walls(found, min_length_cells);
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// Returns the shift, in cells, from a change to parallel walls beside it. Empty without such walls.
-std::optional<cv::Point2d> shift_to(const NearestCells& walls, const Change& change, double farthest_cells,
-                                    double tolerance_cells) {
-  if (walls.empty()) return std::nullopt;
-  std::vector<double> distances;
-  std::vector<double> dx;
-  std::vector<double> dy;
-  for (const cv::Point& cell : change.cells) {
-    const double distance = walls.distance(cell);
-    if (distance > farthest_cells) continue;
-    const cv::Point step = walls.nearest(cell) - cell;
-    distances.push_back(distance);
-    dx.push_back(step.x);
-    dy.push_back(step.y);
-  }
-  if (distances.empty()) return std::nullopt;
-  const double usual = median(distances);
-  const auto parallel = std::count_if(distances.begin(), distances.end(), [&](double distance) {
-    return std::abs(distance - usual) <= tolerance_cells;
-  });
-  if (static_cast<double>(parallel) < kLeastParallel * static_cast<double>(change.cells.size()))
-    return std::nullopt;
-  return cv::Point2d(median(std::move(dx)), median(std::move(dy)));
-}
-
-cv::Mat1b mask_of(const std::vector<Change>& changes, const cv::Size& size) {
+cv::Mat1b mask_of(const std::vector<ChangedWall>& walls, const cv::Size& size) {
   cv::Mat1b cells = empty_mask(size.height, size.width);
-  for (const Change& change : changes)
-    for (const cv::Point& cell : change.cells) cells(cell) = 255;
+  for (const ChangedWall& wall : walls)
+    for (const cv::Point& cell : wall.cells) cells(cell) = 255;
   return cells;
 }
 
-/// Paints the cells of a change, moved by `shift` cells, into `cells`.
-void paint_shifted(const Change& change, const cv::Point2d& shift, cv::Mat1b& cells) {
-  const cv::Rect area(0, 0, cells.cols, cells.rows);
-  for (const cv::Point& cell : change.cells) {
-    const cv::Point place = cell + cv::Point(cvRound(shift.x), cvRound(shift.y));
-    if (area.contains(place)) cells(place) = 255;
-  }
-}
-
-WallChange in_metres(const Change& change, Kind kind, const cv::Point2d& shift_cells,
+WallChange in_metres(const ChangedWall& wall, Kind kind, const cv::Point2d& shift_cells,
                      const ComparedCells& layout) {
   WallChange result;
   result.kind = kind;
-  result.from = centre_of(layout, change.from.x, change.from.y);
-  result.to = centre_of(layout, change.to.x, change.to.y);
-  result.length_m = change.length_cells() * layout.cell_m;
+  result.from = centre_of(layout, wall.from.x, wall.from.y);
+  result.to = centre_of(layout, wall.to.x, wall.to.y);
+  result.length_m = wall.length() * layout.cell_m;
   result.shift = TPoint2D(shift_cells.x, shift_cells.y) * layout.cell_m;
   return result;
 }
@@ -275,13 +164,14 @@ class Classification {
  public:
   Classification(const Layer& a, const Layer& b, const WallChangeOptions& options, ComparedCells& cells)
       : cells_(cells),
-        tolerance_(options.tolerance_m / cells.cell_m),
-        farthest_(options.farthest_move_m / cells.cell_m),
-        min_length_(options.min_length_m / cells.cell_m),
-        only_a_(without_counterpart(a.wall, b.wall, tolerance_)),
-        only_b_(without_counterpart(b.wall, a.wall, tolerance_)),
-        gone_(changes_in(mask(only_a_ & b.free), min_length_)),
-        new_(changes_in(mask(only_b_ & a.free), min_length_)) {
+        limits_{options.farthest_move_m / cells.cell_m, options.tolerance_m / cells.cell_m,
+                options.min_length_m / cells.cell_m},
+        only_a_(without_counterpart(a.wall, b.wall, limits_.tolerance)),
+        only_b_(without_counterpart(b.wall, a.wall, limits_.tolerance)),
+        changed_a_(mask(only_a_ & clear_cells(b.free, limits_.tolerance))),
+        changed_b_(mask(only_b_ & clear_cells(a.free, limits_.tolerance))),
+        gone_(walls_in(changed_a_, limits_.min_length)),
+        new_(walls_in(changed_b_, limits_.min_length)) {
     paint_background(a, b);
     classify();
   }
@@ -295,14 +185,12 @@ class Classification {
   }
 
   void paint_background(const Layer& a, const Layer& b) {
-    const cv::Mat1b seen_a = a.seen();
-    const cv::Mat1b seen_b = b.seen();
+    const cv::Mat1b unclear = mask((only_a_ & ~changed_a_) | (only_b_ & ~changed_b_));
     cells_.cells.assign(static_cast<std::size_t>(cells_.width) * static_cast<std::size_t>(cells_.height),
                         ComparedCell::kUnknown);
     for (int y = 0; y < cells_.height; ++y) {
       for (int x = 0; x < cells_.width; ++x) {
-        const bool unseen_by_one = seen_a(y, x) == 0 || seen_b(y, x) == 0;
-        if (unseen_by_one && (only_a_(y, x) != 0 || only_b_(y, x) != 0))
+        if (unclear(y, x) != 0)
           paint({x, y}, ComparedCell::kWallOfOne);
         else if (a.wall(y, x) != 0 || b.wall(y, x) != 0)
           paint({x, y}, ComparedCell::kWall);
@@ -312,44 +200,43 @@ class Classification {
     }
   }
 
-  void add(const Change& change, Kind kind, const cv::Point2d& shift = {0, 0}) {
-    found_.push_back(in_metres(change, kind, shift, cells_));
+  void add(const ChangedWall& wall, Kind kind, const cv::Point2d& shift = {0, 0}) {
+    found_.push_back(in_metres(wall, kind, shift, cells_));
   }
 
   void classify() {
-    const NearestCells walls_of_b(only_b_);
-    cv::Mat1b moved = empty_mask(cells_.height, cells_.width);  // moved walls at their new places
-    for (const Change& change : gone_) {
-      const auto shift = shift_to(walls_of_b, change, farthest_, tolerance_);
-      if (shift) paint_shifted(change, *shift, moved);
-      add(change, shift ? Kind::kMoved : Kind::kVanished, shift.value_or(cv::Point2d(0, 0)));
-      for (const cv::Point& cell : change.cells) paint(cell, ComparedCell::kVanished);
+    // The other place of a moved wall may lie where one map shows too little: nobody sees behind a wall.
+    const cv::Mat1b hidden_a = mask(only_a_ & ~mask_of(gone_, only_a_.size()));
+    const cv::Mat1b hidden_b = mask(only_b_ & ~mask_of(new_, only_b_.size()));
+    for (const ChangedWall& wall : gone_)
+      for (const cv::Point& cell : wall.cells) paint(cell, ComparedCell::kVanished);
+    for (const ChangedWall& wall : new_)
+      for (const cv::Point& cell : wall.cells) paint(cell, ComparedCell::kAppeared);
+    for (const MovedWall& moved : take_moved_walls(gone_, new_, limits_))
+      add(moved.wall, Kind::kMoved, moved.shift);
+    for (const ChangedWall& wall : gone_) {
+      const auto shift = shift_to_parallel(wall, hidden_b, limits_);
+      add(wall, shift ? Kind::kMoved : Kind::kVanished, shift.value_or(cv::Point2d(0, 0)));
     }
-    const NearestCells hidden_walls(mask(only_a_ & ~mask_of(gone_, only_a_.size())));
-    for (const Change& change : new_)
-      for (const cv::Point& cell : change.cells) paint(cell, ComparedCell::kAppeared);
-    const cv::Mat1b unclaimed = without_counterpart(mask_of(new_, only_b_.size()), moved, tolerance_);
-    for (const Change& change : changes_in(unclaimed, min_length_)) {
-      // The old place of the wall may lie behind its new place, where map B shows nothing.
-      if (const auto back = shift_to(hidden_walls, change, farthest_, tolerance_)) {
-        Change before = change;
-        before.from += *back;
-        before.to += *back;
-        add(before, Kind::kMoved, -*back);
+    for (ChangedWall& wall : new_) {
+      if (const auto back = shift_to_parallel(wall, hidden_a, limits_)) {
+        wall.from += *back;
+        wall.to += *back;
+        add(wall, Kind::kMoved, -*back);
       } else {
-        add(change, Kind::kAppeared);
+        add(wall, Kind::kAppeared);
       }
     }
   }
 
   ComparedCells& cells_;
-  double tolerance_;
-  double farthest_;
-  double min_length_;
+  WallMoveLimits limits_;
   cv::Mat1b only_a_;  ///< walls of A that are no walls of B
   cv::Mat1b only_b_;
-  std::vector<Change> gone_;  ///< walls of A where B shows free space
-  std::vector<Change> new_;   ///< walls of B where A shows free space
+  cv::Mat1b changed_a_;  ///< walls of A in clear free space of B
+  cv::Mat1b changed_b_;
+  std::vector<ChangedWall> gone_;  ///< of changed_a_; after classify() without those that moved
+  std::vector<ChangedWall> new_;   ///< of changed_b_
   std::vector<WallChange> found_;
 };
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Walls that differ between two aligned maps of a building.
 //
-// A wall of one map has changed if the other map shows free space there and no wall within the tolerance.
-// Space that one map does not show is no change. Changed cells that touch form one change; short and sparse
-// ones are noise. A change has moved if a parallel wall that only the other map has lies beside it.
+// A cell of a wall has changed if the other map shows free space there and on both sides: no wall within the
+// tolerance, and at least 90 % free cells in the square that reaches as far as the tolerance. Space that one
+// map does not show is no change, and neither is a streak of free cells that a single beam left, nor free
+// space in front of a wall of which nothing behind was seen. Changed cells that touch form one change; short
+// and sparse ones are noise. A change has moved if a parallel wall that only the other map has lies beside it
+// (moved_walls.h).
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -44,7 +47,7 @@ enum class ComparedCell : std::uint8_t {
   kUnknown,    ///< neither map shows the cell
   kFree,       ///< free in at least one map, and without a wall
   kWall,       ///< wall in both maps, or too little to count as a change
-  kWallOfOne,  ///< wall of one map where the other shows nothing
+  kWallOfOne,  ///< wall of one map where the other shows too little free space around it
   kAppeared,   ///< part of a wall that appeared, or new place of a wall that moved
   kVanished,   ///< part of a wall that vanished, or old place of a wall that moved
 };

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "comparison/map_alignment.h"
 #include "drawn_plan.h"
@@ -150,6 +151,68 @@ TEST(WallChanges, space_that_one_map_does_not_show_is_no_change) {
   EXPECT_TRUE(changes(part, with_wall({{1, 3}, {3, 3}})).empty());
   const WallChanges found = find_wall_changes(map_of({}), map_of(part), {0, 0, 0});
   EXPECT_NEAR(found.compared_m2, 8 * 8, 1.5);
+}
+
+/// Returns the map with unknown space wherever `is_unknown` says so. Coordinates in metres.
+mrpt::maps::COccupancyGridMap2D without(mrpt::maps::COccupancyGridMap2D map,
+                                        bool (*is_unknown)(double x_m, double y_m)) {
+  for (unsigned row = 0; row < map.getSizeY(); ++row)
+    for (unsigned column = 0; column < map.getSizeX(); ++column)
+      if (is_unknown(static_cast<double>(map.idx2x(column)), static_cast<double>(map.idx2y(row))))
+        map.setCell(static_cast<int>(column), static_cast<int>(row), 0.5F);
+  return map;
+}
+
+TEST(WallChanges, free_space_counts_only_with_free_space_on_both_sides) {
+  const auto with = map_of(with_wall({{1, 3}, {4, 3}}));
+  const auto is_change = [&](bool (*is_unknown)(double, double)) {
+    const auto other = without(map_of({}), is_unknown);
+    const bool vanished = !find_wall_changes(with, other, {0, 0, 0}).changes.empty();
+    const bool appeared = !find_wall_changes(other, with, {0, 0, 0}).changes.empty();
+    EXPECT_EQ(vanished, appeared);
+    return vanished;
+  };
+  EXPECT_FALSE(is_change([](double, double y) { return std::abs(y - 3) > 0.03; })) << "a single beam";
+  EXPECT_FALSE(is_change([](double, double y) { return y > 3.06; })) << "only the near side of a grazed wall";
+  EXPECT_FALSE(is_change([](double x, double) { return std::fmod(x, 0.2) > 0.11; })) << "a fan of beams";
+  EXPECT_TRUE(is_change([](double, double y) { return y > 3.3; }));
+  EXPECT_TRUE(is_change([](double x, double y) {
+    return std::fmod(x, 0.4) < 0.05 && std::fmod(y, 0.4) < 0.05;
+  })) << "specks";
+}
+
+TEST(WallChanges, exchanging_the_maps_exchanges_the_changes) {
+  const DrawnPlan a = hall_with({{{2, 2}, {5, 2}}, {{8, 2}, {8, 5}}, {{2, 6}, {2.4, 6}}, {{10, 6}, {12, 6}}});
+  const DrawnPlan b =
+      hall_with({{{2, 2.4}, {5.5, 2.4}}, {{8.4, 2}, {8.4, 4}}, {{3, 5.7}, {3, 6.3}}, {{11, 3}, {12, 3}}});
+  const auto there = changes(a, b);
+  const auto back = changes(b, a);
+  const auto of_kind = [](const std::vector<WallChange>& found, Kind kind) {
+    return std::count_if(found.begin(), found.end(),
+                         [&](const WallChange& change) { return change.kind == kind; });
+  };
+  EXPECT_EQ(of_kind(there, Kind::kMoved), 2);
+  EXPECT_EQ(of_kind(there, Kind::kVanished), 3) << "two walls, and 1 m of a moved wall";
+  EXPECT_EQ(of_kind(there, Kind::kAppeared), 3) << "two walls, and 0.5 m of a moved wall";
+  EXPECT_EQ(of_kind(back, Kind::kMoved), 2);
+  EXPECT_EQ(of_kind(back, Kind::kVanished), 3);
+  EXPECT_EQ(of_kind(back, Kind::kAppeared), 3);
+}
+
+TEST(WallChanges, a_perpendicular_new_wall_near_a_vanished_one_has_appeared) {
+  const auto found = changes(hall_with({{{3, 4}, {3.4, 4}}}), hall_with({{{4, 3.7}, {4, 4.3}}}));
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].kind, Kind::kAppeared);
+  EXPECT_NEAR(found[0].length_m, 0.6, 0.1);
+  EXPECT_EQ(found[1].kind, Kind::kVanished);
+  EXPECT_NEAR(found[1].length_m, 0.4, 0.1);
+}
+
+TEST(WallChanges, an_opened_door_has_changed) {
+  DrawnPlan closed;
+  closed.walls.push_back({{5, 3}, {5, 4}});
+  EXPECT_EQ(only_change(closed, {}).kind, Kind::kVanished);
+  EXPECT_EQ(only_change({}, closed).kind, Kind::kAppeared);
 }
 
 TEST(WallChanges, shifts_within_the_tolerance_and_specks_are_noise) {

@@ -13,6 +13,7 @@
 #include "comparison/change_report.h"
 #include "localization/reference_map.h"
 #include "psi_slam/user_error.h"
+#include "session/session_file.h"
 
 namespace psi_slam {
 namespace {
@@ -22,9 +23,17 @@ using Grid = mrpt::maps::COccupancyGridMap2D;
 constexpr double kToleranceCells = 3;  // the least tolerance, in cells of the coarser map
 constexpr double kSigmas = 2;  // the tolerance grows by this many standard deviations of the alignment
 
-/// Returns the map file that `path` names: a file, or the map in a results folder.
+/// Returns the map file that `path` names: a file, or the map in a results folder. Throws UserError if the
+/// path does not exist, or names a session or a folder without a map.
 std::filesystem::path map_file(const std::filesystem::path& path) {
   std::error_code ignored;
+  if (std::filesystem::status(path, ignored).type() == std::filesystem::file_type::not_found)
+    throw UserError(path.string() +
+                    " does not exist, expected the results folder of a run, map.yaml or map.gridmap.gz. "
+                    "Check the path");
+  if (is_session_file(path))
+    throw UserError(path.string() + " is a session, expected a map. Map it with psi-slam --resume " +
+                    path.string() + " -o DIR, and name DIR");
   if (!std::filesystem::is_directory(path, ignored)) return path;
   for (const char* name : {"map.yaml", "map.gridmap.gz"})
     if (std::filesystem::exists(path / name, ignored)) return path / name;

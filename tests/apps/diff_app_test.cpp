@@ -82,7 +82,18 @@ TEST_F(DiffApp, mistakes_give_exit_code_2_and_one_sentence) {
     return run.err;
   };
   EXPECT_THAT(complaint(run_app({"diff", path("a").string()})), HasSubstr("name two maps"));
-  EXPECT_THAT(complaint(diff("a", "none.yaml")), HasSubstr("none.yaml"));
+  for (const std::string none : {"none.yaml", "none/"})
+    EXPECT_THAT(complaint(diff("a", none)),
+                HasSubstr(none + " does not exist, expected the results folder of a run, map.yaml or"));
+  const std::string session = path("room.session").string();
+  ASSERT_EQ(
+      run_app({path("room.log").string(), "-q", "--save-session", session, "-o", path("c").string()}).code,
+      0);
+  EXPECT_THAT(
+      complaint(diff("room.session", "b")),
+      HasSubstr("is a session, expected a map. Map it with psi-slam --resume " + session + " -o DIR"));
+  EXPECT_THAT(complaint(diff("a", "room.log")),
+              HasSubstr("is not a map: expected map.yaml or map.gridmap.gz"));
   std::filesystem::create_directories(path("empty"));
   EXPECT_THAT(complaint(diff("empty", "b")), HasSubstr("the folder has no map"));
   EXPECT_THAT(complaint(diff("a", "b", {"--tolerance-m", "-1"})), HasSubstr("expected a length in metres"));

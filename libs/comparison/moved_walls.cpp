@@ -114,9 +114,9 @@ bool are_near(const cv::Rect& box, const cv::Rect& other, double farthest) {
              .area() > 0;
 }
 
-/// A wall that is gone and a new wall that may be the same wall.
+/// A vanished wall and an appeared wall that may be the same wall.
 struct Pair {
-  std::size_t gone = 0;
+  std::size_t vanished = 0;
   std::size_t appeared = 0;
   cv::Point2d direction;  ///< of both walls together
   SideBySide beside;
@@ -131,16 +131,16 @@ struct Pair {
   }
 };
 
-std::optional<Pair> pair_of(const std::vector<ChangedWall>& gone, std::size_t i,
+std::optional<Pair> pair_of(const std::vector<ChangedWall>& vanished, std::size_t i,
                             const std::vector<ChangedWall>& appeared, std::size_t j,
                             const WallMoveLimits& limits) {
-  const ChangedWall& old_wall = gone[i];
+  const ChangedWall& old_wall = vanished[i];
   const ChangedWall& new_wall = appeared[j];
   if (!are_near(old_wall.box, new_wall.box, limits.farthest) ||
       std::abs(old_wall.direction.dot(new_wall.direction)) < kLeastCosine)
     return std::nullopt;
   Pair pair;
-  pair.gone = i;
+  pair.vanished = i;
   pair.appeared = j;
   pair.direction = main_direction(old_wall.scatter + new_wall.scatter);
   const Profile old_profile = profile_of(old_wall.cells, pair.direction);
@@ -207,26 +207,27 @@ std::vector<ChangedWall> connected_walls(const WallCells& cells, double min_leng
   return walls;
 }
 
-std::vector<MovedWall> take_moved_walls(std::vector<ChangedWall>& gone, std::vector<ChangedWall>& appeared,
-                                        const WallMoveLimits& limits) {
+std::vector<MovedWall> take_moved_walls(std::vector<ChangedWall>& vanished,
+                                        std::vector<ChangedWall>& appeared, const WallMoveLimits& limits) {
   std::vector<MovedWall> moved;
   while (true) {
     std::vector<Pair> pairs;
-    for (std::size_t i = 0; i < gone.size(); ++i)
+    for (std::size_t i = 0; i < vanished.size(); ++i)
       for (std::size_t j = 0; j < appeared.size(); ++j)
-        if (std::optional<Pair> pair = pair_of(gone, i, appeared, j, limits))
+        if (std::optional<Pair> pair = pair_of(vanished, i, appeared, j, limits))
           pairs.push_back(*std::move(pair));
     if (pairs.empty()) return moved;
     std::stable_sort(pairs.begin(), pairs.end());
-    std::map<std::size_t, SplitWall> split_gone;
+    std::map<std::size_t, SplitWall> split_vanished;
     std::map<std::size_t, SplitWall> split_appeared;
     for (const Pair& pair : pairs) {
-      if (split_gone.count(pair.gone) > 0 || split_appeared.count(pair.appeared) > 0) continue;
-      SplitWall& old_wall = split_gone[pair.gone] = split(gone[pair.gone], pair, limits.min_length);
+      if (split_vanished.count(pair.vanished) > 0 || split_appeared.count(pair.appeared) > 0) continue;
+      SplitWall& old_wall = split_vanished[pair.vanished] =
+          split(vanished[pair.vanished], pair, limits.min_length);
       split_appeared[pair.appeared] = split(appeared[pair.appeared], pair, limits.min_length);
       moved.push_back({wall_of(std::move(old_wall.moved)), across(pair.direction, pair.beside.distance)});
     }
-    replace_by_rest(gone, split_gone);
+    replace_by_rest(vanished, split_vanished);
     replace_by_rest(appeared, split_appeared);
   }
 }

@@ -36,15 +36,15 @@ struct MovedWall {
   cv::Point2d shift;  ///< to its new place, perpendicular to the wall
 };
 
-/// Takes the walls that moved out of those that are gone and those that are new. Each new place is parallel
+/// Takes the walls that moved out of those that vanished and those that appeared. Each new place is parallel
 /// to the old place, beside it, at most twice and at least half as long. The nearest pairs come first. What
 /// the longer wall of a pair has beyond the shorter one stays in its list. Exchanging both lists inverts the
 /// shifts.
-std::vector<MovedWall> take_moved_walls(std::vector<ChangedWall>& gone, std::vector<ChangedWall>& appeared,
-                                        const WallMoveLimits& limits);
+std::vector<MovedWall> take_moved_walls(std::vector<ChangedWall>& vanished,
+                                        std::vector<ChangedWall>& appeared, const WallMoveLimits& limits);
 
 /// Returns the shift to cells of `others` that run parallel to the wall along at least half of its length.
-/// Empty if there are none.
+/// Empty without such cells.
 std::optional<cv::Point2d> shift_to_parallel(const ChangedWall& wall, const cv::Mat1b& others,
                                              const WallMoveLimits& limits);
 

@@ -170,8 +170,8 @@ class Classification {
         only_b_(without_counterpart(b.wall, a.wall, limits_.tolerance)),
         changed_a_(mask(only_a_ & clear_cells(b.free, limits_.tolerance))),
         changed_b_(mask(only_b_ & clear_cells(a.free, limits_.tolerance))),
-        gone_(walls_in(changed_a_, limits_.min_length)),
-        new_(walls_in(changed_b_, limits_.min_length)) {
+        vanished_(walls_in(changed_a_, limits_.min_length)),
+        appeared_(walls_in(changed_b_, limits_.min_length)) {
     paint_background(a, b);
     classify();
   }
@@ -205,20 +205,20 @@ class Classification {
   }
 
   void classify() {
-    // The other place of a moved wall may lie where one map shows too little: nobody sees behind a wall.
-    const cv::Mat1b hidden_a = mask(only_a_ & ~mask_of(gone_, only_a_.size()));
-    const cv::Mat1b hidden_b = mask(only_b_ & ~mask_of(new_, only_b_.size()));
-    for (const ChangedWall& wall : gone_)
+    // The other place of a moved wall may lie where one map shows too little, beyond another wall.
+    const cv::Mat1b hidden_a = mask(only_a_ & ~mask_of(vanished_, only_a_.size()));
+    const cv::Mat1b hidden_b = mask(only_b_ & ~mask_of(appeared_, only_b_.size()));
+    for (const ChangedWall& wall : vanished_)
       for (const cv::Point& cell : wall.cells) paint(cell, ComparedCell::kVanished);
-    for (const ChangedWall& wall : new_)
+    for (const ChangedWall& wall : appeared_)
       for (const cv::Point& cell : wall.cells) paint(cell, ComparedCell::kAppeared);
-    for (const MovedWall& moved : take_moved_walls(gone_, new_, limits_))
+    for (const MovedWall& moved : take_moved_walls(vanished_, appeared_, limits_))
       add(moved.wall, Kind::kMoved, moved.shift);
-    for (const ChangedWall& wall : gone_) {
+    for (const ChangedWall& wall : vanished_) {
       const auto shift = shift_to_parallel(wall, hidden_b, limits_);
       add(wall, shift ? Kind::kMoved : Kind::kVanished, shift.value_or(cv::Point2d(0, 0)));
     }
-    for (ChangedWall& wall : new_) {
+    for (ChangedWall& wall : appeared_) {
       if (const auto back = shift_to_parallel(wall, hidden_a, limits_)) {
         wall.from += *back;
         wall.to += *back;
@@ -235,8 +235,8 @@ class Classification {
   cv::Mat1b only_b_;
   cv::Mat1b changed_a_;  ///< walls of A in clear free space of B
   cv::Mat1b changed_b_;
-  std::vector<ChangedWall> gone_;  ///< of changed_a_; after classify() without those that moved
-  std::vector<ChangedWall> new_;   ///< of changed_b_
+  std::vector<ChangedWall> vanished_;  ///< of changed_a_; after classify() without those that moved
+  std::vector<ChangedWall> appeared_;  ///< of changed_b_
   std::vector<WallChange> found_;
 };
 

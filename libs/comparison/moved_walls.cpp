@@ -52,14 +52,14 @@ ChangedWall wall_of(WallCells cells) {
 /// Places of cells across a direction, by their places along it.
 using Profile = std::map<int, std::vector<double>>;
 
-int along(const cv::Point& cell, const cv::Point2d& direction) {
+int place_of(const cv::Point& cell, const cv::Point2d& direction) {
   return static_cast<int>(std::floor(direction.dot(cv::Point2d(cell))));
 }
 
 Profile profile_of(const WallCells& cells, const cv::Point2d& direction) {
   Profile profile;
   for (const cv::Point& cell : cells)
-    profile[along(cell, direction)].push_back(direction.cross(cv::Point2d(cell)));
+    profile[place_of(cell, direction)].push_back(direction.cross(cv::Point2d(cell)));
   return profile;
 }
 
@@ -161,7 +161,7 @@ SplitWall split(const ChangedWall& wall, const Pair& pair, double min_length) {
   SplitWall result;
   WallCells rest;
   for (const cv::Point& cell : wall.cells)
-    (pair.beside.places.count(along(cell, pair.direction)) > 0 ? result.moved : rest).push_back(cell);
+    (pair.beside.places.count(place_of(cell, pair.direction)) > 0 ? result.moved : rest).push_back(cell);
   result.rest = connected_walls(rest, min_length);
   return result;
 }

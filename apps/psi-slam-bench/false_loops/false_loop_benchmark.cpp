@@ -85,8 +85,6 @@ Constraint draw_nearby(const Material& material, const FalseLoopOptions& options
   return loop;
 }
 
-constexpr double kWorstFirstOnly = 1;  // doubtful share for which select_inlier_loops() is never called
-
 std::vector<std::size_t> loops_on(const PoseGraph& graph) {
   std::vector<std::size_t> loops;
   for (std::size_t i = 0; i < graph.num_constraints(); ++i)
@@ -167,9 +165,9 @@ FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double s
     for (const std::size_t loop : true_loops) outcome.true_lost += graph.enabled(loop) ? 0 : 1;
     return outcome;
   };
-  const auto defended = [&](const std::vector<TPose2D>& start, double doubtful_share) {
+  const auto defended = [&](const std::vector<TPose2D>& start) {
     return settled(start, [&](PoseGraph& graph, SparsePoseAdjustment& solver) {
-      switch_off_outlier_loops(graph, solver, loops, trial.max_chi, doubtful_share);
+      switch_off_outlier_loops(graph, solver, loops, trial.max_chi);
     });
   };
   FalseLoopRow row;
@@ -179,9 +177,8 @@ FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double s
   row.true_loops = true_loops.size();
   row.false_loops = false_loops.size();
   row.undefended = settled(trial.unlooped, [](auto& graph, auto& solver) { solver.optimize(graph); });
-  row.worst_first = defended(trial.unlooped, kWorstFirstOnly);
-  row.defended = defended(trial.unlooped, kDoubtfulShare);
-  row.from_map = defended(trial.graph.poses(), kDoubtfulShare);
+  row.defended = defended(trial.unlooped);
+  row.from_map = defended(trial.graph.poses());
   return row;
 }
 

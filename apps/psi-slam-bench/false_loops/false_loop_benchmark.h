@@ -87,11 +87,10 @@ struct FalseLoopRow {
   std::uint64_t seed = 1;  ///< seed for drawing the false loops
   std::size_t true_loops = 0;
   std::size_t false_loops = 0;
-  // The first three treatments start at the poses before any loop was closed.
-  LoopTrialOutcome undefended;   ///< optimised with all loops
-  LoopTrialOutcome worst_first;  ///< in each round, switches off the loops with the worst residuals
-  LoopTrialOutcome defended;     ///< switches off outlier loops as the mapper does
-  LoopTrialOutcome from_map;     ///< as `defended`, but starts at the finished map
+  // The first two treatments start at the poses before any loop was closed.
+  LoopTrialOutcome undefended;  ///< optimised with all loops
+  LoopTrialOutcome defended;    ///< switches off outlier loops as the mapper does
+  LoopTrialOutcome from_map;    ///< as `defended`, but starts at the finished map
 };
 
 struct FalseLoopLog {
@@ -121,7 +120,7 @@ FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& log
                                             const ProgressObserver& observer);
 
 /// The report of the `false-loops` command. In JSON, each element of "rows" has the statistics over the seeds
-/// of each treatment: "undefended", "worst_first", "defended" and "from_map". Each kind of false loops has a
+/// of each treatment: "undefended", "defended" and "from_map". Each kind of false loops has a
 /// plot.
 BenchReport false_loop_report(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
                               const std::string& machine);

@@ -85,7 +85,6 @@ ReportTable cases_table(const FalseLoopBenchmark& benchmark) {
       {{"false loops", "false_loops"},
        [](const Trials& trials) { return cell(trials.front().false_loops); }}};
   add_columns({&FalseLoopRow::undefended, "undefended", "undefended [m]", 3}, columns);
-  add_columns({&FalseLoopRow::worst_first, "worst_first", "worst first [m]", 4, {}, "kept / lost"}, columns);
   add_columns({&FalseLoopRow::defended, "defended", "defended [m]", 4, "[deg]", "kept / lost", "ms"},
               columns);
   add_columns({&FalseLoopRow::from_map, "from_map", "from the map [m]", 4, {}, "kept / lost"}, columns);
@@ -130,7 +129,6 @@ std::string markdown_of(const FalseLoopBenchmark& benchmark, const FalseLoopBenc
       fixed_text(how.min_error_rad * 180 / M_PI, 0) +
       " degrees\n"
       "- undefended: the graph is optimised with all loops\n"
-      "- worst first: the loops with the worst residuals are rejected until no outlier loop is left\n"
       "- defended: outlier loops are rejected as in the mapper\n"
       "- from the map: as defended, but starts at the finished map. The other columns start at the poses "
       "before any loop was closed\n"

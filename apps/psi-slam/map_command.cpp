@@ -173,7 +173,8 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   for (const std::string& unmet : session.unmet_edits()) warn("an edit was not made: " + unmet);
   for (const std::string& sentence : session.result().contradictions) warn(sentence);
   if (const auto coarser = coarser_cells_text(summary.map)) warn(*coarser);
-  if (const auto unmatched = unmatched_scans_text(session.result())) warn(*unmatched);
+  const MapVerdict* verdict = summary.verdict ? &*summary.verdict : nullptr;
+  if (const auto unmatched = unmatched_scans_text(session.result(), verdict)) warn(*unmatched);
   for (const std::string& interruption : interruption_texts(session.result())) warn(interruption);
   if (const auto broken = broken_map_text(summary)) warn(*broken);
   for (const std::string& warning : session.warnings_of_logs_before()) warn(warning);

@@ -199,12 +199,11 @@ Json interruptions_json(const std::vector<Interruption>& interruptions) {
   return list;
 }
 
-Json suspect_json(const Suspect& suspect) {
-  Json json = {{"text", text_of(suspect)},
-               {"first_scan", suspect.first_frame},
-               {"last_scan", suspect.last_frame},
-               {"x_m", number(suspect.at.x, 3)},
-               {"y_m", number(suspect.at.y, 3)}};
+Json suspect_json(const HotSpot& spot) {
+  const Suspect& suspect = spot.suspect;
+  Json json = {{"text", text_of(suspect)},        {"first_scan", suspect.first_frame},
+               {"last_scan", suspect.last_frame}, {"x_m", number(suspect.at.x, 3)},
+               {"y_m", number(suspect.at.y, 3)},  {"places", spot.places_of_suspect}};
   if (suspect.kind == Suspect::Kind::kLoop) {
     json["loop"] = suspect.loop;
     json["local_map"] = suspect.local_map;
@@ -220,8 +219,9 @@ Json verdict_json(const MapVerdict& verdict) {
                      {"y_m", number(spot.at.y, 3)},
                      {"error_m", spot.error_m ? number(*spot.error_m, 3) : Json(nullptr)},
                      {"length_m", number(spot.length_m, 3)},
-                     {"suspect", suspect_json(spot.suspect)},
-                     {"advice", advice_text(spot)}});
+                     {"suspect", suspect_json(spot)},
+                     {"advice", advice_text(spot)},
+                     {"edit", spot.edit ? Json(edit_line(spot)) : Json(nullptr)}});
   return {{"state", text_of(verdict.state)},
           {"sentence", verdict_sentence(verdict)},
           {"error_m", number(verdict.error_m, 4)},
@@ -229,7 +229,8 @@ Json verdict_json(const MapVerdict& verdict) {
           {"doubt_m", number(verdict.doubt_m(), 4)},
           {"wall_thickness_m", number(verdict.wall_thickness_m, 4)},
           {"checked_share", number(verdict.checked_share, 4)},
-          {"hot_spots", std::move(spots)}};
+          {"hot_spots", std::move(spots)},
+          {"more_hot_spots", verdict.more_hot_spots}};
 }
 
 Json stages_json(const std::vector<StageTiming>& stages) {

@@ -38,6 +38,19 @@ std::size_t keep_longest(std::vector<UnmatchedStretch>& stretches) {
   return dropped;
 }
 
+/// The stretches that the verdict does not confirm; all without a verdict.
+std::vector<UnmatchedStretch> doubtful_of(std::vector<UnmatchedStretch> stretches,
+                                          const MapVerdict* verdict) {
+  if (verdict == nullptr) return stretches;
+  const std::vector<FrameSpan>& confirmed = verdict->confirmed_stretches;
+  const auto is_confirmed = [&](const UnmatchedStretch& stretch) {
+    return std::any_of(confirmed.begin(), confirmed.end(),
+                       [&](const FrameSpan& span) { return span.begin == stretch.first_frame; });
+  };
+  stretches.erase(std::remove_if(stretches.begin(), stretches.end(), is_confirmed), stretches.end());
+  return stretches;
+}
+
 constexpr double kNegligiblePath_m = 0.1;  // without a match, the position of a robot at rest is still known
 
 }  // namespace
@@ -67,22 +80,32 @@ UnmatchedScans unmatched_scans(const std::vector<FrameRecord>& frames, const std
   return unmatched;
 }
 
-std::optional<std::string> unmatched_scans_text(const MappingResult& result) {
+std::optional<std::string> unmatched_scans_text(const MappingResult& result, const MapVerdict* verdict) {
   UnmatchedScans unmatched = unmatched_scans(result.frames, runs_of(result));
   double path_m = 0;
   for (const UnmatchedStretch& stretch : unmatched.stretches) path_m += stretch.odometry_length_m;
   if (path_m < kNegligiblePath_m) return std::nullopt;
   const bool has_odometry = std::all_of(result.log.begin(), result.log.end(),
                                         [](const Frame& frame) { return frame.has_odometry; });
-  const std::size_t dropped = keep_longest(unmatched.stretches);
+  std::vector<UnmatchedStretch>& stretches = unmatched.stretches;
+  const std::vector<UnmatchedStretch> doubtful = doubtful_of(stretches, verdict);
   std::string text = std::to_string(unmatched.count) + " of " + counted(result.frames.size(), "scan") +
                      " matched no local map and " + (unmatched.count == 1 ? "was" : "were") + " placed by " +
-                     (has_odometry ? "odometry" : "the constant-velocity model") + ": at ";
-  for (const UnmatchedStretch& stretch : unmatched.stretches)
-    text += (&stretch == &unmatched.stretches.front() ? "" : ", ") +
+                     (has_odometry ? "odometry" : "the constant-velocity model");
+  if (!doubtful.empty() && doubtful.size() < stretches.size()) {
+    std::size_t scans = 0;
+    for (const UnmatchedStretch& stretch : doubtful) scans += stretch.scans();
+    text += ", " + std::to_string(scans) + " of them where no other scans confirm the motion";
+  }
+  if (!doubtful.empty()) stretches = doubtful;
+  const std::size_t dropped = keep_longest(stretches);
+  text += ": at ";
+  for (const UnmatchedStretch& stretch : stretches)
+    text += (&stretch == &stretches.front() ? "" : ", ") +
             stretch_text(stretch, !result.later_run_frames.empty());
   if (dropped > 0) text += " and " + std::to_string(dropped) + " more";
-  return text + "; the map may be wrong there";
+  return text +
+         (doubtful.empty() ? "; the scans before and after fit each other" : "; the map may be wrong there");
 }
 
 }  // namespace psi_slam

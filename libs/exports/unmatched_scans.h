@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scans that matched no local map. Odometry, or the constant-velocity model, places these scans, so the map
-// may be wrong there.
+// may be wrong there unless the verdict confirms the motion.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,7 @@
 
 #include "psi_slam/mapping_result.h"
 #include "psi_slam/time_stamp.h"
+#include "verdict/map_verdict.h"
 
 namespace psi_slam {
 
@@ -35,9 +36,11 @@ struct UnmatchedScans {
 /// Finds the unmatched scans of each run. `runs` comes from runs_of().
 UnmatchedScans unmatched_scans(const std::vector<FrameRecord>& frames, const std::vector<FrameSpan>& runs);
 
-/// Returns a warning about the unmatched scans of a result: a sentence without full stop that lists the
-/// stretches with the longest paths. Empty if there are no unmatched scans, or if the robot moved less than
-/// 0.1 m in total during these scans.
-std::optional<std::string> unmatched_scans_text(const MappingResult& result);
+/// Returns a message about the unmatched scans of a result: a sentence without full stop that lists the
+/// stretches with the longest paths. It warns of those that `verdict` does not confirm, or of all if
+/// `verdict` is null. Empty if there are no unmatched scans, or if the robot moved less than 0.1 m in total
+/// during these scans.
+std::optional<std::string> unmatched_scans_text(const MappingResult& result,
+                                                const MapVerdict* verdict = nullptr);
 
 }  // namespace psi_slam

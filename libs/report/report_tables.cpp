@@ -128,17 +128,25 @@ std::string verdict_section(const MapVerdict& verdict) {
   const std::string sentence = verdict_sentence(verdict);
   std::string html = "<p class=\"none\">" + escape_html(sentence) + ".</p>\n";
   if (verdict.hot_spots.empty()) return html;
+  const std::vector<HotSpot>& spots = verdict.hot_spots;
   std::string rows;
-  for (const HotSpot& spot : verdict.hot_spots)
+  for (auto spot = spots.begin(); spot != spots.end(); ++spot) {
+    if (std::any_of(spots.begin(), spot,
+                    [&](const HotSpot& worse) { return is_same(worse.suspect, spot->suspect); }))
+      continue;
     rows += "<tr>" +
-            cells({text_of(spot.kind), fixed_text(spot.at.x, 1), fixed_text(spot.at.y, 1),
-                   spot.error_m ? fixed_text(*spot.error_m, 2) : std::string()}) +
-            "<td class=\"text\">" + escape_html(text_of(spot.suspect)) + "</td><td class=\"text\">" +
-            escape_html(advice_text(spot)) + "</td></tr>\n";
-  return html +
-         table_begin("wide tall",
-                     {"Place to check", "x, m", "y, m", "error, m", "Suspect", "What would help"}) +
-         rows + kTableEnd;
+            cells({text_of(spot->kind), fixed_text(spot->at.x, 1), fixed_text(spot->at.y, 1),
+                   error_text(*spot), grouped(spot->places_of_suspect)}) +
+            "<td class=\"text\">" + escape_html(text_of(spot->suspect)) + "</td><td class=\"text\">" +
+            escape_html(advice_text(*spot)) + "</td></tr>\n";
+  }
+  html += table_begin("wide tall", {"Worst place of a suspect", "x, m", "y, m", "error", "places", "Suspect",
+                                    "What would help"}) +
+          rows + kTableEnd;
+  if (verdict.more_hot_spots > 0)
+    html += "<p class=\"none\">Rings and rows are of the worst " + counted(spots.size(), "place") + "; " +
+            counted(verdict.more_hot_spots, "more is", "more are") + " left out.</p>";
+  return html + '\n';
 }
 
 std::string unmatched_table(const UnmatchedScans& unmatched) {

@@ -13,6 +13,7 @@
 #include "base/text_parts.h"
 #include "compression/line_reader.h"
 #include "exports/zone_files.h"
+#include "loop_closure/loop_edit_line.h"
 #include "psi_slam/user_error.h"
 #include "rendering/placed_edits.h"
 #include "session/edit_values.h"
@@ -24,15 +25,11 @@ namespace {
 
 using Kind = LoopEdit::Kind;
 
-constexpr std::array<std::pair<const char*, Kind>, 4> kVerbs{{{"delete", Kind::kDelete},
-                                                              {"force", Kind::kForce},
-                                                              {"match", Kind::kMatch},
-                                                              {"restore", Kind::kRestore}}};
 constexpr double kMaxWindow_m = 1000;
 
 Kind kind_of(const std::string& verb) {
   std::vector<std::string> verbs;
-  for (const auto& [text, kind] : kVerbs) {
+  for (const auto& [text, kind] : kLoopEditVerbs) {
     if (verb == text) return kind;
     verbs.emplace_back(text);
   }
@@ -78,19 +75,7 @@ EditTime time_of(const EditValues& values) {
 
 /// Text of an edit in the file, without line end.
 std::string edit_line(const TimedEdit& timed) {
-  const LoopEdit& edit = timed.edit;
-  std::string line;
-  for (const auto& [text, kind] : kVerbs)
-    if (kind == edit.kind) line = text;
-  line += " scan=" + std::to_string(edit.frame) + " local_map=" + std::to_string(edit.local_map);
-  if (edit.kind == Kind::kMatch) line += std::string(" matcher=") + name(edit.matcher);
-  if (edit.kind == Kind::kMatch && edit.place)
-    line += " x_m=" + exact_text(edit.place->anchor_T_node.x) +
-            " y_m=" + exact_text(edit.place->anchor_T_node.y) +
-            " yaw_deg=" + exact_degrees_text(edit.place->anchor_T_node.phi) +
-            " window_m=" + exact_text(edit.place->window.x_m) +
-            " window_deg=" + exact_degrees_text(edit.place->window.theta_rad);
-  if (edit.kind == Kind::kForce && edit.of_final_search) line += " attempt=final_search";
+  std::string line = loop_edit_line(timed.edit);
   if (timed.time.kind == EditTime::Kind::kAfterScan) line += " after=" + std::to_string(timed.time.scan);
   if (timed.time.kind == EditTime::Kind::kEnd) line += " after=end";
   return line;

@@ -210,6 +210,7 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   }
   m.mapper->set_knowledge(std::move(knowledge));
   m.result = m.mapper->finish(progress, m.after_finish);
+  m.verdict.reset();
   if (m.prior && m.prior->changed_text()) m.result.contradictions.push_back(*m.prior->changed_text());
   if (refusal) m.result.contradictions.push_back(*std::move(refusal));
   m.contradictions_of_mapping = m.result.contradictions.size();

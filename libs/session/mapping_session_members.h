@@ -20,6 +20,7 @@
 #include "session/session_prior.h"
 #include "session/session_recording.h"
 #include "session/settings.h"
+#include "verdict/map_verdict.h"
 
 namespace psi_slam {
 
@@ -76,6 +77,7 @@ struct MappingSession::Members {
   Observer observer;
   State state = State::kReading;
   MappingResult result;
+  std::optional<MapVerdict> verdict;        ///< of `result`; empty before it is drawn
   std::unique_ptr<SessionJournal> journal;  ///< null if the session is not recorded continuously
   std::optional<std::string> broken_off;
   std::vector<std::string> faults;  ///< see faults_of_log()

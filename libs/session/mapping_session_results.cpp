@@ -19,7 +19,6 @@
 #include "session/session_file.h"
 #include "session/session_input.h"
 #include "session/work_clock.h"
-#include "verdict/map_verdict.h"
 
 namespace psi_slam {
 
@@ -86,8 +85,7 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
                                     " is not mapped, the last scan is " +
                                     std::to_string(m.result.frames.size() - 1));
   m.result.stages.push_back(drawing_clock.timing());
-  MapVerdict verdict;
-  judging_clock.time([&] { verdict = judge_map(m.result); });
+  judging_clock.time([&] { m.verdict = judge_map(m.result); });
   m.result.stages.push_back(judging_clock.timing());
   if (folder) {
     writing_clock.time([&] {
@@ -102,7 +100,7 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   m.result.wall_s = m.work_s;
   RunSummary summary = summarize_run(m.result, *grid, m.settings.map);
   summary.map.map_T_start = map_T_start;
-  summary.verdict = std::move(verdict);
+  summary.verdict = m.verdict;
   summary.log.spare_scans = skipped_lines().spare_scans;
   if (folder) export_account(m.result, run_info(), summary, *grid, *folder);
   return {std::move(grid), std::move(summary)};

@@ -84,7 +84,8 @@ std::vector<std::string> MappingSession::warnings() const {
   for (const std::string& fault : faults_of_log()) warnings.push_back(fault);
   for (const std::string& complaint : unmet_edits()) warnings.push_back("an edit was not made: " + complaint);
   for (const std::string& sentence : m_->result.contradictions) warnings.push_back(sentence);
-  if (const auto unmatched = unmatched_scans_text(m_->result)) warnings.push_back(*unmatched);
+  const MapVerdict* verdict = m_->verdict ? &*m_->verdict : nullptr;
+  if (const auto unmatched = unmatched_scans_text(m_->result, verdict)) warnings.push_back(*unmatched);
   for (const std::string& interruption : interruption_texts(m_->result)) warnings.push_back(interruption);
   return warnings;
 }

@@ -51,6 +51,11 @@ class Judge {
     add_interruptions(verdict.hot_spots);
     add_uncertain_places(verdict.hot_spots);
     std::stable_sort(verdict.hot_spots.begin(), verdict.hot_spots.end(), is_worse);
+    for (HotSpot& spot : verdict.hot_spots)
+      spot.places_of_suspect = static_cast<std::size_t>(
+          std::count_if(verdict.hot_spots.begin(), verdict.hot_spots.end(),
+                        [&](const HotSpot& other) { return is_same(spot.suspect, other.suspect); }));
+    add_confirmed_stretches(verdict);
     measure_walls(verdict);
     verdict.error_m = mean_error_m() + unconfirmed_error_m(verdict.hot_spots);
     verdict.predicted_m = mean_prediction_m();
@@ -232,7 +237,71 @@ class Judge {
 
   HotSpot spot_of(const Series& series, HotSpot::Kind kind) const {
     const PassCheck& worst = *series.worst;
-    return {kind, worst.scans.at, worst.error_m, length_m(series), cause_between(worst.view, worst.other)};
+    const Suspect cause = cause_between(worst.view, worst.other);
+    return {kind,
+            worst.scans.at,
+            worst.error_m,
+            length_m(series),
+            cause,
+            1,
+            edit_against(cause, series.first, series.last)};
+  }
+
+  std::optional<LoopEdit> edit_against(const Suspect& suspect) const {
+    return edit_against(suspect, 0, views_.size());
+  }
+
+  /// Edit against a suspect that the checks of the views from first_view to last_view show.
+  std::optional<LoopEdit> edit_against(const Suspect& suspect, std::size_t first_view,
+                                       std::size_t last_view) const {
+    if (suspect.kind == Suspect::Kind::kLoop)
+      return LoopEdit{LoopEdit::Kind::kDelete, suspect.last_frame, suspect.local_map};
+    if (!searched_loops_) return std::nullopt;
+    const auto switched_off =
+        std::find_if(result_.loops.begin(), result_.loops.end(), [&](const LoopRecord& loop) {
+          return loop.by_hand && loop.verdict == LoopVerdict::kSwitchedOff &&
+                 loop.frame >= suspect.last_frame && result_.node_frames[loop.anchor] <= suspect.first_frame;
+        });
+    if (switched_off != result_.loops.end())
+      return LoopEdit{LoopEdit::Kind::kForce, switched_off->frame, switched_off->local_map};
+    return match_across(suspect, first_view, last_view);
+  }
+
+  /// Match of a scan after the suspect with a local map before it. Prefers scans that fit after a small
+  /// motion, and among them the most displaced.
+  std::optional<LoopEdit> match_across(const Suspect& suspect, std::size_t first_view,
+                                       std::size_t last_view) const {
+    std::optional<LoopEdit> match;
+    const PassCheck* best = nullptr;
+    for (const PassCheck& check : checks_) {
+      if (check.view < first_view || check.view > last_view) continue;
+      const auto [first, last] = std::minmax(check.view, check.other);
+      if (views_[last].frame < suspect.last_frame) continue;
+      if (best != nullptr &&
+          std::pair(check.fits_if_moved, check.error_m) <= std::pair(best->fits_if_moved, best->error_m))
+        continue;
+      const std::optional<std::size_t> local_map = local_map_around(first, suspect.first_frame);
+      if (!local_map) continue;
+      best = &check;
+      match = LoopEdit{LoopEdit::Kind::kMatch, views_[last].frame, *local_map};
+    }
+    return match;
+  }
+
+  /// The local map with a view nearest to its middle, among those without scans after last_frame.
+  std::optional<std::size_t> local_map_around(std::size_t view, std::size_t last_frame) const {
+    const std::size_t node = views_[view].node;
+    const auto off_middle = [&](const LocalMapRecord& map) {
+      return std::max(node - map.first_node, map.last_node - node);
+    };
+    std::optional<std::size_t> nearest;
+    for (std::size_t i = 0; i < result_.local_maps.size(); ++i) {
+      const LocalMapRecord& map = result_.local_maps[i];
+      if (map.first_node > node || map.last_node < node || result_.node_frames[map.last_node] > last_frame)
+        continue;
+      if (!nearest || off_middle(map) < off_middle(result_.local_maps[*nearest])) nearest = i;
+    }
+    return nearest;
   }
 
   /// Makes one hot spot of each series of displaced views.
@@ -257,7 +326,8 @@ class Judge {
     if (worst == residuals_.end()) return;
     const Suspect suspect = suspect_of(*worst);
     spots.push_back({HotSpot::Kind::kLoopConflict, suspect.at,
-                     std::min(worst->residual_m, options_.passes.unknown_m), 0, suspect});
+                     std::min(worst->residual_m, options_.passes.unknown_m), 0, suspect, 1,
+                     edit_against(suspect)});
   }
 
   /// Finds up to where checks that fit reach, for is_confirmed().
@@ -279,6 +349,17 @@ class Judge {
     return after != fitting_reach_.begin() && std::prev(after)->second > suspect.last_frame;
   }
 
+  /// Adds the unmatched stretches that checks confirm and that are the suspect of no hot spot.
+  void add_confirmed_stretches(MapVerdict& verdict) const {
+    for (const PathSuspect& stretch : path_suspects(result_, 0)) {
+      if (stretch.kind != PathSuspect::Kind::kUnmatched || !is_confirmed(stretch)) continue;
+      const Suspect cause = suspect_of(stretch);
+      if (std::none_of(verdict.hot_spots.begin(), verdict.hot_spots.end(),
+                       [&](const HotSpot& spot) { return is_same(spot.suspect, cause); }))
+        verdict.confirmed_stretches.push_back({stretch.first_frame, stretch.last_frame + 1});
+    }
+  }
+
   void add_path_spots(std::vector<HotSpot>& spots) const {
     for (const PathSuspect& suspect : path_suspects_) {
       const Suspect cause = suspect_of(suspect);
@@ -286,8 +367,8 @@ class Judge {
         spots.push_back({HotSpot::Kind::kUnplacedRun, cause.at, std::nullopt, 0, cause});
       if (suspect.kind == PathSuspect::Kind::kUnmatched && suspect.doubt_m >= options_.unconfirmed_m &&
           !is_confirmed(suspect))
-        spots.push_back(
-            {HotSpot::Kind::kUnmatched, cause.at, options_.unmatched_error * suspect.doubt_m, 0, cause});
+        spots.push_back({HotSpot::Kind::kUnmatched, cause.at, options_.unmatched_error * suspect.doubt_m, 0,
+                         cause, 1, edit_against(cause)});
     }
   }
 
@@ -302,7 +383,7 @@ class Judge {
       const Suspect cause = suspect_of(check.suspect);
       const bool is_gap = check.suspect.kind == PathSuspect::Kind::kGap;
       spots.push_back({is_gap ? HotSpot::Kind::kGapDisagrees : HotSpot::Kind::kRunsDisagree, cause.at,
-                       share * options_.passes.unknown_m, 0, cause});
+                       share * options_.passes.unknown_m, 0, cause, 1, edit_against(cause)});
     }
   }
 

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "psi_slam/loop_record.h"
 #include "psi_slam/mapping_result.h"
 #include "verdict/pass_checks.h"
 
@@ -40,6 +41,12 @@ struct Suspect {
   bool searched_loops = true;
 };
 
+/// Returns whether two suspects are the same loop or stretch.
+inline bool is_same(const Suspect& a, const Suspect& b) {
+  return a.kind == b.kind && a.loop == b.loop && a.first_frame == b.first_frame &&
+         a.last_frame == b.last_frame;
+}
+
 /// A doubtful place of the map.
 struct HotSpot {
   enum class Kind {
@@ -59,6 +66,11 @@ struct HotSpot {
   std::optional<double> error_m;
   double length_m = 0;  ///< path along which the fault is seen
   Suspect suspect;
+  std::size_t places_of_suspect = 1;  ///< number of hot spots with this suspect, this one included
+  /// Edit of a loop that would help: deletes the suspect, matches a scan after it with a local map before it,
+  /// or forces such a match by hand that was switched off. Empty if no scans on both sides of the suspect see
+  /// the same walls, or if no scan of the map searched for loops, because edits then have no effect.
+  std::optional<LoopEdit> edit{};
 };
 
 /// Returns the kind in the words of summary.json: "doubled wall", "wall seen through", ...
@@ -85,6 +97,9 @@ struct MapVerdict {
   double checked_share = 0;        ///< share of the path that another pass confirms or contradicts, in [0, 1]
   std::vector<HotSpot> hot_spots;  ///< the worst first, at most VerdictOptions::most_hot_spots
   std::size_t more_hot_spots = 0;  ///< hot spots beyond those, which are left out of the list
+  /// Stretches of unmatched scans, in the order of the log, across which other scans fit and which are the
+  /// suspect of no hot spot.
+  std::vector<FrameSpan> confirmed_stretches;
 
   /// Figure by which maps can be ranked, metres.
   double doubt_m() const { return error_m + predicted_m; }
@@ -121,6 +136,14 @@ std::string text_of(const Suspect& suspect);
 
 /// Returns the verdict as a sentence without full stop: "the map is good: ...".
 std::string verdict_sentence(const MapVerdict& verdict);
+
+/// Returns the error of a hot spot: "0.31 m", or "1 m or more" if it was too large to measure. Empty for an
+/// unplaced run.
+std::string error_text(const HotSpot& spot);
+
+/// Returns the edit of a hot spot as a line of the file of edits: "match scan=812 local_map=14 matcher=csm".
+/// Empty without an edit.
+std::string edit_line(const HotSpot& spot);
 
 /// Returns a hot spot as a clause: "doubled wall at (3.1, -2.0) m, error about 0.30 m; suspect: ...".
 std::string hot_spot_text(const HotSpot& spot);

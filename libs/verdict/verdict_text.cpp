@@ -2,7 +2,7 @@
 #include <array>
 
 #include "base/number_text.h"
-#include "psi_slam/loop_record.h"
+#include "loop_closure/loop_edit_line.h"
 #include "verdict/map_verdict.h"
 
 namespace psi_slam {
@@ -75,38 +75,42 @@ std::string verdict_sentence(const MapVerdict& verdict) {
   return "check " + counted(places, "place") + " of the map, the worst: " + text;
 }
 
+std::string error_text(const HotSpot& spot) {
+  if (!spot.error_m) return {};
+  // Only errors that scans show have an upper bound.
+  const double largest_m = PassCheckOptions().unknown_m;
+  const bool is_predicted = spot.kind == HotSpot::Kind::kUncertain || spot.kind == HotSpot::Kind::kUnmatched;
+  return is_predicted || *spot.error_m < largest_m ? fixed_text(*spot.error_m, 2) + " m"
+                                                   : fixed_text(largest_m, 0) + " m or more";
+}
+
+std::string edit_line(const HotSpot& spot) {
+  if (!spot.edit) return {};
+  // A forced loop needs its match first.
+  return loop_edit_line(*spot.edit) + (spot.edit->kind == LoopEdit::Kind::kForce ? " after=end" : "");
+}
+
 std::string hot_spot_text(const HotSpot& spot) {
   std::string text = text_of(spot.kind) + " at " + place_text(spot.at);
-  if (spot.error_m) text += ", error about " + fixed_text(*spot.error_m, 2) + " m";
-  return text + "; suspect: " + text_of(spot.suspect);
+  if (const std::string error = error_text(spot); !error.empty())
+    text += ", error " + std::string(error.find("more") == std::string::npos ? "about " : "of ") + error;
+  text += "; suspect";
+  if (spot.places_of_suspect > 1) text += " of " + counted(spot.places_of_suspect, "place");
+  return text + ": " + text_of(spot.suspect);
 }
 
 std::string advice_text(const HotSpot& spot) {
   const Suspect& suspect = spot.suspect;
-  switch (suspect.kind) {
-    case Suspect::Kind::kLoop: {
-      LoopEdit edit;
-      edit.frame = suspect.last_frame;
-      edit.local_map = suspect.local_map;
-      return text_of(edit);
-    }
-    case Suspect::Kind::kUnmatched:
-      return "raise front_end.max_wide_window_m, or match a scan after scan " +
-             std::to_string(suspect.last_frame) + " with a local map before scan " +
-             std::to_string(suspect.first_frame) + " by hand";
-    case Suspect::Kind::kLost:
-    case Suspect::Kind::kUnplaced:
-    case Suspect::Kind::kGap:
-      return "match a scan after scan " + std::to_string(suspect.last_frame) +
-             " with a local map of the rest of the map by hand";
-    case Suspect::Kind::kDrift:
-    case Suspect::Kind::kStretch:
-      break;
-  }
-  const std::string setting =
-      suspect.searched_loops ? "raise loop_closure.wide_searches" : "set loop_closure.enabled=true";
-  return setting + ", or match a scan after scan " + std::to_string(suspect.last_frame) +
-         " with a local map before scan " + std::to_string(suspect.first_frame) + " by hand";
+  const std::string edit = spot.edit ? "add the line \"" + edit_line(spot) + "\" to the file of --edits"
+                                     : "match a scan after scan " + std::to_string(suspect.last_frame) +
+                                           " with a local map before scan " +
+                                           std::to_string(suspect.first_frame) + " by hand";
+  std::string setting;
+  if (suspect.kind == Suspect::Kind::kUnmatched) setting = "raise front_end.max_wide_window_m, or ";
+  if (!suspect.searched_loops) return setting + "set loop_closure.enabled=true";
+  if (suspect.kind == Suspect::Kind::kDrift || suspect.kind == Suspect::Kind::kStretch)
+    setting = "raise loop_closure.wide_searches, or ";
+  return setting + edit;
 }
 
 }  // namespace psi_slam

@@ -53,14 +53,19 @@ TEST_F(VerdictApp, finds_a_right_map_good) {
   EXPECT_THAT(report(), Not(HasSubstr("id=\"show-hot-spots\"")));
 }
 
-TEST_F(VerdictApp, points_at_the_place_where_the_wheels_slipped) {
+/// Two rounds, in the second of which the wheels slip while the laser is blind.
+SimulatedRun slipping_run() {
   SimulatedRun run = round_trips(2);
   const mrpt::math::TPose2D before = run.odometry[kSlip - 1];
   const mrpt::math::TPose2D jumped = before + mrpt::math::TPose2D(0.7, 0.4, 0.15);
   for (std::size_t i = kSlip; i < run.odometry.size(); ++i)
     run.odometry[i] = jumped + (run.odometry[i] - before);
   run.put_into = blind_laser;
-  const Json verdict = verdict_of(run, {"--set", "loop_closure.enabled=false"});
+  return run;
+}
+
+TEST_F(VerdictApp, points_at_the_place_where_the_wheels_slipped) {
+  const Json verdict = verdict_of(slipping_run(), {"--set", "loop_closure.enabled=false"});
   EXPECT_EQ(app_.code, 0);
   EXPECT_NE(verdict["state"], "good");
   ASSERT_FALSE(verdict["hot_spots"].empty());
@@ -72,6 +77,35 @@ TEST_F(VerdictApp, points_at_the_place_where_the_wheels_slipped) {
   EXPECT_THAT(told, HasSubstr(verdict["sentence"].get<std::string>() + ". Try: "));
   EXPECT_THAT(report(), HasSubstr("id=\"show-hot-spots\""));
   EXPECT_THAT(report(), HasSubstr("<circle "));
+}
+
+TEST_F(VerdictApp, advises_edits_that_mend_the_map) {
+  const std::filesystem::path edits = folder_.path() / "my.edits";
+  write_file(edits, "");
+  // No node has travelled far enough to search for loops across the slip.
+  const std::vector<std::string> settings{"--set", "loop_closure.min_travel_m=1000", "--edits",
+                                          edits.string()};
+  const auto add_advised_line = [&](const Json& verdict) {
+    ASSERT_FALSE(verdict["hot_spots"].empty());
+    const Json& spot = verdict["hot_spots"][0];
+    ASSERT_TRUE(spot["edit"].is_string()) << spot.dump(1);
+    const auto line = spot["edit"].get<std::string>();
+    EXPECT_THAT(app_.out + app_.err, HasSubstr("add the line \"" + line + "\" to the file of --edits"));
+    write_file(edits, bytes_of(edits) + line + '\n');
+  };
+  const Json first = verdict_of(slipping_run(), settings);
+  EXPECT_EQ(first["state"], "broken");
+  add_advised_line(first);
+  EXPECT_THAT(bytes_of(edits), testing::StartsWith("match scan="));
+  EXPECT_THAT(app_.err, HasSubstr("the map may be wrong there"));
+  // The odometry of the slip contradicts a single match, so the next advice is to force it.
+  add_advised_line(verdict_of(slipping_run(), settings));
+  EXPECT_THAT(bytes_of(edits), HasSubstr("\nforce scan="));
+  const Json mended = verdict_of(slipping_run(), settings);
+  EXPECT_EQ(mended["state"], "good") << mended.dump(1);
+  EXPECT_THAT(app_.err, Not(HasSubstr("an edit was not made")));
+  EXPECT_THAT(app_.err, Not(HasSubstr("may be wrong")));
+  EXPECT_THAT(app_.err, HasSubstr("the scans before and after fit each other"));
 }
 
 }  // namespace

@@ -158,7 +158,22 @@ TEST(SummaryJson, has_the_verdict_about_the_map) {
   EXPECT_EQ(spot["kind"], "doubled wall");
   EXPECT_EQ(spot["x_m"], 1.5);
   EXPECT_EQ(spot["suspect"]["local_map"], 3);
-  EXPECT_EQ(spot["advice"], "delete the loop of scan 45 with local map 3");
+  EXPECT_EQ(spot["advice"], "add the line \"delete scan=45 local_map=3\" to the file of --edits");
+  EXPECT_EQ(spot["edit"], "delete scan=45 local_map=3");
+  EXPECT_EQ(spot["suspect"]["places"], 1);
+  EXPECT_EQ(verdict["more_hot_spots"], 0);
+}
+
+TEST(SummaryJson, counts_the_hot_spots_that_it_leaves_out) {
+  RunSummary summary = some_figures();
+  summary.verdict = doubtful_map();
+  summary.verdict->more_hot_spots = 7;
+  summary.verdict->hot_spots[0].places_of_suspect = 8;
+  summary.verdict->hot_spots[0].edit.reset();
+  const auto verdict = nlohmann::json::parse(summary_json({}, {}, summary))["verdict"];
+  EXPECT_EQ(verdict["more_hot_spots"], 7);
+  EXPECT_EQ(verdict["hot_spots"][0]["suspect"]["places"], 8);
+  EXPECT_TRUE(verdict["hot_spots"][0]["edit"].is_null());
 }
 
 TEST(SummaryJson, has_schema_and_figures) {

@@ -82,6 +82,20 @@ TEST(UnmatchedScansText, lists_the_stretches) {
   EXPECT_EQ(unmatched_scans_text({}), std::nullopt);
 }
 
+TEST(UnmatchedScansText, warns_only_of_stretches_that_the_verdict_does_not_confirm) {
+  const MappingResult result = drive("|+-+---+");
+  MapVerdict verdict;
+  EXPECT_EQ(unmatched_scans_text(result, &verdict), unmatched_scans_text(result));
+  verdict.confirmed_stretches = {{2, 3}};
+  EXPECT_EQ(unmatched_scans_text(result, &verdict),
+            "4 of 8 scans matched no local map and were placed by odometry, 3 of them where no other scans "
+            "confirm the motion: at 2.0-3.0 s (3 scans, 1.5 m); the map may be wrong there");
+  verdict.confirmed_stretches = {{2, 3}, {4, 7}};
+  EXPECT_EQ(unmatched_scans_text(result, &verdict),
+            "4 of 8 scans matched no local map and were placed by odometry: at 1.0 s (1 scan, 0.5 m), "
+            "2.0-3.0 s (3 scans, 1.5 m); the scans before and after fit each other");
+}
+
 TEST(UnmatchedScansText, lists_the_five_longest_in_the_order_of_the_log) {
   EXPECT_EQ(unmatched_scans_text(drive("|-+-+---+-+-+--+-")),
             "10 of 17 scans matched no local map and were placed by odometry: at 0.5 s (1 scan, 0.5 m), "

@@ -82,8 +82,33 @@ TEST(ReportHtml, shows_the_places_to_check) {
   EXPECT_EQ(complaint_about(without_style_and_script(html)), "");
   EXPECT_THAT(html, HasSubstr("<h2>Verdict<small>check these places</small>"));
   EXPECT_THAT(html, HasSubstr("id=\"show-hot-spots\""));
-  EXPECT_THAT(html, HasSubstr("<td class=\"text\">delete the loop of scan 45 with local map 3</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>0.31 m</td><td>1</td><td class=\"text\">the loop of scan 45"));
+  EXPECT_THAT(html, HasSubstr("delete scan=45 local_map=3"));
   EXPECT_THAT(html, HasSubstr("<circle "));
+  EXPECT_THAT(html, Not(HasSubstr("left out.</p>")));
+}
+
+TEST(ReportHtml, has_one_row_for_each_suspect) {
+  const MappingResult result = walk_around_the_room();
+  const auto grid = draw_grid_map(result.log, mapped_poses(result));
+  RunSummary summary = summarize_run(result, *grid);
+  MapVerdict verdict = doubtful_map();
+  verdict.hot_spots.resize(3, verdict.hot_spots[0]);
+  verdict.hot_spots[0].error_m = 1;
+  verdict.hot_spots[0].places_of_suspect = 4;
+  verdict.hot_spots[1].suspect.kind = Suspect::Kind::kStretch;
+  verdict.more_hot_spots = 2;
+  summary.verdict = verdict;
+  const std::string html = report_html(result, {}, summary, *grid);
+  EXPECT_EQ(complaint_about(without_style_and_script(html)), "");
+  EXPECT_THAT(html, HasSubstr("<td>1 m or more</td><td>4</td><td class=\"text\">the loop of scan 45"));
+  EXPECT_THAT(html, HasSubstr("Rings and rows are of the worst 3 places; 2 more are left out."));
+  const std::string row = "<tr><td>doubled wall</td>";
+  const std::size_t first = html.find(row);
+  ASSERT_NE(first, std::string::npos);
+  const std::size_t second = html.find(row, first + 1);
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_EQ(html.find(row, second + 1), std::string::npos) << "the third place has the first suspect";
 }
 
 TEST(ReportHtml, needs_no_network) {

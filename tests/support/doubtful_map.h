@@ -21,6 +21,7 @@ inline MapVerdict doubtful_map() {
   spot.suspect.local_map = 3;
   spot.suspect.last_frame = 45;
   spot.suspect.at = {2, 1};
+  spot.edit = LoopEdit{LoopEdit::Kind::kDelete, 45, 3};
   verdict.hot_spots = {spot};
   return verdict;
 }

@@ -12,6 +12,7 @@
 namespace psi_slam {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -53,7 +54,6 @@ TEST(MapVerdict, points_at_a_doubled_wall) {
   const double to_wall_m = std::min({std::abs(worst.at.x - -2), std::abs(worst.at.x - 4)});
   EXPECT_LT(to_wall_m, 0.5) << "at the walls that are displaced along their normals";
   EXPECT_THAT(hot_spot_text(worst), HasSubstr("doubled wall at ("));
-  EXPECT_THAT(advice_text(worst), HasSubstr("by hand"));
 }
 
 TEST(MapVerdict, suspects_the_step_where_the_passes_part) {
@@ -84,7 +84,7 @@ TEST(MapVerdict, suspects_the_loop_that_the_map_contradicts) {
   for (const HotSpot& spot : verdict.hot_spots) {
     EXPECT_EQ(spot.suspect.kind, Suspect::Kind::kLoop);
     EXPECT_EQ(spot.suspect.loop, 1U);
-    EXPECT_EQ(advice_text(spot), "delete the loop of scan 50 with local map 0");
+    EXPECT_EQ(advice_text(spot), "add the line \"delete scan=50 local_map=0\" to the file of --edits");
   }
 }
 
@@ -157,13 +157,118 @@ TEST(MapVerdict, measures_the_error_before_it_shortens_the_list) {
   EXPECT_THAT(verdict_sentence(shortened), HasSubstr("check 2 places of the map"));
 }
 
-TEST(MapVerdict, advises_loop_closing_where_it_was_off) {
+/// Map of two rounds, the second of which is displaced, with two local maps for each round.
+MappingResult displaced_round() {
   MappingResult result = two_passes({0.3, 0, 0});
-  const MapVerdict off = judge_map(result);
-  ASSERT_FALSE(off.hot_spots.empty());
-  EXPECT_THAT(advice_text(off.hot_spots.front()), HasSubstr("loop_closure.enabled=true"));
+  const std::size_t half = kScansPerRound / 2;
+  result.local_maps.clear();
+  for (std::size_t first = 0; first < result.node_frames.size(); first += half)
+    result.local_maps.push_back({first, first, first + half - 1});
   result.frames.back().searched_loops = true;
-  EXPECT_THAT(advice_text(judge_map(result).hot_spots.front()), HasSubstr("loop_closure.wide_searches"));
+  return result;
+}
+
+TEST(MapVerdict, advises_loop_closing_where_it_was_off) {
+  MappingResult result = displaced_round();
+  result.frames.back().searched_loops = false;
+  const auto expect_no_edit = [&] {
+    const MapVerdict verdict = judge_map(result);
+    ASSERT_FALSE(verdict.hot_spots.empty());
+    EXPECT_FALSE(verdict.hot_spots.front().edit) << "it would have no effect";
+    EXPECT_THAT(advice_text(verdict.hot_spots.front()), EndsWith("set loop_closure.enabled=true"));
+  };
+  expect_no_edit();
+  for (std::size_t i = kScansPerRound - 3; i < kScansPerRound; ++i)
+    result.frames[i].match = ScanMatch::kUnmatched;
+  expect_no_edit();
+  for (std::size_t i = kScansPerRound; i < result.frames.size(); ++i) {
+    result.frames[i].match = ScanMatch::kMatched;
+    result.frames[i].time_us += 60'000'000;
+  }
+  expect_no_edit();
+  result.interruptions = {{kScansPerRound, kScansPerRound + 2}};
+  expect_no_edit();
+  result.interruptions = {{kScansPerRound, std::nullopt}};
+  expect_no_edit();
+}
+
+TEST(MapVerdict, advises_to_match_a_scan_with_a_local_map_before_the_suspect) {
+  const MappingResult result = displaced_round();
+  const MapVerdict verdict = judge_map(result);
+  ASSERT_FALSE(verdict.hot_spots.empty());
+  const HotSpot& worst = verdict.hot_spots.front();
+  ASSERT_TRUE(worst.edit);
+  EXPECT_EQ(worst.edit->kind, LoopEdit::Kind::kMatch);
+  EXPECT_GE(worst.edit->frame, worst.suspect.last_frame);
+  ASSERT_LT(worst.edit->local_map, 2U) << "of the first round";
+  EXPECT_EQ(
+      advice_text(worst),
+      "raise loop_closure.wide_searches, or add the line \"match scan=" + std::to_string(worst.edit->frame) +
+          " local_map=" + std::to_string(worst.edit->local_map) + " matcher=csm\" to the file of --edits");
+}
+
+TEST(MapVerdict, advises_to_force_a_match_by_hand_that_was_switched_off) {
+  MappingResult result = displaced_round();
+  LoopRecord loop = loop_between(result, 10, 50);
+  loop.verdict = LoopVerdict::kSwitchedOff;
+  result.loops = {loop};
+  const auto line = [&] { return edit_line(judge_map(result).hot_spots.at(0)); };
+  EXPECT_THAT(line(), HasSubstr("match ")) << "it was not made by hand";
+  result.loops[0].by_hand = true;
+  EXPECT_EQ(line(), "force scan=50 local_map=0 after=end");
+}
+
+TEST(MapVerdict, advises_a_match_by_hand_without_local_map_where_none_ends_before_the_suspect) {
+  MappingResult result = two_passes({0.3, 0, 0});
+  result.frames.back().searched_loops = true;
+  const MapVerdict verdict = judge_map(result);
+  ASSERT_FALSE(verdict.hot_spots.empty());
+  EXPECT_EQ(edit_line(verdict.hot_spots.front()), "");
+  EXPECT_THAT(advice_text(verdict.hot_spots.front()), EndsWith(" by hand"));
+}
+
+TEST(MapVerdict, counts_the_places_of_a_suspect_also_beyond_the_list) {
+  MappingResult result = two_passes({0.3, 0, 0});
+  result.loops = {loop_between(result, 10, 50, {2, 0, 0})};
+  VerdictOptions options;
+  const MapVerdict whole = judge_map(result, options);
+  ASSERT_GE(whole.hot_spots.size(), 2U);
+  options.most_hot_spots = 1;
+  const HotSpot worst = judge_map(result, options).hot_spots.at(0);
+  EXPECT_EQ(worst.places_of_suspect, whole.hot_spots.size()) << "the loop is the only suspect";
+  EXPECT_THAT(hot_spot_text(worst), HasSubstr("; suspect of " + std::to_string(whole.hot_spots.size()) +
+                                              " places: the loop of scan 50"));
+}
+
+TEST(MapVerdict, states_an_error_that_is_too_large_to_measure_as_a_bound) {
+  HotSpot spot;
+  spot.error_m = 0.994;
+  EXPECT_EQ(error_text(spot), "0.99 m");
+  EXPECT_THAT(hot_spot_text(spot), HasSubstr("error about 0.99 m;"));
+  spot.error_m = 1;
+  EXPECT_THAT(hot_spot_text(spot), HasSubstr("error of 1 m or more;"));
+  spot.kind = HotSpot::Kind::kUncertain;
+  spot.error_m = 2.5;
+  EXPECT_THAT(hot_spot_text(spot), HasSubstr("error about 2.50 m;"));
+  spot.error_m.reset();
+  EXPECT_EQ(error_text(spot), "");
+}
+
+TEST(MapVerdict, confirms_unmatched_scans_only_if_other_scans_fit_across_them) {
+  MappingResult result = two_passes();
+  result.frames[20].match = ScanMatch::kUnmatched;
+  result.frames.back().match = ScanMatch::kUnmatched;
+  const MapVerdict verdict = judge_map(result);
+  EXPECT_EQ(verdict.state, MapState::kGood);
+  ASSERT_EQ(verdict.confirmed_stretches.size(), 1U) << "no scan follows the last one";
+  EXPECT_EQ(verdict.confirmed_stretches[0].begin, 20U);
+  EXPECT_EQ(verdict.confirmed_stretches[0].end, 21U);
+}
+
+TEST(MapVerdict, confirms_no_unmatched_scans_that_are_a_suspect) {
+  MappingResult result = two_passes({0.3, 0, 0});
+  result.frames[kScansPerRound - 1].match = ScanMatch::kUnmatched;
+  EXPECT_TRUE(judge_map(result).confirmed_stretches.empty());
 }
 
 TEST(MapVerdict, names_runs_that_disagree) {

@@ -307,6 +307,8 @@ void bind_result(py::module_& module) {
           "suspect", [](const HotSpot& spot) { return text_of(spot.suspect); },
           "Probable cause: a loop, or a stretch of the path.")
       .def_property_readonly("advice", &advice_text, "The setting or edit that would help.")
+      .def_property_readonly("edit", &edit_line,
+                             "Line for a file of edits that would help; empty if no edit is advised.")
       .def("__repr__", [](const HotSpot& spot) { return "<psi_slam.HotSpot: " + hot_spot_text(spot) + ">"; });
 
   py::class_<MapVerdict>(module, "Verdict", "Judgement of a map without ground truth.")
@@ -325,6 +327,8 @@ void bind_result(py::module_& module) {
                     "Share of the path that several passes saw, in [0, 1].")
       .def_readonly("hot_spots", &MapVerdict::hot_spots,
                     "Doubtful places, the worst first: a list of HotSpot.")
+      .def_readonly("more_hot_spots", &MapVerdict::more_hot_spots,
+                    "Number of doubtful places beyond those of hot_spots.")
       .def("__repr__",
            [](const MapVerdict& verdict) { return "<psi_slam.Verdict: " + verdict_sentence(verdict) + ">"; });
 

@@ -126,6 +126,10 @@ def test_verdict_and_summary_equal_the_file(turned):
     assert [spot.advice for spot in result.verdict.hot_spots] == [
         spot["advice"] for spot in summary["verdict"]["hot_spots"]
     ]
+    assert [spot.edit or None for spot in result.verdict.hot_spots] == [
+        spot["edit"] for spot in summary["verdict"]["hot_spots"]
+    ]
+    assert result.verdict.more_hot_spots == summary["verdict"]["more_hot_spots"]
     assert result.settings == summary["settings"]
     assert result.warnings == summary["warnings"]
     assert result.broken_off is None and not result.interrupted

@@ -3,14 +3,12 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "exports/drawing_layers.h"
 #include "exports/map_files.h"
 #include "rendering/picture_ink.h"
 
 namespace psi_slam {
 namespace {
-
-constexpr const char* kWalls = "WALLS";
-constexpr const char* kTrajectory = "TRAJECTORY";
 
 /// Text of a DXF file: pairs of lines, each a group code and its value.
 class DxfText {
@@ -50,7 +48,7 @@ void write_tables(DxfText& dxf) {
   dxf.pair(72, 65).pair(73, 0).pair(40, "0.0").pair(0, "ENDTAB");
   dxf.pair(0, "TABLE").pair(2, "LAYER").pair(70, 3);
   const std::pair<const char*, int> layers[] = {
-      {"0", kForeground}, {kWalls, kForeground}, {kTrajectory, kRed}};
+      {"0", kForeground}, {kWallLayer, kForeground}, {kTrajectoryLayer, kRed}};
   for (const auto& [name, colour] : layers)
     dxf.pair(0, "LAYER").pair(2, name).pair(70, 0).pair(62, colour).pair(6, "CONTINUOUS");
   dxf.pair(0, "ENDTAB").pair(0, "ENDSEC");
@@ -135,8 +133,8 @@ std::string map_dxf(const MapDrawing& drawing) {
   write_header(dxf, drawing.extent);
   write_tables(dxf);
   dxf.pair(0, "SECTION").pair(2, "ENTITIES");
-  for (const MapLine& wall : drawing.walls) write_line(dxf, wall, kWalls, true);
-  for (const MapLine& line : drawing.trajectories) write_line(dxf, line, kTrajectory, false);
+  for (const MapLine& wall : drawing.walls) write_line(dxf, wall, kWallLayer, true);
+  for (const MapLine& line : drawing.trajectories) write_line(dxf, line, kTrajectoryLayer, false);
   dxf.pair(0, "ENDSEC").pair(0, "EOF");
   return dxf.take();
 }

@@ -19,6 +19,7 @@
 #include "base/portable_math.h"
 #include "base/scope_exit.h"
 #include "base/text_parts.h"
+#include "exports/drawing_layers.h"
 #include "localization/reference_map.h"
 #include "psi_slam/user_error.h"
 #include "rendering/grid_layout.h"
@@ -96,7 +97,12 @@ void add_lines(const OGRGeometry& geometry, double scale, std::vector<Line>& lin
   }
 }
 
-std::vector<Line> lines_of(const std::filesystem::path& path, const PlanDrawingOptions& options) {
+struct DrawnLines {
+  std::vector<Line> lines;          ///< on the layers with walls, in metres
+  std::vector<std::string> layers;  ///< names of all layers, sorted
+};
+
+DrawnLines lines_of(const std::filesystem::path& path, const PlanDrawingOptions& options) {
   GDALAllRegister();
   CPLPushErrorHandler(CPLQuietErrorHandler);
   const ScopeExit restore(&CPLPopErrorHandler);
@@ -104,6 +110,9 @@ std::vector<Line> lines_of(const std::filesystem::path& path, const PlanDrawingO
   const std::unique_ptr<GDALDataset> file(
       GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data()));
   const std::set<std::string> chosen = names_in(options.layers);
+  const auto has_walls = [&](const std::string& layer) {
+    return chosen.empty() ? layer != kTrajectoryLayer : chosen.count(layer) != 0;
+  };
   std::vector<Line> lines;
   std::set<std::string> layers;
   if (file) {
@@ -113,7 +122,7 @@ std::vector<Line> lines_of(const std::filesystem::path& path, const PlanDrawingO
         const char* const name = feature->GetFieldAsString("Layer");
         layers.emplace(name);
         const OGRGeometry* const geometry = feature->GetGeometryRef();
-        if (geometry == nullptr || (!chosen.empty() && chosen.count(name) == 0)) continue;
+        if (geometry == nullptr || !has_walls(name)) continue;
         const std::unique_ptr<OGRGeometry> linear(geometry->getLinearGeometry());
         if (linear) add_lines(*linear, scale, lines);
       }
@@ -128,10 +137,10 @@ std::vector<Line> lines_of(const std::filesystem::path& path, const PlanDrawingO
           ", which has nothing drawn on it. Its layers are: " + name_list({layers.begin(), layers.end()}));
   if (lines.empty())
     throw UserError(path.string() + ": " +
-                    (options.layers.empty() ? std::string("the drawing has no lines")
+                    (options.layers.empty() ? std::string("the drawing has no walls")
                                             : "the layers " + options.layers + " have no lines") +
                     ". Its layers are: " + name_list({layers.begin(), layers.end()}));
-  return lines;
+  return {std::move(lines), {layers.begin(), layers.end()}};
 }
 
 }  // namespace
@@ -143,10 +152,9 @@ bool is_plan_drawing(const std::filesystem::path& path) {
   return extension == ".dxf";
 }
 
-mrpt::maps::COccupancyGridMap2D read_plan_drawing(const std::filesystem::path& path,
-                                                  const PlanDrawingOptions& options) {
+PlanDrawing read_plan_drawing(const std::filesystem::path& path, const PlanDrawingOptions& options) {
   if (!std::ifstream(path)) throw UserError("cannot read " + path.string() + ". Check the name of the file");
-  const std::vector<Line> lines = lines_of(path, options);
+  auto [lines, layers] = lines_of(path, options);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   TPoint2D low(kInfinity, kInfinity);
   TPoint2D high(-kInfinity, -kInfinity);
@@ -182,7 +190,7 @@ mrpt::maps::COccupancyGridMap2D read_plan_drawing(const std::filesystem::path& p
                       static_cast<int>(cell(at.y) - layout.y_min), 0.01F);
       }
     }
-  return *grid;
+  return {*grid, std::move(layers)};
 }
 
 }  // namespace psi_slam

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/text_parts.h"
 #include "comparison/wall_changes.h"
 #include "psi_slam/user_error.h"
 #include "rendering/extended_map.h"
@@ -29,10 +30,13 @@ PriorMapOptions prior_options(const Settings& settings, const PlacedMapFile& fil
   return options;
 }
 
-PlacedMapFile read_prior(const Settings& settings) {
+/// Reads a prior map. `layers` gets the names of the layers of a drawing.
+PlacedMapFile read_prior(const Settings& settings, std::vector<std::string>& layers) {
   const PriorOptions& prior = settings.prior;
   if (!is_plan_drawing(prior.map)) return read_placed_map_file(prior.map);
-  return {read_plan_drawing(prior.map, {prior.metres_per_unit, prior.layers})};
+  PlanDrawing drawing = read_plan_drawing(prior.map, {prior.metres_per_unit, prior.layers});
+  layers = std::move(drawing.layers);
+  return {std::move(drawing.grid)};
 }
 
 std::string place_text(const mrpt::math::TPoint2D& place) {
@@ -100,7 +104,7 @@ void check_prior_apart(const Settings& settings, const std::filesystem::path& re
 
 SessionPrior::SessionPrior(const Settings& settings)
     : options_(settings.prior),
-      file_(read_prior(settings)),
+      file_(read_prior(settings, layers_)),
       recorded_{options_.map, sha256_of_map_file(options_.map)},
       map_(file_.grid, prior_options(settings, file_)) {
   if (options_.extend) check_extendable(settings, file_);
@@ -125,7 +129,10 @@ std::optional<std::string> SessionPrior::place(const Mapper& mapper, FixedKnowle
            "has its own frame. Map the log again, or resume its saved session, to align it";
   if (!is_aligned_)
     return options_.map + ": this map is left out, because the run does not fit it: " + places.objection +
-           ". The exported map has its own frame. Check that prior.map shows this building in its size";
+           ". The exported map has its own frame. Check that prior.map shows this building in its size" +
+           (layers_.empty() ? ""
+                            : ", or name the layers with walls by prior.layers (this drawing has: " +
+                                  name_list(layers_) + ")");
   std::move(places.poses.begin(), places.poses.end(), std::back_inserter(knowledge.poses));
   return std::nullopt;
 }

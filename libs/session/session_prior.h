@@ -57,6 +57,7 @@ class SessionPrior {
 
  private:
   PriorOptions options_;
+  std::vector<std::string> layers_;  // of a drawing; before file_, whose initialiser sets it
   PlacedMapFile file_;
   RecordedPrior recorded_;  // after file_, which checks that the file is readable
   std::optional<std::string> changed_text_;

@@ -179,7 +179,7 @@ void describe_prior(OptionTable& table, PriorOptions& prior) {
                        "drawing states.")
       .text("layers", prior.layers,
             "DXF: layers with walls, separated by commas. Layers of furniture, doors and dimensions are "
-            "best left out. Empty: all layers.");
+            "best left out. Empty: all layers except TRAJECTORY, the path in map.dxf.");
 }
 
 void describe_live(OptionTable& table, Settings& settings) {

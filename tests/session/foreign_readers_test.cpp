@@ -311,7 +311,7 @@ void ForeignReaders::drawings_have_the_walls_in_metres() {
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(of_formats[0][k], of_formats[1][k], 1e-4);
   // A drawing that states its unit is a floor plan as it is, with a margin around it.
   constexpr double kMargin_m = 1;
-  const COccupancyGridMap2D plan = read_plan_drawing(file("map.dxf"), {});
+  const COccupancyGridMap2D plan = read_plan_drawing(file("map.dxf"), {}).grid;
   EXPECT_NEAR(static_cast<double>(plan.getXMin()), of_formats[0][0] - kMargin_m, 0.1);
   EXPECT_NEAR(static_cast<double>(plan.getYMax()), of_formats[0][3] + kMargin_m, 0.1);
 }

@@ -307,6 +307,27 @@ TEST_F(SessionPriorTest, a_wall_drawn_in_the_frame_of_the_run_follows_it_into_th
   }
 }
 
+TEST_F(SessionPriorTest, the_drawing_of_a_run_is_a_prior_map_as_it_is) {
+  settings_.prior.map.clear();
+  MappingSession first(log_, settings_);
+  first.run(go_on_);
+  settings_.prior.map = (export_of(first, "first") / "map.dxf").string();
+  MappingSession second(log_, settings_);
+  second.run(go_on_);
+  EXPECT_THAT(second.result().contradictions, IsEmpty());
+  EXPECT_NEAR(off_m(second), off_m(first), 0.06);
+}
+
+TEST_F(SessionPriorTest, a_drawing_that_does_not_fit_is_refused_with_its_layers) {
+  use_drawing();
+  settings_.prior.metres_per_unit = 0.0003;
+  MappingSession session(log_, settings_);
+  session.run(go_on_);
+  EXPECT_THAT(session.result().contradictions,
+              ElementsAre(HasSubstr("or name the layers with walls by prior.layers (this drawing has: "
+                                    "DIMENSIONS, WALLS)")));
+}
+
 TEST_F(SessionPriorTest, sightings_of_marks_without_a_place_are_allowed) {
   std::string lines;
   for (const int scan : {5, 55}) {

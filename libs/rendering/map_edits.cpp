@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/number_text.h"
 
@@ -28,6 +29,17 @@ struct CellRectangle {
   int y_end = 0;
 };
 
+/// Lower left and upper right corner of the rectangle around the points.
+std::pair<TPoint2D, TPoint2D> corners_around(const std::vector<TPoint2D>& points) {
+  TPoint2D low = points.front();
+  TPoint2D high = points.front();
+  for (const TPoint2D& point : points) {
+    low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+    high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+  }
+  return {low, high};
+}
+
 /// Cells of the grid that touch the rectangle around the points, widened by `margin_m`.
 CellRectangle cells_around(const std::vector<TPoint2D>& points, double margin_m, const Grid& grid) {
   const auto resolution_m = static_cast<double>(grid.getResolution());
@@ -35,16 +47,24 @@ CellRectangle cells_around(const std::vector<TPoint2D>& points, double margin_m,
     const double index = std::floor((metres - static_cast<double>(origin_m)) / resolution_m);
     return static_cast<int>(std::clamp(index, -1.0, static_cast<double>(cells)));
   };
-  const auto [left, right] = std::minmax_element(
-      points.begin(), points.end(), [](const TPoint2D& a, const TPoint2D& b) { return a.x < b.x; });
-  const auto [bottom, top] = std::minmax_element(
-      points.begin(), points.end(), [](const TPoint2D& a, const TPoint2D& b) { return a.y < b.y; });
+  const auto [low, high] = corners_around(points);
   const auto width = static_cast<unsigned>(grid.getSizeX());
   const auto height = static_cast<unsigned>(grid.getSizeY());
-  return {std::max(0, cell(left->x - margin_m, grid.getXMin(), width)),
-          std::min(static_cast<int>(width), cell(right->x + margin_m, grid.getXMin(), width) + 1),
-          std::max(0, cell(bottom->y - margin_m, grid.getYMin(), height)),
-          std::min(static_cast<int>(height), cell(top->y + margin_m, grid.getYMin(), height) + 1)};
+  return {std::max(0, cell(low.x - margin_m, grid.getXMin(), width)),
+          std::min(static_cast<int>(width), cell(high.x + margin_m, grid.getXMin(), width) + 1),
+          std::max(0, cell(low.y - margin_m, grid.getYMin(), height)),
+          std::min(static_cast<int>(height), cell(high.y + margin_m, grid.getYMin(), height) + 1)};
+}
+
+/// Cells of the grid whose centre lies in the rectangle around the points.
+CellRectangle centres_around(const std::vector<TPoint2D>& points, const Grid& grid) {
+  const auto [low, high] = corners_around(points);
+  CellRectangle cells = cells_around(points, 0, grid);
+  if (static_cast<double>(grid.idx2x(cells.x_begin)) < low.x) ++cells.x_begin;
+  if (static_cast<double>(grid.idx2x(cells.x_end - 1)) > high.x) --cells.x_end;
+  if (static_cast<double>(grid.idx2y(cells.y_begin)) < low.y) ++cells.y_begin;
+  if (static_cast<double>(grid.idx2y(cells.y_end - 1)) > high.y) --cells.y_end;
+  return cells;
 }
 
 /// Returns whether a point lies within `distance_m` of a line.
@@ -71,12 +91,13 @@ Grid cropped(const Grid& grid, const CellRectangle& kept) {
   return result;
 }
 
-/// Makes all cells outside the polygon unknown and shrinks the grid to the polygon.
+/// Makes all cells outside the polygon unknown and shrinks the grid to the cells whose centre lies in the
+/// rectangle around the polygon, which has at least one.
 void crop(const MapEdit& edit, Grid& grid) {
   Grid kept = grid;
   kept.fill(kUnknown);
   for_each_cell_of(edit, grid, [&](int x, int y) { kept.getRow(y)[x] = grid.getRow(y)[x]; });
-  grid = cropped(kept, cells_around(edit.points, 0, grid));
+  grid = cropped(kept, centres_around(edit.points, grid));
 }
 
 std::string name_of(const MapEdit& edit) {

@@ -102,12 +102,38 @@ TEST(MapEdits, later_edits_override_earlier_ones) {
 TEST(MapEdits, a_cropped_map_has_the_same_cells_at_the_same_place) {
   Grid grid = walled_map();
   apply_map_edits({polygon(Kind::kCrop, 0, 2, 0.5, 5)}, grid);
-  EXPECT_NEAR(grid.getXMin(), 0, 0.051);
-  EXPECT_NEAR(grid.getXMax(), 2, 0.051);
-  EXPECT_NEAR(grid.getYMin(), 0.5, 0.051);
+  EXPECT_NEAR(grid.getXMin(), 0, 1e-5);
+  EXPECT_NEAR(grid.getXMax(), 2, 1e-5);
+  EXPECT_NEAR(grid.getYMin(), 0.5, 1e-5);
   EXPECT_NEAR(grid.getYMax(), 3, 1e-5) << "not beyond the map";
   EXPECT_EQ(shown(grid, 1.01, 1), Shown::kWall);
   EXPECT_EQ(shown(grid, 1.07, 1), Shown::kFree);
+}
+
+TEST(MapEdits, a_cropped_map_has_no_border_of_unknown_cells) {
+  for (int i = 0; i < 200; ++i) {
+    const float min_m = -30 + 0.05F * static_cast<float>(i);
+    Grid grid(min_m, 8, min_m - 1, 9, 0.05F);
+    grid.fill(0.97F);
+    const double side_m = 0.05 * (1 + i);
+    apply_map_edits({polygon(Kind::kCrop, -side_m, 5, -2, side_m)}, grid);  // at last beyond the map
+    ASSERT_EQ(grid.getSizeX(), 101U + static_cast<unsigned>(i)) << i;
+    ASSERT_EQ(grid.getSizeY(), std::min(220U, 41U + static_cast<unsigned>(i))) << i;
+    ASSERT_NEAR(grid.getXMin(), -side_m, 1e-4) << i;
+    ASSERT_NEAR(grid.getYMin(), -2, 1e-4) << i;
+    for (unsigned x = 0; x < grid.getSizeX(); ++x)
+      for (unsigned y = 0; y < grid.getSizeY(); ++y)
+        ASSERT_TRUE(psi_slam::is_free(grid.getRow(static_cast<int>(y))[x])) << i << ": " << x << ", " << y;
+  }
+}
+
+TEST(MapEdits, a_cropped_map_has_the_cells_whose_centres_lie_in_the_rectangle) {
+  Grid grid = walled_map();
+  apply_map_edits({polygon(Kind::kCrop, 0.02, 0.18, 0.03, 0.12)}, grid);
+  EXPECT_EQ(grid.getSizeX(), 4U);
+  EXPECT_EQ(grid.getSizeY(), 1U);
+  EXPECT_NEAR(grid.getXMin(), 0, 1e-5);
+  EXPECT_NEAR(grid.getYMin(), 0.05, 1e-5);
 }
 
 TEST(MapEdits, zones_change_nothing_and_edits_beside_the_map_are_reported) {

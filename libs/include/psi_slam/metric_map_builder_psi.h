@@ -15,8 +15,9 @@
 /// for the next odometry. The pose estimate then belongs to the last scan with odometry.
 ///
 /// Closed loops and finish() change poses of the whole map. Functions return poses and maps as of the time of
-/// the call. The only option of the base class with an effect is enableMapUpdating. It must stay true, since
-/// psi-slam does not localise in a fixed map.
+/// the call. The only option of the base class with an effect is enableMapUpdating. It must stay true:
+/// the builder always maps. It extends an initial map, see initialize(); psi_slam::Localizer finds a robot in
+/// a fixed map.
 ///
 /// All functions may be called from several threads at once. The map returned by getCurrentlyBuiltMetricMap()
 /// changes only when any thread calls that function again. A map returned by grid() never changes.

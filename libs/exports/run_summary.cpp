@@ -259,6 +259,14 @@ Json calibration_json(const std::vector<CalibratedOption>& estimates) {
   return json;
 }
 
+Json knowledge_json(const KnowledgeCounts& counts, const std::optional<PriorFit>& prior) {
+  Json json = {{"used", counts.used}, {"left_out", counts.left_out}, {"prior_map", nullptr}};
+  if (prior)
+    json["prior_map"] = {
+        {"accepted", prior->is_accepted}, {"places", prior->places}, {"fitting_places", prior->fitting}};
+  return json;
+}
+
 Json runs_json(const std::vector<FrameSpan>& runs) {
   Json list = Json::array();
   for (const FrameSpan& run : runs)
@@ -342,6 +350,7 @@ std::string summary_json(const MappingResult& result, const RunInfo& info, const
                {"mean_response", number(summary.mean_response, 4)},
                {"unmatched_scans", unmatched_json(summary.unmatched)},
                {"interruptions", interruptions_json(result.interruptions)},
+               {"knowledge", knowledge_json(result.knowledge, summary.prior)},
                {"verdict", summary.verdict ? verdict_json(*summary.verdict) : Json(nullptr)},
                {"evaluations", summary.evaluations},
                {"map", map_json(summary.map)},

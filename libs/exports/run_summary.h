@@ -84,6 +84,14 @@ struct MapExtent : MapRectangle {
   mrpt::math::TPose2D map_T_start{};
 };
 
+/// How a run fits its prior map.
+struct PriorFit {
+  bool is_accepted = false;  ///< the map of the run is aligned with the prior map
+  /// Places along the path in the space of the prior map; 0 if the run was not found there.
+  std::size_t places = 0;
+  std::size_t fitting = 0;  ///< part of `places` that fit
+};
+
 struct RunSummary {
   MappedLogFacts log;
   std::vector<FrameSpan> runs;  ///< all runs in the result; more than one if runs were merged
@@ -94,6 +102,7 @@ struct RunSummary {
   LoopCounts loops;
   UnmatchedScans unmatched;
   std::optional<MapVerdict> verdict;  ///< set by the caller; empty: the map was not judged
+  std::optional<PriorFit> prior;      ///< set by the caller; empty: no prior map
   double mean_response = 0;           ///< mean response of the matched frames
   std::int64_t evaluations = 0;       ///< number of poses scored, including the final search
   MapExtent map;

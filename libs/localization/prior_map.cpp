@@ -114,8 +114,8 @@ struct PriorMap::Path {
   std::vector<std::optional<MeasuredPose>> places;  ///< of each of `nodes`
   std::size_t first = 0;                            ///< index in `nodes` of the node near the place found
   TPose2D prior_T_map;                              ///< at that node
-  int fits = 0;
-  int misfits = 0;
+  std::size_t fits = 0;
+  std::size_t misfits = 0;
 
   void begin_at(const PriorStart& start) {
     prior_T_map = compose(start.prior_T_node, inverse(map_T_node[start.node]));
@@ -260,9 +260,11 @@ PriorPlaces PriorMap::places(const Mapper& mapper, const std::optional<PriorStar
   if (!steps.stopped()) follow(path, steps);
   result.is_interrupted = steps.stopped();
   if (result.is_interrupted) return result;
-  if (path.fits < kMinFits * (path.fits + path.misfits)) {
-    result.objection = "only " + std::to_string(path.fits) + " of " +
-                       std::to_string(path.fits + path.misfits) + " places along the path fit";
+  result.compared = path.fits + path.misfits;
+  result.fitting = path.fits;
+  if (static_cast<double>(result.fitting) < kMinFits * static_cast<double>(result.compared)) {
+    result.objection = "only " + std::to_string(result.fitting) + " of " + std::to_string(result.compared) +
+                       " places along the path fit";
     return result;
   }
   const std::vector<FrameRecord>& frames = mapper.frames();

@@ -37,6 +37,9 @@ struct PriorPlaces {
   std::vector<KnownPose> poses;  ///< in the order of the path; empty if the run does not fit
   std::string objection;         ///< why the run does not fit, a clause; empty if it does
   bool is_interrupted = false;   ///< the search was stopped; `poses` and `objection` are empty
+  /// Number of places along the path in the space of the prior map; 0 if the run was not found there.
+  std::size_t compared = 0;
+  std::size_t fitting = 0;  ///< number of these places that fit
 };
 
 /// Pose of a node in a prior map.

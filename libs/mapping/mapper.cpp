@@ -305,6 +305,7 @@ void Mapper::Implementation::end_log() {
 // Finds the last loops and optimises the graph, with what is known from outside.
 void Mapper::Implementation::finish_graph(bool closes_loops, FinalProgress& progress) {
   result_.contradictions.clear();
+  result_.knowledge = {};
   std::optional<PlacedKnowledge> known;
   if (!knowledge_.empty() && !keyframes().nodes.empty())
     known.emplace(knowledge_, result_.frames, result_.node_frames, result_.later_run_frames);
@@ -317,6 +318,7 @@ void Mapper::Implementation::finish_graph(bool closes_loops, FinalProgress& prog
   if (!known) return;
   result_.contradictions =
       known->contradictions(*builder_.landmarks(), builder_.graph(), options_.back_end.max_loop_chi);
+  result_.knowledge = known->counts(*builder_.landmarks(), builder_.graph());
   builder_.move_to_site();
 }
 

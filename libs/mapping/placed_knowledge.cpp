@@ -120,6 +120,9 @@ PlacedKnowledge::PlacedKnowledge(FixedKnowledge knowledge, const std::vector<Fra
                                  const std::vector<std::size_t>& node_frames,
                                  const std::vector<std::size_t>& later_run_frames) {
   sort(knowledge);
+  stated_ = knowledge.tags.size() + knowledge.sightings.size() +
+            static_cast<std::size_t>(std::count_if(knowledge.poses.begin(), knowledge.poses.end(),
+                                                   [](const KnownPose& pose) { return !pose.is_matched; }));
   const Moments moments(frames, node_frames, later_run_frames);
   const auto moment_of = [&](const auto& stated) {
     std::optional<Moment> moment;
@@ -235,6 +238,18 @@ std::vector<std::string> PlacedKnowledge::contradictions(const KnownLandmarks& i
     }
   }
   return sentences;
+}
+
+KnowledgeCounts PlacedKnowledge::counts(const KnownLandmarks& in_graph, const PoseGraph& graph) const {
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    const Origin& origin = origins_[i];
+    const bool states_place = origin.place || (origin.pose && !origin.pose->is_matched);
+    if (states_place && in_graph.uses_place(i, graph)) ++used;
+    for (std::size_t k = 0; k < origin.sightings.size(); ++k)
+      if (in_graph.uses_sighting(i, k, graph)) ++used;
+  }
+  return {used, stated_ - used};
 }
 
 }  // namespace psi_slam

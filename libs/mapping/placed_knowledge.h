@@ -31,6 +31,9 @@ class PlacedKnowledge {
   std::vector<std::string> contradictions(const KnownLandmarks& in_graph, const PoseGraph& graph,
                                           double max_chi) const;
 
+  /// Counts the statements. Arguments as for contradictions().
+  KnowledgeCounts counts(const KnownLandmarks& in_graph, const PoseGraph& graph) const;
+
  private:
   /// A moment of the run: the robot relative to a node.
   struct Moment {
@@ -53,6 +56,7 @@ class PlacedKnowledge {
   std::vector<Landmark> landmarks_;
   std::vector<Origin> origins_;  ///< one for each landmark
   std::vector<std::string> complaints_;
+  std::size_t stated_ = 0;  ///< number of statements, see KnowledgeCounts
 };
 
 }  // namespace psi_slam

@@ -101,6 +101,7 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   RunSummary summary = summarize_run(m.result, *grid, m.settings.map);
   summary.map.map_T_start = map_T_start;
   summary.verdict = m.verdict;
+  if (m.prior) summary.prior = m.prior->fit();
   summary.log.spare_scans = skipped_lines().spare_scans;
   if (folder) export_account(m.result, run_info(), summary, *grid, *folder);
   return {std::move(grid), std::move(summary)};

@@ -122,12 +122,12 @@ std::optional<std::string> SessionPrior::place(const Mapper& mapper, FixedKnowle
                                                const std::function<bool(double)>& progress) {
   PriorPlaces places = map_.places(mapper, {}, progress);
   is_interrupted_ = places.is_interrupted;
-  is_aligned_ = places.objection.empty() && !is_interrupted_;
+  fit_ = {places.objection.empty() && !is_interrupted_, places.compared, places.fitting};
   if (is_interrupted_)
     return options_.map +
            ": this map is left out, because the search for the run in it was interrupted. The exported map "
            "has its own frame. Map the log again, or resume its saved session, to align it";
-  if (!is_aligned_)
+  if (!fit_.is_accepted)
     return options_.map + ": this map is left out, because the run does not fit it: " + places.objection +
            ". The exported map has its own frame. Check that prior.map shows this building in its size" +
            (layers_.empty() ? ""
@@ -138,7 +138,7 @@ std::optional<std::string> SessionPrior::place(const Mapper& mapper, FixedKnowle
 }
 
 std::vector<std::string> SessionPrior::compare(const mrpt::maps::COccupancyGridMap2D& map) const {
-  if (!is_aligned_) return {};
+  if (!fit_.is_accepted) return {};
   std::vector<std::string> sentences;
   if (options_.extend && !has_cells_of(file_.grid, map))
     sentences.push_back(
@@ -168,7 +168,7 @@ std::vector<std::string> SessionPrior::compare(const mrpt::maps::COccupancyGridM
 
 mrpt::maps::COccupancyGridMap2D::Ptr SessionPrior::extended(
     const mrpt::maps::COccupancyGridMap2D& map) const {
-  const bool is_extended = is_aligned_ && has_cells_of(file_.grid, map);
+  const bool is_extended = fit_.is_accepted && has_cells_of(file_.grid, map);
   return is_extended ? extended_map(file_.grid, map) : std::make_shared<mrpt::maps::COccupancyGridMap2D>(map);
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "exports/run_summary.h"
 #include "localization/prior_map.h"
 #include "localization/reference_map.h"
 #include "psi_slam/fixed_knowledge.h"
@@ -44,6 +45,8 @@ class SessionPrior {
   void compare_with(const SessionFacts& facts);
   const std::optional<std::string>& changed_text() const { return changed_text_; }
 
+  /// Returns how the run fits, by the last call of place().
+  const PriorFit& fit() const { return fit_; }
   /// Returns whether the last call of place() was stopped by its `progress`.
   bool is_interrupted() const { return is_interrupted_; }
 
@@ -62,7 +65,7 @@ class SessionPrior {
   RecordedPrior recorded_;  // after file_, which checks that the file is readable
   std::optional<std::string> changed_text_;
   PriorMap map_;
-  bool is_aligned_ = false;
+  PriorFit fit_;
   bool is_interrupted_ = false;
 };
 

@@ -238,6 +238,19 @@ TEST(SummaryJson, lists_the_stretches_of_unmatched_scans) {
   EXPECT_NEAR(stretch["odometry_length_m"].get<double>(), 0.4, 0.1);
 }
 
+TEST(SummaryJson, counts_statements_from_outside_and_places_in_a_prior_map) {
+  MappingResult result = walk_around_the_room();
+  RunSummary summary = some_figures();
+  const auto knowledge = [&] {
+    return nlohmann::json::parse(summary_json(result, {}, summary))["knowledge"];
+  };
+  EXPECT_EQ(knowledge(), nlohmann::json::parse(R"({"used": 0, "left_out": 0, "prior_map": null})"));
+  result.knowledge = {4, 1};
+  summary.prior = PriorFit{false, 50, 18};
+  EXPECT_EQ(knowledge(), nlohmann::json::parse(R"({"used": 4, "left_out": 1,
+    "prior_map": {"accepted": false, "places": 50, "fitting_places": 18}})"));
+}
+
 TEST(SummaryJson, replaces_values_that_are_not_finite_or_not_utf8) {
   RunSummary summary = some_figures();
   summary.mean_response = std::numeric_limits<double>::quiet_NaN();

@@ -64,6 +64,8 @@ TEST(PriorMap, a_bare_floor_plan_places_a_run_through_furnished_rooms) {
       MappedRun run = mapped_run(plan, 100 + plan, 120, close_loops);
       PriorPlaces places = places_in(drawn_floor_plan(plan), run);
       EXPECT_GT(places.poses.size(), 20U) << places.objection;
+      EXPECT_EQ(places.fitting, places.poses.size());
+      EXPECT_GE(places.compared, places.fitting);
       const MappingResult result = aligned(run, std::move(places));
       EXPECT_LT(mean_error_m(result, run.truth), 0.05) << plan << ' ' << close_loops;
       EXPECT_THAT(result.contradictions, IsEmpty());
@@ -139,6 +141,7 @@ TEST(PriorMap, the_plan_of_another_building_is_refused) {
     const PriorPlaces places = places_in(drawn_floor_plan(other), run);
     EXPECT_THAT(places.poses, IsEmpty()) << other;
     EXPECT_FALSE(places.objection.empty()) << other;
+    EXPECT_LE(static_cast<double>(places.fitting), 0.7 * static_cast<double>(places.compared)) << other;
   }
 }
 

@@ -102,6 +102,8 @@ TEST(FixedKnowledge, known_poses_correct_the_drift_and_state_the_frame) {
   EXPECT_GT(mean_error_m(map_with({}), {0, 0, 0}), 0.5);
   EXPECT_LT(mean_error_m(map_with_poses(), kSite_T_start), 0.2);
   EXPECT_THAT(map_with_poses().contradictions, Each(HasSubstr("in the finished map"))) << "none is left out";
+  EXPECT_EQ(map_with_poses().knowledge.used, 5U);
+  EXPECT_EQ(map_with_poses().knowledge.left_out, 0U);
 }
 
 TEST(FixedKnowledge, positions_without_headings_do_too) {
@@ -121,6 +123,8 @@ TEST(FixedKnowledge, a_wrong_pose_is_named_and_left_out) {
   EXPECT_THAT(result.contradictions,
               Contains(AllOf(HasSubstr("my.edits:200: the pose at 1020.000000 s is left out"),
                              HasSubstr("off by 5."))));
+  EXPECT_EQ(result.knowledge.used, 5U);
+  EXPECT_EQ(result.knowledge.left_out, 1U);
   EXPECT_LT(mean_error_m(result, kSite_T_start), mean_error_m(map_with_poses(), kSite_T_start) + 0.02);
 }
 
@@ -150,6 +154,8 @@ TEST(FixedKnowledge, what_cannot_be_used_gets_a_sentence) {
                                 HasSubstr("from 1000.000000 s to")),
                           HasSubstr("my.edits:3: tag A was never seen"),
                           HasSubstr("seen:20: tag B was seen only once")));
+  EXPECT_EQ(result.knowledge.used, 0U);
+  EXPECT_EQ(result.knowledge.left_out, 3U);
   EXPECT_EQ(result.graph.root(), 0U);
   EXPECT_EQ(result.graph.pose(0), TPose2D(0, 0, 0));
 }

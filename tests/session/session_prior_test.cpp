@@ -315,6 +315,11 @@ TEST_F(SessionPriorTest, the_drawing_of_a_run_is_a_prior_map_as_it_is) {
   MappingSession second(log_, settings_);
   second.run(go_on_);
   EXPECT_THAT(second.result().contradictions, IsEmpty());
+  const PriorFit fit = second.draw().summary.prior.value();
+  EXPECT_TRUE(fit.is_accepted);
+  EXPECT_GT(fit.places, 3U);
+  EXPECT_EQ(fit.fitting, fit.places);
+  EXPECT_EQ(second.result().knowledge.used, 0U) << "places that were found are no statements";
   EXPECT_NEAR(off_m(second), off_m(first), 0.06);
 }
 
@@ -326,6 +331,7 @@ TEST_F(SessionPriorTest, a_drawing_that_does_not_fit_is_refused_with_its_layers)
   EXPECT_THAT(session.result().contradictions,
               ElementsAre(HasSubstr("or name the layers with walls by prior.layers (this drawing has: "
                                     "DIMENSIONS, WALLS)")));
+  EXPECT_FALSE(session.draw().summary.prior.value().is_accepted);
 }
 
 TEST_F(SessionPriorTest, sightings_of_marks_without_a_place_are_allowed) {

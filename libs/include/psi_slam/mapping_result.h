@@ -108,6 +108,13 @@ struct PsiThresholds {
   double psi_2 = 0;  ///< from this Psi on, kGa searches for loops
 };
 
+/// Number of statements from outside that a map uses: poses, places of tags and sightings. Places found in a
+/// prior map do not count.
+struct KnowledgeCounts {
+  std::size_t used = 0;      ///< statements that are constraints of the graph
+  std::size_t left_out = 0;  ///< all others, each of which MappingResult::contradictions names
+};
+
 /// A finished map: scans, poses, graph and loops, with statistics of the mapping.
 struct MappingResult {
   std::vector<Frame> log;  ///< all scans, in the order of `frames`; most lack their ranges at a standstill
@@ -126,6 +133,7 @@ struct MappingResult {
   /// What is known from outside but contradicts the scans or other knowledge, or could not be used; one
   /// sentence each.
   std::vector<std::string> contradictions;
+  KnowledgeCounts knowledge;                               ///< statements from outside
   PsiThresholds psi;                                       ///< thresholds by which Psi chose the matchers
   std::map<MatcherKind, LoopMatcherRecord> loop_matchers;  ///< loop searches of each matcher that was used
   std::vector<StageTiming> stages;                         ///< times of the stages of the work

@@ -46,14 +46,19 @@ void bind_errors(py::module_& module) {
                               "Raised after Ctrl-C while mapping. Its attribute `result` is the Result of "
                               "the scans that were mapped\n"
                               "before. A second Ctrl-C raises KeyboardInterrupt without a result.");
-  py::handle(interrupted).attr("result") = py::none();
+  const py::cpp_function result([](const py::handle& self) { return self.attr("_result"); });
+  py::handle(interrupted).attr("_result") = py::none();
+  py::handle(interrupted).attr("result") =
+      py::module_::import("builtins")
+          .attr("property")(result, py::none(), py::none(),
+                            "The Result of the scans that were mapped before.");
   py::register_exception_translator(&translate);
 }
 
 void raise_interrupted(const py::object& result) {
   const py::object raised =
       py::handle(interrupted)("interrupted: the result holds the scans and loops found so far");
-  raised.attr("result") = result;
+  raised.attr("_result") = result;
   PyErr_SetObject(interrupted, raised.ptr());
   throw py::error_already_set();
 }

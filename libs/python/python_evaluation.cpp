@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/number_text.h"
@@ -65,9 +66,13 @@ std::array<Column, kCount> columns_of(const py::object& given, const std::array<
   std::array<Column, kCount> columns;
   for (std::size_t i = 0; i < kCount; ++i) {
     if (!fields.is_none()) {
-      if (!fields.contains(names[i]))
-        throw UserError(what + ": the column " + names[i] + " is missing, expected the columns " + expected);
-      columns[i] = column_of(table[names[i]], what, names[i]);
+      const bool is_theta =  // as in trajectory.csv
+          !fields.contains(names[i]) && std::string_view(names[i]) == "yaw_rad" &&
+          fields.contains("theta_rad");
+      const char* const name = is_theta ? "theta_rad" : names[i];
+      if (!fields.contains(name))
+        throw UserError(what + ": the column " + name + " is missing, expected the columns " + expected);
+      columns[i] = column_of(table[name], what, name);
       continue;
     }
     const py::tuple shape = table.attr("shape");
@@ -186,7 +191,7 @@ void bind_evaluation(py::module_& module) {
       py::arg("max_gap_s") = kMaxGap_s,
       "Compares a trajectory with known relative poses, as psi-slam-eval does. Returns an Evaluation.\n\n"
       "trajectory: a Result; the path of a file that psi-slam-eval reads; or an array or pandas table\n"
-      "            with the columns time_s, x_m, y_m, yaw_rad.\n"
+      "            with the columns time_s, x_m, y_m, yaw_rad (or theta_rad, as in trajectory.csv).\n"
       "relations:  the path of a file of relations; or an array or pandas table with the columns\n"
       "            time1_s, time2_s, x_m, y_m, yaw_rad.\n"
       "max_gap_s:  longest gap between two poses that is interpolated, seconds.\n\n"

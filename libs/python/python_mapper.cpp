@@ -6,11 +6,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "base/number_text.h"
 #include "base/scope_exit.h"
 #include "psi_slam/user_error.h"
 #include "python/python_result.h"
@@ -81,6 +83,7 @@ class PythonMapper {
       share_bearings(frame.scan);
       queue_->push(std::move(frame));
       session->step();
+      ++scans_;
       return newest_;
     });
   }
@@ -91,6 +94,7 @@ class PythonMapper {
       session_->use([&](std::unique_ptr<MappingSession>& session) {
         if (session->finished()) return;
         require_open();
+        if (scans_ == 0) throw UserError("Mapper: no scan was added. Call add() first");
         finished_ = true;
         queue_->close();
         session->set_observer([&](const SessionProgress& now) { watch.show(now); });
@@ -104,6 +108,8 @@ class PythonMapper {
     if (!result_) result_ = py::cast(PythonResult(session_));
     return watch.result_or_raise(result_);
   }
+
+  std::string repr() const { return "<psi_slam.Mapper: " + counted(scans_, "scan") + ">"; }
 
  private:
   void require_open() const {
@@ -122,6 +128,7 @@ class PythonMapper {
   std::shared_ptr<SharedSession> session_;
   BeamBearings bearings_rad_;  ///< of the last scan
   PythonPose newest_;
+  std::atomic<std::size_t> scans_{0};  ///< number of scans added
   bool finished_ = false;
   py::object result_;  ///< made by finish()
 };
@@ -185,7 +192,9 @@ void bind_mapper(py::module_& module) {
            "progress: as for map(). Ctrl-C skips the rest of this work and raises Interrupted with the "
            "result.\n"
            "          An exception that it raises skips the rest, too. It may not use the Mapper.\n\n"
-           "A further call returns the same Result, also after such an exception.");
+           "A further call returns the same Result, also after such an exception. Raises UserError if no\n"
+           "scan was added.")
+      .def("__repr__", &PythonMapper::repr);
 }
 
 }  // namespace psi_slam

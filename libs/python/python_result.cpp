@@ -16,6 +16,7 @@
 #include "exports/mapped_trajectory.h"
 #include "python/errors.h"
 #include "rendering/map_image.h"
+#include "report/output_folder.h"
 #include "session/drawn_map.h"
 
 namespace psi_slam {
@@ -136,11 +137,15 @@ PythonGridMap python_grid_map(const COccupancyGridMap2D& grid) {
   map.occupancy = cell_array<float>(grid, [](Cell cell) { return 1 - COccupancyGridMap2D::l2p(cell); });
   map.occupied = cell_array<bool>(grid, is_occupied);
   map.free = cell_array<bool>(grid, is_free);
-  map.resolution_m = static_cast<double>(grid.getResolution());
-  map.x_min_m = static_cast<double>(grid.getXMin());
-  map.x_max_m = static_cast<double>(grid.getXMax());
-  map.y_min_m = static_cast<double>(grid.getYMin());
-  map.y_max_m = static_cast<double>(grid.getYMax());
+  // MRPT stores lengths as floats. These are the doubles that map.yaml states.
+  const auto metres = [](float length) {
+    return parse_number(trimmed_text(static_cast<double>(length), 4)).value();
+  };
+  map.resolution_m = parse_number(shortest_text(grid.getResolution())).value();
+  map.x_min_m = metres(grid.getXMin());
+  map.x_max_m = metres(grid.getXMax());
+  map.y_min_m = metres(grid.getYMin());
+  map.y_max_m = metres(grid.getYMax());
   return map;
 }
 
@@ -244,7 +249,9 @@ py::object PythonResult::broken_off() {
 }
 
 void PythonResult::save(const std::filesystem::path& folder, bool force) {
-  session_->use([&](const std::unique_ptr<MappingSession>& session) { session->export_to(folder, force); });
+  session_->use([&](const std::unique_ptr<MappingSession>& session) {
+    session->export_to(OutputFolder::prepare(folder, force, "force=True"));
+  });
 }
 
 Trajectory PythonResult::trajectory() {
@@ -290,7 +297,13 @@ void bind_result(py::module_& module) {
           [](const PythonGridMap& map) {
             return py::make_tuple(map.x_min_m, map.x_max_m, map.y_min_m, map.y_max_m);
           },
-          "(x_min, x_max, y_min, y_max) of the grid, metres: the argument `extent` of imshow().");
+          "(x_min, x_max, y_min, y_max) of the grid, metres: the argument `extent` of imshow().")
+      .def("__repr__", [](const PythonGridMap& map) {
+        const py::tuple shape = map.occupancy.attr("shape");
+        return "<psi_slam.GridMap: " + std::string(py::str(shape[0])) + " rows, " +
+               std::string(py::str(shape[1])) + " columns, cells of " + trimmed_text(map.resolution_m, 6) +
+               " m>";
+      });
 
   py::class_<HotSpot>(module, "HotSpot", "A doubtful place of the map.")
       .def_property_readonly(

@@ -70,7 +70,7 @@ bool is_optional_result(const std::string& name) {
 
 }  // namespace
 
-void OutputFolder::check(const fs::path& path, bool force) {
+void OutputFolder::check(const fs::path& path, bool force, const std::string& force_text) {
   if (path.empty())
     throw UserError("the name of the output folder is empty, expected a path. Name a folder for the results");
   check_no_file_in_the_way(path);
@@ -81,19 +81,19 @@ void OutputFolder::check(const fs::path& path, bool force) {
   if (error) throw UserError("cannot read the output folder " + path.string() + ": " + error.message());
   if (!empty && !force)
     throw UserError("the output folder " + path.string() +
-                    " is not empty. Name a new folder, or replace the results in it with --force");
+                    " is not empty. Name a new folder, or replace the results in it with " + force_text);
   if (::access(path.c_str(), W_OK | X_OK) != 0)
     throw UserError("cannot write to the output folder " + path.string() +
                     ": no permission. Name another folder");
 }
 
-OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
-  check(path, force);
+OutputFolder OutputFolder::prepare(const fs::path& path, bool force, const std::string& force_text) {
+  check(path, force, force_text);
   std::error_code error;
   fs::create_directories(path, error);
   if (error && !fs::is_directory(path))
     throw UserError("cannot create the output folder " + path.string() + ": " + error.message());
-  check(path, force);
+  check(path, force, force_text);
   return OutputFolder(path);
 }
 

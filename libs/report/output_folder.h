@@ -15,6 +15,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <utility>
 
 #include "exports/map_files.h"
@@ -30,11 +31,13 @@ class OutputFolder {
   /// Creates the folder and its parents. An existing folder must be empty unless `force` is given, which
   /// replaces the files of a run and keeps all others. Temporary files that a killed program left do not
   /// count. Throws UserError if the folder is not empty, is a file, or cannot be created or written to. Call
-  /// it before mapping, so that the user sees the error at once.
-  static OutputFolder prepare(const std::filesystem::path& path, bool force);
+  /// it before mapping, so that the user sees the error at once. `force_text` tells the user how to give
+  /// `force`.
+  static OutputFolder prepare(const std::filesystem::path& path, bool force,
+                              const std::string& force_text = "--force");
 
   /// Throws as prepare() does, but creates no folder. Call it before work that takes long.
-  static void check(const std::filesystem::path& path, bool force);
+  static void check(const std::filesystem::path& path, bool force, const std::string& force_text = "--force");
 
   /// Replaces the results of an earlier run. Calls `write` with a temporary folder for all files of this run.
   /// Moves them here when all are complete. If one cannot be written, the earlier results stay whole.

@@ -5,12 +5,14 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <sstream>
 #include <utility>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "base/text_parts.h"
+#include "compression/compressed_file.h"
 #include "compression/line_reader.h"
 #include "exports/zone_files.h"
 #include "loop_closure/loop_edit_line.h"
@@ -230,7 +232,7 @@ std::string EditJournal::text() const {
 
 EditJournal EditJournal::read(const std::filesystem::path& file) {
   EditJournal journal;
-  LineReader lines(file);
+  LineReader lines(std::make_unique<CompressedFile>(file, "a file of edits"));
   for (std::string_view line; lines.next(line);) add_line(line, lines.place(), journal);
   check_zones_and_tags(journal, file);
   return journal;

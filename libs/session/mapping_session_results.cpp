@@ -125,7 +125,7 @@ void MappingSession::read_exported(const std::function<void(const MappingResult&
 }
 
 void MappingSession::export_to(const fs::path& folder, bool force) {
-  export_to(OutputFolder::prepare(folder, force));
+  export_to(OutputFolder::prepare(folder, force, "force = true"));
 }
 
 /// Frames to save: those that were mapped, as the mapper received them, or all of the recording. `room` holds

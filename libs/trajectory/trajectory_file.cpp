@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string_view>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "base/portable_math.h"
+#include "base/text_parts.h"
 #include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 #include "trajectory/text_lines.h"
@@ -18,6 +21,7 @@ namespace {
 
 constexpr std::size_t kPlaneWords = 4;
 constexpr std::size_t kTumWords = 8;
+constexpr std::string_view kCsvHeader = "time_s,x_m,y_m,theta_rad";  // the first columns of trajectory.csv
 constexpr TimeUs kSameTimeUs = 100;  // times that differ by fewer microseconds count as equal
 
 /// Reads the time from word `stamp`, and x, y and theta from word `x` and the next two words.
@@ -51,6 +55,20 @@ StampedPose flaser_pose(const TextLine& line) {
   return plane_pose(line, 2 + ranges + 6, 2 + ranges);
 }
 
+/// Pose of a row of trajectory.csv, whose further columns have no blanks either.
+StampedPose csv_pose(const TextLine& line) {
+  TextLine row{line.path, line.number, {}};
+  for (std::string_view rest = line.words[0]; row.words.size() < kPlaneWords && !rest.empty();) {
+    const std::size_t end = std::min(rest.find(','), rest.size());
+    row.words.push_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  if (row.words.size() < kPlaneWords)
+    throw line.error("expected values of time_s,x_m,y_m,theta_rad, found " +
+                     counted(row.words.size(), "value"));
+  return plane_pose(row, 0, 1);
+}
+
 }  // namespace
 
 std::string tum_text(const Trajectory& trajectory) {
@@ -72,11 +90,17 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   Trajectory trajectory;
   bool first = true;
   bool carmen = false;
+  bool csv = false;
   for_each_text_line(path, [&](const TextLine& line) {
     const char letter = line.words[0][0];
-    if (first) carmen = letter >= 'A' && letter <= 'Z';  // messages of CARMEN begin with a capital letter
-    first = false;
-    if (carmen) {
+    if (std::exchange(first, false)) {
+      carmen = letter >= 'A' && letter <= 'Z';  // messages of CARMEN begin with a capital letter
+      csv = starts_with(line.words[0], kCsvHeader);
+      if (csv) return;
+    }
+    if (csv) {
+      trajectory.push_back(csv_pose(line));
+    } else if (carmen) {
       if (line.words[0] == "FLASER") trajectory.push_back(flaser_pose(line));
     } else if (line.words.size() == kTumWords) {
       trajectory.push_back(tum_pose(line));
@@ -89,8 +113,8 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   });
   if (trajectory.empty())
     throw UserError(path.string() +
-                    ": no pose found. Expected lines 'timestamp x y theta', lines in TUM format, or FLASER " +
-                    "messages of CARMEN. Choose another file");
+                    ": no pose found. Expected lines 'timestamp x y theta', lines in TUM format, the table " +
+                    "trajectory.csv, or FLASER messages of CARMEN. Choose another file");
   return trajectory;
 }
 

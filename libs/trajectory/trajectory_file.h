@@ -4,7 +4,8 @@
 //
 //     TUM       timestamp tx ty tz qx qy qz qw      with tz = qx = qy = 0, qz = sin(yaw/2), qw = cos(yaw/2)
 //     plane     timestamp x y theta
-//     CARMEN    FLASER n r1..rn  x y theta  odom_x odom_y odom_theta  timestamp host logger_timestamp
+//     CSV       trajectory.csv of psi-slam: the header time_s,x_m,y_m,theta_rad,..., then lines with these
+//     values CARMEN    FLASER n r1..rn  x y theta  odom_x odom_y odom_theta  timestamp host logger_timestamp
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -34,10 +35,11 @@ std::string tum_text(const Trajectory& trajectory);
 /// Writes the text of tum_text() atomically. Throws SystemFailure if the file cannot be written.
 void write_tum(const std::filesystem::path& path, const Trajectory& trajectory);
 
-/// Reads a file in any of the three formats above. The first line that is not a comment decides whether the
-/// file is a CARMEN log; the number of words tells the other formats apart. '#' starts a comment. Projects
-/// TUM poses onto the plane. Takes the first pose of each FLASER line of a CARMEN log and ignores its other
-/// messages. Throws UserError ("file:line: expected ...") for a malformed line, and if the file has no pose.
+/// Reads a file in any of the four formats above. The first line that is not a comment decides whether the
+/// file is a CARMEN log or a CSV table, of which further columns are ignored; the number of words tells the
+/// other formats apart. '#' starts a comment. Projects TUM poses onto the plane. Takes the first pose of each
+/// FLASER line of a CARMEN log and ignores its other messages. Throws UserError ("file:line: expected ...")
+/// for a malformed line, and if the file has no pose.
 Trajectory read_trajectory(const std::filesystem::path& path);
 
 struct PoseAtTime {

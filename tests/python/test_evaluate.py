@@ -80,6 +80,16 @@ def test_tables_of_pandas_give_the_same_figures(result, files, expected):
     assert_figures(evaluation, expected, 1e-4)
 
 
+def test_the_table_of_a_run_gives_the_same_figures(files, expected, psi_slam_program):
+    table = files[0].with_suffix(".csv")
+    assert_figures(psi_slam.evaluate(table, files[1]), expected, 1e-4)  # the table has fewer decimals
+    run = psi_slam_program(table, files[1], "--json", name="psi-slam-eval")
+    assert json.loads(run.stdout)["relations"] == expected["relations"]
+    array = np.genfromtxt(table, delimiter=",", names=True)
+    assert "theta_rad" in array.dtype.names and "yaw_rad" not in array.dtype.names
+    assert_figures(psi_slam.evaluate(array, relations_array()), expected, 1e-4)
+
+
 def test_errors_belong_to_the_relations_used(result):
     evaluation = psi_slam.evaluate(result, relations_array())
     assert len(evaluation.errors) == evaluation.used == 43

@@ -51,7 +51,7 @@ def test_settings_and_edits_act_as_in_the_program(log, psi_slam_program, tmp_pat
 
 def test_save_replaces_files_only_by_force(result, tmp_path):
     result.save(tmp_path / "out")
-    with pytest.raises(psi_slam.UserError, match="is not empty"):
+    with pytest.raises(psi_slam.UserError, match="is not empty.* replace the results in it with force=True$"):
         result.save(tmp_path / "out")
     result.save(tmp_path / "out", force=True)
 
@@ -90,7 +90,9 @@ def test_loops_equal_the_table(turned):
         assert [int(row[name]) for row in rows] == result.loops[name].tolist()
     for name in ("verdict", "reason", "matcher", "search"):
         assert [row[name] for row in rows] == result.loops[name].tolist()
-    for name, field in {"x_m": "x_m", "theta_rad": "yaw_rad", "std_y_m": "sigma_y_m"}.items():
+    assert [row["in_last_pass"] == "1" for row in rows] == result.loops["in_final_search"].tolist()
+    columns = {"x_m": "x_m", "theta_rad": "yaw_rad", "std_y_m": "sigma_y_m", "std_theta_rad": "sigma_yaw_rad"}
+    for name, field in columns.items():
         table = np.array([float(row[name]) for row in rows])
         np.testing.assert_allclose(result.loops[field], table, rtol=0, atol=1e-6)
     accepted = (result.loops["verdict"] == "accepted").sum()
@@ -110,8 +112,9 @@ def test_grid_map_equals_the_image(turned):
     assert grid.occupancy.dtype == np.float32
     assert (grid.occupancy[grid.occupied] > 0.65).all() and (grid.occupancy[grid.free] < 0.2).all()
     yaml = dict(line.split(": ", 1) for line in (folder / "map.yaml").read_text().splitlines())
-    assert grid.resolution_m == pytest.approx(float(yaml["resolution"]))
-    assert json.loads(yaml["origin"])[:2] == pytest.approx(grid.origin, abs=1e-4)
+    assert grid.resolution_m == float(yaml["resolution"])
+    assert tuple(json.loads(yaml["origin"])[:2]) == grid.origin
+    assert repr(grid) == f"<psi_slam.GridMap: {height} rows, {width} columns, cells of 0.05 m>"
     assert grid.extent[1] - grid.extent[0] == pytest.approx(width * grid.resolution_m, abs=1e-4)
 
 
@@ -179,12 +182,25 @@ def test_wrong_files_have_the_sentences_of_the_program(log, psi_slam_program, tm
     for given, arguments in (
         ({"log": missing}, [missing]),
         ({"log": log, "edits": edits}, [log, "--edits", edits]),
+        ({"log": log, "edits": tmp_path / "missing.edits"}, [log, "--edits", tmp_path / "missing.edits"]),
         ({"log": log, "config": ini}, [log, "-c", ini]),
     ):
         with pytest.raises(psi_slam.UserError) as caught:
             psi_slam.map(**given)
         run = psi_slam_program(*arguments, "-o", tmp_path / "out")
         assert run.returncode == 2 and str(caught.value) in run.stderr
+
+
+def test_a_missing_file_of_edits_is_called_so(log, tmp_path):
+    with pytest.raises(psi_slam.UserError, match="missing.edits does not exist, expected a file of edits"):
+        psi_slam.map(log, edits=tmp_path / "missing.edits")
+
+
+def test_numpy_is_named_where_it_is_missing():
+    script = "import sys; sys.modules['numpy'] = None; import psi_slam"
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False)
+    assert run.returncode == 1
+    assert run.stderr.endswith("psi_slam needs NumPy. Install python3-numpy, or run /usr/bin/python3\n")
 
 
 def test_names_that_are_not_utf8_are_told(tmp_path):

@@ -133,14 +133,16 @@ def test_numbers_of_bearings_and_ranges_are_compared():
 def test_wrong_use_of_a_mapper_is_refused():
     with pytest.raises(psi_slam.UserError, match="log.every_nth_scan applies to logs"):
         psi_slam.Mapper({"log.every_nth_scan": 2})
-    with pytest.raises(psi_slam.UserError, match="no scan was read"):
-        psi_slam.Mapper().finish()
     mapper = psi_slam.Mapper({"log.max_range_m": 20})
+    with pytest.raises(psi_slam.UserError, match="^Mapper: no scan was added. Call add"):
+        mapper.finish()
+    assert repr(mapper) == "<psi_slam.Mapper: 0 scans>"
     scan = scan_of(1, np.ones(room.BEAMS))
     for wrong in ((1, 2), (1, 2, math.nan), "here"):
         with pytest.raises(psi_slam.UserError, match="odometry is .*, expected None or"):
             mapper.add(scan, wrong)
     mapper.add(scan, (0, 0, 0))
+    assert repr(mapper) == "<psi_slam.Mapper: 1 scan>"
     result = mapper.finish()
     with pytest.raises(psi_slam.UserError, match="finish.. was called"):
         mapper.add(scan)

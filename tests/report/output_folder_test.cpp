@@ -21,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 const RunInfo kInfo{"0.1.0", "room.clf", {}};
@@ -36,9 +37,9 @@ std::set<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-std::string complaint(const fs::path& path, bool force = false) {
+std::string complaint(const fs::path& path, bool force = false, const std::string& force_text = "--force") {
   try {
-    OutputFolder::prepare(path, force);
+    OutputFolder::prepare(path, force, force_text);
   } catch (const UserError& error) {
     return error.what();
   }
@@ -63,7 +64,9 @@ TEST(OutputFolder, creates_the_folder_and_its_parents) {
 TEST(OutputFolder, needs_force_unless_empty) {
   const TemporaryFolder temporary;
   std::ofstream(temporary.path() / "notes.txt") << "x";
-  EXPECT_THAT(complaint(temporary.path()), AllOf(HasSubstr("is not empty"), HasSubstr("--force")));
+  EXPECT_THAT(complaint(temporary.path()), AllOf(HasSubstr("is not empty"), HasSubstr("with --force")));
+  EXPECT_THAT(complaint(temporary.path(), false, "force=True"),
+              EndsWith("replace the results in it with force=True"));
   EXPECT_EQ(complaint(temporary.path(), true), "no complaint");
 }
 

@@ -132,6 +132,20 @@ TEST_F(MappingSessionTest, a_stop_after_the_end_does_not_mark_the_result) {
   }
 }
 
+TEST_F(MappingSessionTest, a_program_replaces_results_by_force) {
+  MappingSession session(log(room_log_lines(10)), settings_);
+  session.step();
+  session.finish();
+  session.export_to(folder_.path() / "out");
+  try {
+    session.export_to(folder_.path() / "out");
+    FAIL() << "the results were replaced";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("replace the results in it with force = true"));
+  }
+  session.export_to(folder_.path() / "out", true);
+}
+
 TEST_F(MappingSessionTest, reports_its_progress) {
   std::vector<Phase> phases;
   double share = 0;

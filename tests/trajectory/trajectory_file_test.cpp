@@ -42,6 +42,22 @@ TEST_F(TrajectoryFile, tum_has_stamps_of_six_decimals_and_rotations_about_z) {
             "-0.250000 0.000000000 0.000000000 0 0 0 0.000000000000 1.000000000000\n");
 }
 
+TEST_F(TrajectoryFile, reads_the_table_of_a_run) {
+  const Trajectory read =
+      read_trajectory(file("time_s,x_m,y_m,theta_rad,cov_xx_m2,run\n"
+                           "976052905.167303,1.5,-2.25,3.141593,0.01,1\n976052906.000000,2,0,-4,,1\n"));
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0].time_us, 976052905167303);
+  EXPECT_EQ(read[0].pose.x, 1.5);
+  EXPECT_EQ(read[0].pose.y, -2.25);
+  EXPECT_NEAR(std::abs(read[0].pose.phi), M_PI, 1e-6);
+  EXPECT_NEAR(read[1].pose.phi, 2 * M_PI - 4, 1e-9);
+  EXPECT_THAT(complaint("time_s,x_m,y_m,theta_rad\n1,2,3\n"),
+              HasSubstr("trajectory.txt:2: expected values of time_s,x_m,y_m,theta_rad, found 3 values"));
+  EXPECT_THAT(complaint("time_s,x_m,y_m,theta_rad\n1,2,,4\n"), HasSubstr("y in metres"));
+  EXPECT_THAT(complaint("time_s,x_m,y_m,theta_rad\n"), HasSubstr("no pose found"));
+}
+
 TEST_F(TrajectoryFile, tum_reads_back_what_was_written_in_the_same_order) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> coordinate(-1000, 1000);

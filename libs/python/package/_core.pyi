@@ -17,7 +17,8 @@ class UserError(ValueError): ...
 class SystemFailure(RuntimeError): ...
 
 class Interrupted(KeyboardInterrupt):
-    result: Result
+    @property
+    def result(self) -> Result: ...
 
 class Progress:
     @property

@@ -101,7 +101,12 @@ void MapCanvas::bind_mouse() {
   Bind(wxEVT_MOUSEWHEEL, [this](wxMouseEvent& event) { zoom(event); });
   Bind(wxEVT_MOUSE_CAPTURE_LOST, [this](wxMouseCaptureLostEvent&) { drag_ = Drag::kNone; });
   Bind(wxEVT_KEY_DOWN, [this](wxKeyEvent& event) { key(event); });
-  Bind(wxEVT_CHAR, [](wxKeyEvent& event) { event.Skip(false); });  // disables MRPT's own keys
+}
+
+bool MapCanvas::ProcessEvent(wxEvent& event) {
+  const wxEventType type = event.GetEventType();
+  if (type == wxEVT_CHAR || type == wxEVT_CHAR_HOOK) return TryAfter(event);
+  return CWxGLCanvasBase::ProcessEvent(event);
 }
 
 void MapCanvas::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,

@@ -32,6 +32,9 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   };
   Callbacks on;
 
+  /// Passes typed keys on to the window. MRPT's canvas would take them all for its own commands.
+  bool ProcessEvent(wxEvent& event) override;
+
   MapScene& map_scene() { return map_scene_; }
 
   /// Shows the run at scan `frame`, or at the newest scan if `frame` is empty. Keeps the whole map in view

@@ -22,6 +22,7 @@
 #include "gui_app.h"
 #include "main_frame.h"
 #include "main_menu.h"
+#include "map_canvas.h"
 #include "screen_image.h"
 #include "temporary_folder.h"
 
@@ -98,13 +99,14 @@ class GuiRun {
     then([](MainFrame&) { wxUIActionSimulator().MouseUp(); });
     return pause(100);
   }
-  /// Sends a key to the window itself, because no control has the focus without a window manager.
+  /// Sends a key to the map as if it had the focus, because no control has the focus without a window
+  /// manager.
   GuiRun& key(int code) {
     then([code](MainFrame& frame) {
       wxKeyEvent event(wxEVT_CHAR_HOOK);
       event.m_keyCode = code;
-      event.SetEventObject(&frame);
-      frame.GetEventHandler()->ProcessEvent(event);
+      event.SetEventObject(&frame.map());
+      frame.map().GetEventHandler()->ProcessEvent(event);
     });
     return pause(100);
   }

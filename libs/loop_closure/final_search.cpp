@@ -88,17 +88,19 @@ struct Pair {
 std::vector<Pair> pairs_near_each_other(
     const KeyframeStore& keyframes, const PoseGraph& graph, const FinalSearchOptions& options,
     const std::function<bool(std::size_t node, std::size_t local_map)>& known) {
-  const NodeChoice chosen(keyframes.nodes, options.travel_m);
   std::vector<Pair> pairs;
+  std::vector<int> maps_near(keyframes.nodes.size());
   for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
     const PlacedLocalMap& local_map = keyframes.local_maps[m];
     const Box box(local_map, graph);
     for (std::size_t node = 0; node < keyframes.nodes.size(); ++node) {
       if (!box.is_near(graph.pose(node), options.reach_m)) continue;
       if (node >= local_map.first_node && node <= local_map.last_node) continue;
-      if (!chosen.contains(node, m) || known(node, m) || !are_joined(node, local_map.first_node, keyframes) ||
+      if (!are_joined(node, local_map.first_node, keyframes) ||
           !is_near(node, local_map, graph, options.reach_m))
         continue;
+      ++maps_near[node];
+      if (known(node, m)) continue;
       Pair pair;
       pair.node = node;
       pair.candidate.local_map = m;
@@ -107,6 +109,11 @@ std::vector<Pair> pairs_near_each_other(
       pairs.push_back(pair);
     }
   }
+  const NodeChoice chosen(keyframes.nodes, options.travel_m);
+  const auto is_superfluous = [&](const Pair& pair) {
+    return maps_near[pair.node] > kFewMaps && !chosen.contains(pair.node, pair.candidate.local_map);
+  };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_superfluous), pairs.end());
   return pairs;
 }
 

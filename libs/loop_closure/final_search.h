@@ -2,9 +2,9 @@
 // The final loop search: after the last scan, matches nodes with all nearby local maps in small windows.
 // Small windows suffice, because the map is then nearly correct.
 //
-// Successive nodes see the same, so their matches with one local map would say nearly the same. Therefore
-// only one node in each stretch of the path is matched with a local map. Which one it is differs between
-// local maps, so all nodes are matched where local maps overlap.
+// Where many local maps overlap, most matches would only confirm others, because successive nodes see the
+// same. There, only one node in each stretch of the path is matched with a local map. Which one it is
+// differs between local maps, so all nodes are matched.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +22,9 @@
 
 namespace psi_slam {
 
+/// Nodes with at most this many local maps near them are matched with all of these.
+inline constexpr int kFewMaps = 4;
+
 /// A turn of 1 rad counts as this much travel: by default, after both of them the front end adds equally many
 /// nodes.
 inline constexpr double kTravelOfTurn_m = 1.5;
@@ -31,8 +34,8 @@ struct FinalSearchOptions {
   double window_m = 0.3;
   double window_rad = radians_from_degrees(3.0L);
   double reach_m = 5.0;  ///< largest distance between a node and the nearest node of a local map
-  /// A local map is matched with one node in each stretch of this travel, where a turn of 1 rad counts as
-  /// kTravelOfTurn_m; 0: with every node.
+  /// Of the nodes with more than kFewMaps local maps near them, a local map is matched with one in each
+  /// stretch of this travel, where a turn of 1 rad counts as kTravelOfTurn_m; 0: with all.
   double travel_m = 0.6;
 };
 

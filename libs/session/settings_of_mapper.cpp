@@ -400,9 +400,10 @@ void describe_final_search(OptionTable& table, FinalSearchOptions& final_search)
                  "Half-width of the final search's windows in heading.")
       .number("reach_m", final_search.reach_m, at_least(0).at_most(1000), "m",
               "A node is matched with a local map if one of the map's nodes is at most this far away.")
-      .number("travel_m", final_search.travel_m, at_least(0), "m",
-              "A local map is matched with one node in each stretch of this much travel. A turn of 1 rad counts "
-              "as 1.5 m. 0 matches every node.");
+      .number(
+          "travel_m", final_search.travel_m, at_least(0), "m",
+          "Where more than 4 local maps are near, each is matched with one node in each stretch of this much "
+          "travel. A turn of 1 rad counts as 1.5 m. 0 matches every node.");
 }
 
 void describe_joint_refinement(OptionTable& table, JointRefinementOptions& refinement) {

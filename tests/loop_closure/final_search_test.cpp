@@ -66,47 +66,65 @@ TEST(FinalSearch, matches_all_pairs_near_each_other) {
   EXPECT_LT(near_pairs, rounds.keyframes.nodes.size() * rounds.keyframes.local_maps.size() / 2);
 }
 
-// Every local map is matched with one node in each stretch, and successive nodes with different local maps.
-TEST(FinalSearch, matches_one_node_in_each_stretch_of_travel_with_a_local_map) {
-  const TwoRounds& rounds = two_rounds();
+std::size_t attempts(double travel_m, double reach_m) {
   FinalSearchOptions options;
-  options.travel_m = 1;
+  options.travel_m = travel_m;
+  options.reach_m = reach_m;
+  WorkerPool pool(1);
+  return final_search(
+             two_rounds().keyframes, two_rounds().graph(), {{MatcherKind::kCsm, kExact}}, {}, options,
+             [](std::size_t, std::size_t) { return false; }, 1, pool, [](double) { return true; })
+      .effort.attempts;
+}
+
+TEST(FinalSearch, matches_one_node_in_each_stretch_where_many_local_maps_are_near) {
+  const TwoRounds& rounds = two_rounds();
+  constexpr double kTravel_m = 1;
   std::vector<double> moved_m{0};
+  double longest_step_m = 0;
   for (std::size_t node = 1; node < rounds.keyframes.nodes.size(); ++node) {
     const auto motion =
         rounds.keyframes.nodes[node].local_T_robot - rounds.keyframes.nodes[node - 1].local_T_robot;
-    moved_m.push_back(moved_m.back() + std::hypot(motion.x, motion.y) +
-                      kTravelOfTurn_m * std::abs(motion.phi));
+    const double step_m = std::hypot(motion.x, motion.y) + kTravelOfTurn_m * std::abs(motion.phi);
+    longest_step_m = std::max(longest_step_m, step_m);
+    moved_m.push_back(moved_m.back() + step_m);
   }
-  double longest_step_m = 0;
-  for (std::size_t node = 1; node < moved_m.size(); ++node)
-    longest_step_m = std::max(longest_step_m, moved_m[node] - moved_m[node - 1]);
-  ASSERT_LT(longest_step_m, options.travel_m / 2) << "a stretch has at least two nodes";
+  ASSERT_LT(longest_step_m, kTravel_m / 2) << "a stretch has at least two nodes";
 
-  // Collects the pairs that the search asks about. Answers that all are known, so it matches none.
-  std::map<std::size_t, std::vector<std::size_t>> nodes_of;
-  std::set<std::size_t> matched;
-  WorkerPool pool(1);
+  FinalSearchOptions options;
+  options.travel_m = kTravel_m;
   options.reach_m = 1000;
-  final_search(
+  ASSERT_GT(rounds.keyframes.local_maps.size(), kFewMaps + 1U);
+  WorkerPool pool(1);
+  const FinalSearchOutcome outcome = final_search(
       rounds.keyframes, rounds.graph(), {{MatcherKind::kCsm, kExact}}, {}, options,
-      [&](std::size_t node, std::size_t local_map) {
-        nodes_of[local_map].push_back(node);
-        matched.insert(node);
-        return true;
-      },
-      1, pool, [](double) { return true; });
-  ASSERT_EQ(nodes_of.size(), rounds.keyframes.local_maps.size());
-  for (const auto& [local_map, nodes] : nodes_of) {
-    const PlacedLocalMap& own = rounds.keyframes.local_maps[local_map];
-    for (std::size_t i = 1; i < nodes.size(); ++i) {
-      if (nodes[i - 1] == 0) continue;
-      if (nodes[i - 1] < own.first_node && nodes[i] > own.last_node) continue;  // its own nodes are between
-      const double between_m = moved_m[nodes[i]] - moved_m[nodes[i - 1]];
-      EXPECT_NEAR(between_m, options.travel_m, longest_step_m);
+      [](std::size_t, std::size_t) { return false; }, 1, pool, [](double) { return true; });
+  const auto has_many_near = [&](std::size_t node) {
+    int near = 0;
+    for (const PlacedLocalMap& map : rounds.keyframes.local_maps)
+      near += node < map.first_node || node > map.last_node ? 1 : 0;
+    return near > kFewMaps;
+  };
+  std::map<std::size_t, std::size_t> last_node_of;  // key: local map
+  std::set<std::size_t> matched;
+  for (const LoopRecord& loop : outcome.loops) {
+    if (loop.node == 0 || !has_many_near(loop.node)) continue;
+    matched.insert(loop.node);
+    const auto last = last_node_of.find(loop.local_map);
+    if (last != last_node_of.end()) {
+      EXPECT_GT(moved_m[loop.node] - moved_m[last->second], kTravel_m - longest_step_m);
     }
+    last_node_of[loop.local_map] = loop.node;
   }
-  EXPECT_GT(matched.size(), rounds.keyframes.nodes.size() / 2) << "different local maps, different nodes";
+  EXPECT_GT(static_cast<double>(matched.size()), moved_m.back() / kTravel_m)
+      << "different local maps are matched with different nodes";
+  EXPECT_LT(outcome.effort.attempts, attempts(0, 1000));
+}
+
+TEST(FinalSearch, matches_every_node_where_few_local_maps_are_near) {
+  constexpr double kReach_m = 0.5;
+  EXPECT_GT(attempts(0, kReach_m), 100U);
+  EXPECT_EQ(attempts(1, kReach_m), attempts(0, kReach_m));
 }
 
 TEST(FinalSearch, counts_the_matches_that_it_found) {

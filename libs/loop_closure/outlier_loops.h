@@ -29,9 +29,9 @@ inline constexpr double kPlausibleShare = 0.75;
 
 /// Optimises the graph. Enables and disables the constraints `loops` until no enabled loop has a residual
 /// above `max_chi` standard deviations and a path_chi() above kPlausibleShare * `max_chi`. Computes
-/// path_chi() once, of the loops that are disabled when no enabled loop is contradicted any more; loops that
-/// are disabled after that stay disabled. Returns the residuals in the order of `loops`. If `doubtful_share`
-/// is 1, never calls select_inlier_loops().
+/// path_chi() once, when no enabled loop is contradicted, of the loops that are then disabled. Loops that are
+/// disabled after that stay disabled. Returns the residuals in the order of `loops`. If `doubtful_share` is
+/// 1, never calls select_inlier_loops().
 std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
                                              const std::vector<std::size_t>& loops, double max_chi,
                                              double doubtful_share = kDoubtfulShare);

@@ -32,10 +32,10 @@ struct EvalOptions {
 /// --version.
 EvalOptions parse(const std::vector<std::string>& arguments, CLI::App& app) {
   EvalOptions options;
-  app.add_option("TRAJECTORY", options.trajectory,
-                 "Trajectory: trajectory.csv or trajectory.tum of a run, lines 'timestamp x y theta', TUM "
-                 "format, or a "
-                 "corrected CARMEN log with FLASER lines")
+  app.add_option(
+         "TRAJECTORY", options.trajectory,
+         "Trajectory: trajectory.csv of a run, TUM format, lines 'timestamp x y theta', or a corrected "
+         "CARMEN log with FLASER lines")
       ->required();
   app.add_option("RELATIONS", options.relations,
                  "Known relative poses: lines 'time1 time2 x y z roll pitch yaw'")

@@ -24,6 +24,7 @@ using Kind = WallChange::Kind;
 // Share of the cells around a changed wall that the other map must show as free. More than half, so that free
 // space on one side of a wall is no evidence; less than one, because maps have unseen specks.
 constexpr double kLeastClear = 0.9;
+constexpr double kRounding_cells = 1e-4;  // of lengths in cells, because MRPT's resolution is a float
 
 /// The value of an expression of masks, such as `a & b`.
 cv::Mat1b mask(const cv::Mat& expression) {
@@ -164,7 +165,7 @@ class Classification {
  public:
   Classification(const Layer& a, const Layer& b, const WallChangeOptions& options, ComparedCells& cells)
       : cells_(cells),
-        limits_{options.farthest_move_m / cells.cell_m, options.tolerance_m / cells.cell_m,
+        limits_{options.farthest_move_m / cells.cell_m, options.tolerance_m / cells.cell_m + kRounding_cells,
                 options.min_length_m / cells.cell_m},
         only_a_(without_counterpart(a.wall, b.wall, limits_.tolerance)),
         only_b_(without_counterpart(b.wall, a.wall, limits_.tolerance)),

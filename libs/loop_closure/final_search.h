@@ -4,7 +4,7 @@
 //
 // Where many local maps overlap, most matches would only confirm others, because successive nodes see the
 // same. There, only one node in each stretch of the path is matched with a local map. Which one it is
-// differs between local maps, so all nodes are matched.
+// differs between local maps, so most nodes are matched with one of them.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ namespace psi_slam {
 /// Nodes with at most this many local maps near them are matched with all of these.
 inline constexpr int kFewMaps = 4;
 
-/// A turn of 1 rad counts as this much travel: by default, after both of them the front end adds equally many
-/// nodes.
+/// A turn of 1 rad counts as this much travel: by default, after both of them the front end adds about
+/// equally many nodes.
 inline constexpr double kTravelOfTurn_m = 1.5;
 
 struct FinalSearchOptions {

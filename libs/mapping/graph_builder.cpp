@@ -26,7 +26,7 @@ constexpr double kStartSigma_rad = radians_from_degrees(3.0L);
 double between_runs_m(const BackEndOptions& options) {
   return 1 + std::max({options.loop_closure.candidates.min_travel_m, options.loop_closure.context.travel_m,
                        options.loop_closure.attempt_distance_m, options.loop_consensus.memory_m,
-                       options.loop_closure.verification.neighbourhood_m, options.final_search.travel_m});
+                       options.loop_closure.verification.neighbourhood_m});
 }
 
 /// Returns the information matrix of node_T_robot. The standard deviations apply to the pose at which the

@@ -92,7 +92,7 @@ Grid cropped(const Grid& grid, const CellRectangle& kept) {
 }
 
 /// Makes all cells outside the polygon unknown and shrinks the grid to the cells whose centre lies in the
-/// rectangle around the polygon, which has at least one.
+/// rectangle around the polygon. Requires at least one cell in the polygon.
 void crop(const MapEdit& edit, Grid& grid) {
   Grid kept = grid;
   kept.fill(kUnknown);

@@ -218,7 +218,9 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   m.enter(Members::State::kFinished);
   if (m.after_finish == Mapper::AfterFinish::kNothing) {
     m.mapper.reset();
+#ifdef __GLIBC__
     malloc_trim(0);  // glibc would keep this memory, and drawing needs blocks that are too large for it
+#endif
   }
   m.result.stages.insert(m.result.stages.begin(), m.reading_clock.timing());
   if (m.prior) m.result.stages.push_back(prior_clock.timing());

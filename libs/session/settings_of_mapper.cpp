@@ -391,7 +391,7 @@ void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
 }
 
 void describe_final_search(OptionTable& table, FinalSearchOptions& final_search) {
-  table.section("final_search", "Final loop search: matches all near pairs after the last scan")
+  table.section("final_search", "Final loop search: matches nodes with nearby local maps after the last scan")
       .integer("passes", final_search.passes, between(0, 100), "passes",
                "Number of final loop searches, each followed by an optimisation. 0 skips the final search.")
       .number("window_m", final_search.window_m, above(0).at_most(100), "m",

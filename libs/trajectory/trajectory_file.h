@@ -4,8 +4,8 @@
 //
 //     TUM       timestamp tx ty tz qx qy qz qw      with tz = qx = qy = 0, qz = sin(yaw/2), qw = cos(yaw/2)
 //     plane     timestamp x y theta
-//     CSV       trajectory.csv of psi-slam: the header time_s,x_m,y_m,theta_rad,..., then lines with these
-//     values CARMEN    FLASER n r1..rn  x y theta  odom_x odom_y odom_theta  timestamp host logger_timestamp
+//     CSV       time_s,x_m,y_m,theta_rad,...        as in trajectory.csv of psi-slam, after a line of names
+//     CARMEN    FLASER n r1..rn  x y theta  odom_x odom_y odom_theta  timestamp host logger_timestamp
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

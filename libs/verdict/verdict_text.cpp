@@ -101,10 +101,12 @@ std::string hot_spot_text(const HotSpot& spot) {
 
 std::string advice_text(const HotSpot& spot) {
   const Suspect& suspect = spot.suspect;
-  const std::string edit = spot.edit ? "add the line \"" + edit_line(spot) + "\" to the file of --edits"
-                                     : "match a scan after scan " + std::to_string(suspect.last_frame) +
-                                           " with a local map before scan " +
-                                           std::to_string(suspect.first_frame) + " by hand";
+  const bool is_apart = suspect.kind == Suspect::Kind::kLost || suspect.kind == Suspect::Kind::kUnplaced;
+  std::string edit = "match a scan after scan " + std::to_string(suspect.last_frame) +
+                     (is_apart ? " with a local map of the rest of the map"
+                               : " with a local map before scan " + std::to_string(suspect.first_frame)) +
+                     " by hand";
+  if (spot.edit) edit = "make the edit \"" + edit_line(spot) + '"';
   std::string setting;
   if (suspect.kind == Suspect::Kind::kUnmatched) setting = "raise front_end.max_wide_window_m, or ";
   if (!suspect.searched_loops) return setting + "set loop_closure.enabled=true";

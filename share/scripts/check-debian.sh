@@ -60,10 +60,12 @@ signal_processes() {
   local process root found=1
   for process in /proc/[0-9]*; do
     root=$(readlink "$process/root" 2>/dev/null) || continue
-    if [ "$root" = "$system" ] || [ "$root" = "$robot" ]; then
-      kill "-$1" "${process##*/}" 2>/dev/null || true
-      found=0
-    fi
+    case $root in  # check-package.sh runs programs in a further system within
+      "$system" | "$system"/* | "$robot")
+        kill "-$1" "${process##*/}" 2>/dev/null || true
+        found=0
+        ;;
+    esac
   done
   return "$found"
 }

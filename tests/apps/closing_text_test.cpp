@@ -61,7 +61,7 @@ TEST_F(ClosingText, ends_with_the_verdict_about_a_good_map) {
 TEST_F(ClosingText, names_the_worst_place_of_a_doubtful_map_and_warns_of_a_broken_one) {
   EXPECT_FALSE(broken_map_text(summary_)) << "not judged";
   summary_.verdict = doubtful_map();
-  constexpr const char* kAdvice = ". Try: add the line \"delete scan=45 local_map=3\" to the file of --edits";
+  constexpr const char* kAdvice = ". Try: make the edit \"delete scan=45 local_map=3\"";
   EXPECT_THAT(text(), HasSubstr(kAdvice));
   EXPECT_FALSE(broken_map_text(summary_));
   summary_.verdict->state = MapState::kBroken;

@@ -90,7 +90,7 @@ TEST_F(VerdictApp, advises_edits_that_mend_the_map) {
     const Json& spot = verdict["hot_spots"][0];
     ASSERT_TRUE(spot["edit"].is_string()) << spot.dump(1);
     const auto line = spot["edit"].get<std::string>();
-    EXPECT_THAT(app_.out + app_.err, HasSubstr("add the line \"" + line + "\" to the file of --edits"));
+    EXPECT_THAT(app_.out + app_.err, HasSubstr("make the edit \"" + line + "\""));
     write_file(edits, bytes_of(edits) + line + '\n');
   };
   const Json first = verdict_of(slipping_run(), settings);

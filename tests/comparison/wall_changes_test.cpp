@@ -218,6 +218,7 @@ TEST(WallChanges, an_opened_door_has_changed) {
 TEST(WallChanges, shifts_within_the_tolerance_and_specks_are_noise) {
   EXPECT_TRUE(changes({}, {}, TPose2D(0, 0, 0)).empty());
   EXPECT_TRUE(find_wall_changes(map_of({}), map_of({}), {0.1, 0.05, 0}).changes.empty());
+  EXPECT_TRUE(find_wall_changes(map_of({}), map_of({}), {0.15, 0, 0}).changes.empty()) << "the tolerance";
   EXPECT_FALSE(find_wall_changes(map_of({}), map_of({}), {0.3, 0.3, 0}).changes.empty());
   EXPECT_TRUE(changes({}, with_wall({{2, 3}, {2.15, 3}})).empty());
   DrawnPlan dotted;

@@ -158,7 +158,7 @@ TEST(SummaryJson, has_the_verdict_about_the_map) {
   EXPECT_EQ(spot["kind"], "doubled wall");
   EXPECT_EQ(spot["x_m"], 1.5);
   EXPECT_EQ(spot["suspect"]["local_map"], 3);
-  EXPECT_EQ(spot["advice"], "add the line \"delete scan=45 local_map=3\" to the file of --edits");
+  EXPECT_EQ(spot["advice"], "make the edit \"delete scan=45 local_map=3\"");
   EXPECT_EQ(spot["edit"], "delete scan=45 local_map=3");
   EXPECT_EQ(spot["suspect"]["places"], 1);
   EXPECT_EQ(verdict["more_hot_spots"], 0);

@@ -84,7 +84,7 @@ TEST(MapVerdict, suspects_the_loop_that_the_map_contradicts) {
   for (const HotSpot& spot : verdict.hot_spots) {
     EXPECT_EQ(spot.suspect.kind, Suspect::Kind::kLoop);
     EXPECT_EQ(spot.suspect.loop, 1U);
-    EXPECT_EQ(advice_text(spot), "add the line \"delete scan=50 local_map=0\" to the file of --edits");
+    EXPECT_EQ(advice_text(spot), "make the edit \"delete scan=50 local_map=0\"");
   }
 }
 
@@ -201,10 +201,9 @@ TEST(MapVerdict, advises_to_match_a_scan_with_a_local_map_before_the_suspect) {
   EXPECT_EQ(worst.edit->kind, LoopEdit::Kind::kMatch);
   EXPECT_GE(worst.edit->frame, worst.suspect.last_frame);
   ASSERT_LT(worst.edit->local_map, 2U) << "of the first round";
-  EXPECT_EQ(
-      advice_text(worst),
-      "raise loop_closure.wide_searches, or add the line \"match scan=" + std::to_string(worst.edit->frame) +
-          " local_map=" + std::to_string(worst.edit->local_map) + " matcher=csm\" to the file of --edits");
+  EXPECT_EQ(advice_text(worst), "raise loop_closure.wide_searches, or make the edit \"match scan=" +
+                                    std::to_string(worst.edit->frame) +
+                                    " local_map=" + std::to_string(worst.edit->local_map) + " matcher=csm\"");
 }
 
 TEST(MapVerdict, advises_to_force_a_match_by_hand_that_was_switched_off) {

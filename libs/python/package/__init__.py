@@ -12,7 +12,7 @@ The page share/doc/python.md explains the module with examples.
 
 try:
     import numpy as _numpy  # _core needs it, and would only say that its initialization failed
-except ImportError as _error:
+except ModuleNotFoundError as _error:
     raise ImportError("psi_slam needs NumPy. Install python3-numpy, or run /usr/bin/python3") from _error
 
 from psi_slam._core import (

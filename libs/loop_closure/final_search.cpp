@@ -19,15 +19,12 @@ constexpr std::size_t kBatch = 64;
 /// places.
 class NodeChoice {
  public:
-  NodeChoice(const std::vector<NodeScan>& nodes, double stretch_m) : stretch_m_(stretch_m) {
-    for (std::size_t node = 0; node < nodes.size(); ++node) {
-      if (node == 0) {
-        moved_m_.push_back(0);
-        continue;
-      }
+  NodeChoice(const std::vector<NodeScan>& nodes, double stretch_m)
+      : stretch_m_(stretch_m), moved_m_(nodes.size()) {
+    for (std::size_t node = 1; node < nodes.size(); ++node) {
       const mrpt::math::TPose2D motion = between(nodes[node - 1].local_T_robot, nodes[node].local_T_robot);
-      moved_m_.push_back(moved_m_.back() + portable::hypot(motion.x, motion.y) +
-                         kTravelOfTurn_m * std::abs(motion.phi));
+      moved_m_[node] =
+          moved_m_[node - 1] + portable::hypot(motion.x, motion.y) + kTravelOfTurn_m * std::abs(motion.phi);
     }
   }
 

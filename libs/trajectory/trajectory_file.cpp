@@ -64,7 +64,7 @@ StampedPose csv_pose(const TextLine& line) {
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   if (row.words.size() < kPlaneWords)
-    throw line.error("expected values of time_s,x_m,y_m,theta_rad, found " +
+    throw line.error("expected values of " + std::string(kCsvHeader) + ", found " +
                      counted(row.words.size(), "value"));
   return plane_pose(row, 0, 1);
 }

@@ -276,7 +276,7 @@ class Judge {
     for (const PassCheck& check : checks_) {
       if (check.view < first_view || check.view > last_view) continue;
       const auto [first, last] = std::minmax(check.view, check.other);
-      if (views_[last].frame < suspect.last_frame) continue;
+      if (views_[first].frame > suspect.first_frame || views_[last].frame < suspect.last_frame) continue;
       if (best != nullptr &&
           std::pair(check.fits_if_moved, check.error_m) <= std::pair(best->fits_if_moved, best->error_m))
         continue;

@@ -19,6 +19,14 @@ std::string scans_text(const Suspect& suspect) {
              : "scans " + first + " to " + std::to_string(suspect.last_frame);
 }
 
+const double kLargestError_m = PassCheckOptions().unknown_m;
+
+/// Only errors that scans show have an upper bound, not those that are predicted.
+bool is_too_large_to_measure(const HotSpot& spot) {
+  const bool is_predicted = spot.kind == HotSpot::Kind::kUncertain || spot.kind == HotSpot::Kind::kUnmatched;
+  return !is_predicted && spot.error_m && *spot.error_m >= kLargestError_m;
+}
+
 }  // namespace
 
 std::string text_of(HotSpot::Kind kind) {
@@ -77,11 +85,8 @@ std::string verdict_sentence(const MapVerdict& verdict) {
 
 std::string error_text(const HotSpot& spot) {
   if (!spot.error_m) return {};
-  // Only errors that scans show have an upper bound.
-  const double largest_m = PassCheckOptions().unknown_m;
-  const bool is_predicted = spot.kind == HotSpot::Kind::kUncertain || spot.kind == HotSpot::Kind::kUnmatched;
-  return is_predicted || *spot.error_m < largest_m ? fixed_text(*spot.error_m, 2) + " m"
-                                                   : fixed_text(largest_m, 0) + " m or more";
+  return is_too_large_to_measure(spot) ? fixed_text(kLargestError_m, 0) + " m or more"
+                                       : fixed_text(*spot.error_m, 2) + " m";
 }
 
 std::string edit_line(const HotSpot& spot) {
@@ -92,8 +97,8 @@ std::string edit_line(const HotSpot& spot) {
 
 std::string hot_spot_text(const HotSpot& spot) {
   std::string text = text_of(spot.kind) + " at " + place_text(spot.at);
-  if (const std::string error = error_text(spot); !error.empty())
-    text += ", error " + std::string(error.find("more") == std::string::npos ? "about " : "of ") + error;
+  if (spot.error_m)
+    text += (is_too_large_to_measure(spot) ? ", error of " : ", error about ") + error_text(spot);
   text += "; suspect";
   if (spot.places_of_suspect > 1) text += " of " + counted(spot.places_of_suspect, "place");
   return text + ": " + text_of(spot.suspect);

@@ -174,6 +174,8 @@ TEST(WallChanges, free_space_counts_only_with_free_space_on_both_sides) {
   };
   EXPECT_FALSE(is_change([](double, double y) { return std::abs(y - 3) > 0.03; })) << "a single beam";
   EXPECT_FALSE(is_change([](double, double y) { return y > 3.06; })) << "only the near side of a grazed wall";
+  EXPECT_FALSE(is_change([](double, double y) { return std::abs(y - 3) > 0.13; }))
+      << "two cells on each side, the tolerance is three";
   EXPECT_FALSE(is_change([](double x, double) { return std::fmod(x, 0.2) > 0.11; })) << "a fan of beams";
   EXPECT_TRUE(is_change([](double, double y) { return y > 3.3; }));
   EXPECT_TRUE(is_change([](double x, double y) {

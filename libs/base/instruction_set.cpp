@@ -26,7 +26,8 @@ bool machine_has([[maybe_unused]] InstructionSet set) {
   __builtin_cpu_init();
   if (set == InstructionSet::kAvx2) return __builtin_cpu_supports("avx2") != 0;
   if (set == InstructionSet::kAvx512)
-    return __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512vl") != 0;
+    return __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+           __builtin_cpu_supports("avx512vl") != 0;
 #endif
   return set == InstructionSet::kBaseline;
 }
@@ -35,6 +36,11 @@ bool machine_has([[maybe_unused]] InstructionSet set) {
 
 bool can_use(InstructionSet set) {
   return set <= largest_allowed() && machine_has(set);
+}
+
+InstructionSet widest_instruction_set() {
+  if (can_use(InstructionSet::kAvx512)) return InstructionSet::kAvx512;
+  return can_use(InstructionSet::kAvx2) ? InstructionSet::kAvx2 : InstructionSet::kBaseline;
 }
 
 }  // namespace psi_slam

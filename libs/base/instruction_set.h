@@ -12,4 +12,7 @@ enum class InstructionSet { kBaseline, kAvx2, kAvx512 };  // each contains those
 /// value.
 bool can_use(InstructionSet set);
 
+/// Returns the largest instruction set that can_use() allows.
+InstructionSet widest_instruction_set();
+
 }  // namespace psi_slam

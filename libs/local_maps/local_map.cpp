@@ -295,13 +295,6 @@ void LocalMap::unpack() {
   packed_ = false;
 }
 
-bool LocalMap::observed(int x, int y) const {
-  const int width = scores_.finest().width();
-  if (x < 0 || y < 0 || x >= width || y >= scores_.finest().height()) return false;
-  if (finished_) return observed_[static_cast<std::size_t>(y / 2 * ((width + 1) / 2) + x / 2)] != 0;
-  return grid_->getRow(y)[x] != 0;
-}
-
 LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
                                         const mrpt::math::TPose2D& map_T_robot) const {
   constexpr int kHitScore = 64;  // a quarter of 255: about 1.7 sigma from a wall
@@ -311,6 +304,14 @@ LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
   const double c = portable::cos(map_T_robot.phi);
   const double s = portable::sin(map_T_robot.phi);
   const double cells_per_m = 1 / scores_.resolution_m();
+  const int width = finest.width();
+  const int height = finest.height();
+  const int half_width = (width + 1) / 2;
+  const auto observed = [&](int x, int y) {
+    if (x < 0 || y < 0 || x >= width || y >= height) return false;
+    return finished_ ? observed_[static_cast<std::size_t>(y / 2 * half_width + x / 2)] != 0
+                     : grid_->getRow(y)[x] != 0;
+  };
   for (const auto& point : scan.points) {
     const double px = map_T_robot.x + c * static_cast<double>(point.x) - s * static_cast<double>(point.y);
     const double py = map_T_robot.y + s * static_cast<double>(point.x) + c * static_cast<double>(point.y);
@@ -318,12 +319,12 @@ LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
     const int y = floor_to_int((py - scores_.origin_y_m()) * cells_per_m);
     if (!observed(x, y)) continue;
     ++agreement.observed;
-    std::uint8_t best = 0;
-    for (int j = -1; j <= 1; ++j) {
+    bool hit = *finest.cell(x, y) >= kHitScore;  // as most points
+    for (int j = -1; j <= 1 && !hit; ++j) {
       const std::uint8_t* row = finest.cell(x, y + j);  // the margin makes row[-1] and row[1] valid
-      best = std::max({best, row[-1], row[0], row[1]});
+      hit = std::max({row[-1], row[0], row[1]}) >= kHitScore;
     }
-    if (best >= kHitScore) ++agreement.hits;
+    if (hit) ++agreement.hits;
   }
   return agreement;
 }

@@ -119,7 +119,6 @@ class LocalMap {
   void begin_scores();
   void paint_dirty_tiles();
   Region observed_region() const;
-  bool observed(int x, int y) const;
   void draw_hits(const Beams& beams, std::vector<Way>& ways);
   void draw_hit(int x, int y);
   void draw_surface(int x0, int y0, int x1, int y1);

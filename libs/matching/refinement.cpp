@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "base/portable_math.h"
+#include "matching/refinement_kernel.h"
 
 namespace psi_slam {
 namespace {
@@ -24,41 +25,33 @@ struct Linearisation {
   Eigen::Vector3d descent = Eigen::Vector3d::Zero();
 };
 
-// Removes the slope of the score along a straight surface. A point does not determine the position along its
-// surface, so this slope is noise.
-void keep_normal_part(ScoreGrid::Sample& sample, const mrpt::math::TPoint2Df& normal, double c, double s) {
-  if (normal.x == 0.0F && normal.y == 0.0F) return;
-  const double x = c * static_cast<double>(normal.x) - s * static_cast<double>(normal.y);
-  const double y = s * static_cast<double>(normal.x) + c * static_cast<double>(normal.y);
-  const double slope = sample.d_dx * x + sample.d_dy * y;
-  sample.d_dx = slope * x;
-  sample.d_dy = slope * y;
-}
-
 Linearisation linearise(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D& pose,
                         double score_sigma, const PosePrior& prior) {
+  static_assert(sizeof(mrpt::math::TPoint2Df) == 2 * sizeof(float));
+  PlacedScan placed;
+  placed.cells = grid.finest().cell(0, 0);
+  placed.row_bytes = grid.finest().row_bytes();
+  placed.width = grid.finest().width();
+  placed.height = grid.finest().height();
+  placed.cells_per_m = 1 / grid.resolution_m();
+  placed.x_cells = (pose.x - grid.origin_x_m()) * placed.cells_per_m - 0.5;
+  placed.y_cells = (pose.y - grid.origin_y_m()) * placed.cells_per_m - 0.5;
+  placed.cosine = portable::cos(pose.phi);
+  placed.sine = portable::sin(pose.phi);
+  placed.count = scan.points.size();
+  if (!scan.points.empty()) placed.points = &scan.points.front().x;
+  if (!scan.normals.empty()) placed.normals = &scan.normals.front().x;
+  const ScoreSums sums = refinement_kernel()(placed);
+
   Linearisation result;
-  const double c = portable::cos(pose.phi);
-  const double s = portable::sin(pose.phi);
-  const bool with_normals = !scan.normals.empty();
-  for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const auto& point = scan.points[i];
-    const double dx = c * static_cast<double>(point.x) - s * static_cast<double>(point.y);
-    const double dy = s * static_cast<double>(point.x) + c * static_cast<double>(point.y);
-    ScoreGrid::Sample sample = grid.interpolate(pose.x + dx, pose.y + dy);
-    if (with_normals) keep_normal_part(sample, scan.normals[i], c, s);
-    const double residual = 1 - sample.value;
-    result.cost += residual * residual;
-    result.mean_score += sample.value;
-    const Eigen::Vector3d jacobian(sample.d_dx, sample.d_dy, dx * sample.d_dy - dy * sample.d_dx);
-    result.information.noalias() += jacobian * jacobian.transpose();
-    result.descent += jacobian * residual;
-  }
   const double weight = 1 / (score_sigma * score_sigma);
+  result.cost = weight * sums.squares;
+  result.mean_score = sums.scores / static_cast<double>(std::max<std::size_t>(1, scan.points.size()));
+  result.information << sums.xx, sums.xy, sums.x_phi,  //
+      sums.xy, sums.yy, sums.y_phi,                    //
+      sums.x_phi, sums.y_phi, sums.phi_phi;
   result.information *= weight;
-  result.cost *= weight;
-  result.descent *= weight;
-  result.mean_score /= static_cast<double>(std::max<std::size_t>(1, scan.points.size()));
+  result.descent = weight * Eigen::Vector3d(sums.x, sums.y, sums.phi);
   result.hessian = result.information;
   const Eigen::Vector3d off(prior.map_T_robot.x - pose.x, prior.map_T_robot.y - pose.y,
                             mrpt::math::wrapToPi(prior.map_T_robot.phi - pose.phi));

@@ -13,10 +13,7 @@ SumKernel sum_kernel_for(InstructionSet set) {
 }
 
 SumKernel sum_kernel() {
-  static const SumKernel kernel =
-      sum_kernel_for(can_use(InstructionSet::kAvx512) ? InstructionSet::kAvx512
-                     : can_use(InstructionSet::kAvx2) ? InstructionSet::kAvx2
-                                                      : InstructionSet::kBaseline);
+  static const SumKernel kernel = sum_kernel_for(widest_instruction_set());
   return kernel;
 }
 

@@ -11,10 +11,8 @@
 namespace psi_slam {
 namespace {
 
-constexpr double kLeastWeight = 0.05;
-
 double weight(const LoopConsensus::Vote& vote) {
-  return std::max(kLeastWeight, 1 - vote.ambiguity);
+  return 1 - vote.ambiguity;
 }
 
 }  // namespace

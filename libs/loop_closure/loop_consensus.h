@@ -3,7 +3,8 @@
 // pose is only known to within metres, one match proves little, because equal doors along a corridor fit
 // several places. But every match implies a pose of the front end's frame in the map. True matches of several
 // scans imply the same pose, whereas false matches imply different poses. The weight of a match decreases
-// with its ambiguity.
+// with its ambiguity, down to 0: along a corridor with equal doors, matches that are all off by the same number
+// of doors agree with each other for as long as the robot follows the corridor.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -22,7 +23,7 @@ struct LoopConsensusOptions {
   double same_place_m = 0.5;                             ///< largest distance between poses that agree
   double same_heading_rad = radians_from_degrees(3.5L);  ///< largest turn between poses that agree
   double min_span_m = 1.0;       ///< shortest path between the first and the last match that agree
-  double min_weight = 0.5;       ///< minimum sum of agreeing weights; a weight is max(0.05, 1 - ambiguity)
+  double min_weight = 0.5;       ///< minimum sum of agreeing weights; a weight is 1 - ambiguity
   double max_rival_share = 0.5;  ///< largest weight of another place, divided by the sum of agreeing weights
 };
 

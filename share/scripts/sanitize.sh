@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Builds the tests with sanitizers and runs them. The last line counts the tests that passed, failed and were skipped. The exit code
+# is 0 if no test failed.
+#
+#     share/scripts/sanitize.sh asan [CTEST OPTION...]     # addresses and undefined behaviour: all tests
+#     share/scripts/sanitize.sh tsan [CTEST OPTION...]     # threads: the tests of the parts that use threads
+#
+# Builds in build/asan or build/tsan, which takes two to three times as long as the release. Tests of scripts and packages do not run:
+# they test builds without sanitizers. Tests with real logs need the environment variable PSI_SLAM_DATA. It names the folder
+# that fetch-benchmark-logs.sh filled.
+set -euo pipefail
+
+case "${1:-}" in
+  asan) selection=(--exclude-regex '^(scripts|package|fuzz|documents)\.') ;;
+  tsan) selection=(--tests-regex '^(base|loop_closure|mapping|session|live|replay)\.|[Tt]hread') ;;
+  *)
+    echo "usage: share/scripts/sanitize.sh asan|tsan [CTEST OPTION...]" >&2
+    exit 2
+    ;;
+esac
+preset=$1
+shift
+if [ -n "${PSI_SLAM_DATA:-}" ]; then
+  PSI_SLAM_DATA=$(cd "$PSI_SLAM_DATA" && pwd)
+  export PSI_SLAM_DATA
+fi
+cd "$(dirname "$0")/../.."
+
+share/scripts/install-dependencies.sh build runtime test
+cmake --preset "$preset" -D PSI_SLAM_BUILD_TESTS=ON >/dev/null
+cmake --build --preset "$preset" --parallel "${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"
+results=$PWD/build/$preset/test-results.xml
+rm -f "$results"
+status=0
+ctest --preset "$preset" --parallel "$(nproc)" "${selection[@]}" --output-junit "$results" "$@" || status=$?
+python3 share/scripts/test-summary.py "$results" || status=1
+exit "$status"

@@ -116,17 +116,19 @@ void add_exact_search_command(CLI::App& app, const Streams& streams) {
 void add_false_loops_command(CLI::App& app, const Streams& streams) {
   const auto arguments = std::make_shared<Arguments<FalseLoopBenchmarkOptions>>();
   CLI::App& command = *app.add_subcommand(
-      "false-loops", "Add false loops to the graphs of real logs and measure the errors of the maps");
+      "false-loops",
+      "Add false loops and slips to the graphs of real logs and measure the errors of the maps");
   add_data_options(command, *arguments);
   add_logs_option(command, *arguments);
   command
       .add_option("--shares", arguments->options.shares_percent,
-                  "Numbers of false loops in percent of the true loops, separated by commas")
+                  "Numbers of false loops in percent of the true loops, and up to 100 of bent stretches in "
+                  "percent of all stretches, separated by commas")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 10'000.0))
       ->capture_default_str()
       ->type_name("PERCENTS");
-  add_seeds_option(command, arguments->options.seeds, "Seeds of the false loops");
+  add_seeds_option(command, arguments->options.seeds, "Seeds of the false loops and slips");
   run_on_logs(
       command, arguments, streams, [&](const auto& data) { return chosen_logs(data, streams); },
       [](const ChosenLogs& chosen, const auto& options, const ProgressObserver& progress) {

@@ -3,8 +3,8 @@
 // pose is only known to within metres, one match proves little, because equal doors along a corridor fit
 // several places. But every match implies a pose of the front end's frame in the map. True matches of several
 // scans imply the same pose, whereas false matches imply different poses. The weight of a match decreases
-// with its ambiguity, down to 0: along a corridor with equal doors, matches that are all off by the same number
-// of doors agree with each other for as long as the robot follows the corridor.
+// with its ambiguity, down to 0: along a corridor with equal doors, matches that are all off by the same
+// number of doors agree with each other for as long as the robot follows the corridor.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

@@ -29,11 +29,11 @@ struct PlacedScan {
 };
 
 /// Sums over the points. M is the interpolated score of a point, and (x, y, phi) its derivatives by the pose,
-/// in 1/m and 1/rad. On a straight surface, only the slope along its normal counts: a point does not determine
-/// the position along its surface. Cells outside the level have the score 0.
+/// in 1/m and 1/rad. On a straight surface, only the slope along its normal counts: a point does not
+/// determine the position along its surface. Cells outside the level have the score 0.
 struct ScoreSums {
-  double squares = 0;  ///< of (1 - M)^2
-  double scores = 0;   ///< of M
+  double squares = 0;                                                ///< of (1 - M)^2
+  double scores = 0;                                                 ///< of M
   double xx = 0, xy = 0, yy = 0, x_phi = 0, y_phi = 0, phi_phi = 0;  ///< of products of derivatives
   double x = 0, y = 0, phi = 0;                                      ///< of derivative * (1 - M)
 };

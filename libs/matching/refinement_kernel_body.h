@@ -60,7 +60,8 @@ struct CubicWeights {
 };
 
 inline Floats dot(const Floats (&values)[4], const Floats (&weights)[4]) {
-  return (values[0] * weights[0] + values[1] * weights[1]) + (values[2] * weights[2] + values[3] * weights[3]);
+  return (values[0] * weights[0] + values[1] * weights[1]) +
+         (values[2] * weights[2] + values[3] * weights[3]);
 }
 
 // Returns the largest integers not above the values, which are at least -8.

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../pose_graph/test_graphs.h"
+#include "false_loops/bent_path.h"
 #include "pose_graph/spanning_tree.h"
 
 namespace psi_slam {
@@ -55,6 +56,26 @@ TEST(FalseLoopBenchmark, the_back_end_survives_10_100_and_500_percent) {
   }
 }
 
+TEST(FalseLoopBenchmark, loops_straighten_a_path_with_slips) {
+  const LoopTrial trial = building_trial();
+  for (const double share_percent : {0, 10}) {
+    SCOPED_TRACE(share_percent);
+    BentPathOptions bend;
+    bend.share = share_percent / 100;
+    const double bent_m = trial.error(bent(trial.graph, trial.unlooped, bend).unlooped).translation_m;
+    const FalseLoopRow row = run_loop_trial(trial, FalseLoopKind::kSlips, share_percent, bend.seed);
+    EXPECT_NEAR(static_cast<double>(row.false_loops), share_percent / 100 * 20, 2);  // 1,000 nodes
+    EXPECT_EQ(row.undefended.false_kept, 0U);
+    for (const LoopTrialOutcome* outcome : {&row.defended, &row.from_map}) {
+      EXPECT_LT(outcome->error.translation_m, 0.5 * bent_m);
+      EXPECT_EQ(outcome->false_kept, 0U);
+    }
+    if (share_percent == 0) {
+      EXPECT_EQ(row.defended.true_lost, 0U);
+    }
+  }
+}
+
 TEST(FalseLoopBenchmark, is_reported_as_page_json_csv_and_plots) {
   FalseLoopBenchmark benchmark;
   benchmark.logs = {{"office", 100, 40, {0.02, 0.5}, {0.3, 1.5}}};
@@ -86,7 +107,7 @@ TEST(FalseLoopBenchmark, is_reported_as_page_json_csv_and_plots) {
   EXPECT_EQ(json["files"][0]["sha256"], "a0a0");
   EXPECT_EQ(json["logs"][0]["without_loops"]["translation_error_m"], 0.3);
   EXPECT_THAT(report.csv, HasSubstr("\noffice,groups,50.0,1 2,0,20,7.0,0.0,7.0,7.0,"));
-  ASSERT_EQ(report.plots.size(), 3U);
+  ASSERT_EQ(report.plots.size(), 4U);
   const std::string& plot = report.plots[1].content;
   EXPECT_EQ(report.plots[1].file, "false-loops-groups.svg");
   EXPECT_THAT(plot, testing::AllOf(HasSubstr(">50 %<"), HasSubstr(">office<"), HasSubstr("10 m<"),

@@ -68,7 +68,7 @@ TEST(PaperBenchmark, every_candidate_has_the_windows_of_the_paper_and_settings_o
   EXPECT_EQ(PaperOptions().candidates().size(), paper_candidates().size());
 }
 
-PaperBenchmark benchmark() {
+PaperBenchmark figures() {
   PaperBenchmark result;
   PaperRow row;
   row.log = "intel";
@@ -89,7 +89,7 @@ PaperBenchmark benchmark() {
 }
 
 TEST(PaperReport, has_loops_deadlines_times_and_searches) {
-  const BenchReport report = paper_report(benchmark(), {}, "a machine");
+  const BenchReport report = paper_report(figures(), {}, "a machine");
   EXPECT_EQ(report.page, "paper.md");
   EXPECT_THAT(report.markdown,
               HasSubstr("| intel | csm | 12 | 1 of 7 | 40 | 200 | 3 of 20 | 90.0 | 250.0 | 300.0 | "
@@ -106,7 +106,7 @@ TEST(PaperReport, has_loops_deadlines_times_and_searches) {
 }
 
 TEST(PaperReport, has_the_tables_of_the_paper_below_the_logs_that_they_have) {
-  const std::string page = paper_report(benchmark(), {}, "a machine").markdown;
+  const std::string page = paper_report(figures(), {}, "a machine").markdown;
   EXPECT_THAT(page, HasSubstr("| intel | ga | 0.2500 ± 0.1250 |"));
   EXPECT_THAT(page, HasSubstr("| intel | GA-based (paper) | 0.1650 ± 0.4700 | 0.3060 ± 1.9240 |"));
   EXPECT_THAT(page, HasSubstr("| intel | Karto (paper) | 0.2070 ± 0.8230 |"));

@@ -17,8 +17,8 @@ constexpr InstructionSet kAllSets[] = {InstructionSet::kBaseline, InstructionSet
                                        InstructionSet::kAvx512};
 
 std::array<double, 11> in_a_row(const ScoreSums& sums) {
-  return {sums.squares, sums.scores, sums.xx, sums.xy, sums.yy, sums.x_phi, sums.y_phi, sums.phi_phi,
-          sums.x,       sums.y,      sums.phi};
+  return {sums.squares, sums.scores,  sums.xx, sums.xy, sums.yy, sums.x_phi,
+          sums.y_phi,   sums.phi_phi, sums.x,  sums.y,  sums.phi};
 }
 
 ScoreGrid random_grid(std::mt19937_64& random) {
@@ -124,7 +124,8 @@ TEST(RefinementKernel, gives_the_same_bytes_with_every_set) {
     const auto expected = in_a_row(problem.by_kernel(InstructionSet::kBaseline));
     for (const InstructionSet set : kAllSets) {
       if (refinement_kernel_for(set) == nullptr) continue;
-      ASSERT_EQ(in_a_row(problem.by_kernel(set)), expected) << "set " << static_cast<int>(set) << ", " << count;
+      ASSERT_EQ(in_a_row(problem.by_kernel(set)), expected)
+          << "set " << static_cast<int>(set) << ", " << count;
     }
   }
 }

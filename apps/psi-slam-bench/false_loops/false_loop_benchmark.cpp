@@ -11,6 +11,7 @@
 
 #include "base/portable_math.h"
 #include "base/random_draws.h"
+#include "false_loops/bent_path.h"
 #include "frames/pose_operations.h"
 #include "loop_closure/outlier_loops.h"
 #include "mapping/carried_frames.h"
@@ -112,7 +113,7 @@ LoopTrial trial_of(const MappingResult& run, const MapperOptions& options,
 }  // namespace
 
 std::string name_of(FalseLoopKind kind) {
-  constexpr std::array<const char*, 3> kNames{"scattered", "groups", "nearby"};
+  constexpr std::array<const char*, 4> kNames{"scattered", "groups", "nearby", "slips"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -141,13 +142,27 @@ std::vector<std::size_t> add_false_loops(PoseGraph& graph, const std::vector<TPo
 FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double share_percent,
                             std::uint64_t seed) {
   const std::vector<std::size_t> true_loops = loops_on(trial.graph);
-  FalseLoopOptions options;
-  options.kind = kind;
-  options.seed = seed;
-  options.count =
-      static_cast<std::size_t>(std::lround(share_percent / 100 * static_cast<double>(true_loops.size())));
   PoseGraph spoilt = trial.graph;
-  const std::vector<std::size_t> false_loops = add_false_loops(spoilt, trial.graph.poses(), options);
+  std::vector<TPose2D> unlooped = trial.unlooped;
+  std::vector<std::size_t> false_loops;
+  FalseLoopRow row;
+  if (kind == FalseLoopKind::kSlips) {
+    BentPathOptions options;
+    options.share = share_percent / 100;
+    options.seed = seed;
+    BentPath path = bent(trial.graph, trial.unlooped, options);
+    spoilt = std::move(path.graph);
+    unlooped = std::move(path.unlooped);
+    row.false_loops = path.stretches;
+  } else {
+    FalseLoopOptions options;
+    options.kind = kind;
+    options.seed = seed;
+    options.count =
+        static_cast<std::size_t>(std::lround(share_percent / 100 * static_cast<double>(true_loops.size())));
+    false_loops = add_false_loops(spoilt, trial.graph.poses(), options);
+    row.false_loops = false_loops.size();
+  }
   std::vector<std::size_t> loops = true_loops;
   loops.insert(loops.end(), false_loops.begin(), false_loops.end());
 
@@ -170,14 +185,12 @@ FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double s
       switch_off_outlier_loops(graph, solver, loops, trial.max_chi);
     });
   };
-  FalseLoopRow row;
   row.kind = kind;
   row.share_percent = share_percent;
   row.seed = seed;
   row.true_loops = true_loops.size();
-  row.false_loops = false_loops.size();
-  row.undefended = settled(trial.unlooped, [](auto& graph, auto& solver) { solver.optimize(graph); });
-  row.defended = defended(trial.unlooped);
+  row.undefended = settled(unlooped, [](auto& graph, auto& solver) { solver.optimize(graph); });
+  row.defended = defended(unlooped);
   row.from_map = defended(trial.graph.poses());
   return row;
 }
@@ -206,6 +219,7 @@ FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& log
                               trial.error(trial.graph.poses()), trial.error(trial.unlooped)});
     for (const FalseLoopKind kind : options.kinds) {
       for (const double share_percent : options.shares_percent) {
+        if (kind == FalseLoopKind::kSlips && share_percent > 100) continue;
         for (const std::uint64_t seed : options.seeds.all()) {
           observer(log.name + ", " + name_of(kind), done, all);
           benchmark.rows.push_back(run_loop_trial(trial, kind, share_percent, seed));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures the robustness of the back end to false loops. Adds false loops to the finished graph of a log,
-// and counts those that the back end switches off.
+// Measures the robustness of the back end to false loops and to slips of the front end. Adds false loops to
+// the finished graph of a log, and counts those that the back end switches off; or bends stretches of its
+// path.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -25,9 +26,10 @@ enum class FalseLoopKind {
   kScattered,  ///< false loops that are independent of each other
   kGroups,     ///< groups of false loops: successive nodes join one wrong place and agree with each other
   kNearby,     ///< true loops moved by metres, within the uncertainty of odometry
+  kSlips,      ///< no false loops, but stretches of the front end's path are bent: see bent_path.h
 };
 
-/// Name of a kind: "scattered", "groups" or "nearby".
+/// Name of a kind: "scattered", "groups", "nearby" or "slips".
 std::string name_of(FalseLoopKind kind);
 
 struct FalseLoopOptions {
@@ -53,9 +55,11 @@ std::vector<std::size_t> add_false_loops(PoseGraph& graph, const std::vector<mrp
                                          const FalseLoopOptions& options);
 
 struct FalseLoopBenchmarkOptions {
-  /// Numbers of added false loops, in percent of the accepted loops.
+  /// Numbers of added false loops, in percent of the accepted loops. Numbers of bent stretches, in percent of
+  /// all stretches; shares above 100 % are left out.
   std::vector<double> shares_percent{10, 20, 50, 100, 200, 500};
-  std::vector<FalseLoopKind> kinds{FalseLoopKind::kScattered, FalseLoopKind::kGroups, FalseLoopKind::kNearby};
+  std::vector<FalseLoopKind> kinds{FalseLoopKind::kScattered, FalseLoopKind::kGroups, FalseLoopKind::kNearby,
+                                   FalseLoopKind::kSlips};
   SeedRange seeds;
 };
 
@@ -86,7 +90,7 @@ struct FalseLoopRow {
   double share_percent = 0;
   std::uint64_t seed = 1;  ///< seed for drawing the false loops
   std::size_t true_loops = 0;
-  std::size_t false_loops = 0;
+  std::size_t false_loops = 0;  ///< number of added false loops, or of bent stretches
   // The first two treatments start at the poses before any loop was closed.
   LoopTrialOutcome undefended;  ///< optimised with all loops
   LoopTrialOutcome defended;    ///< switches off outlier loops as the mapper does
@@ -108,8 +112,9 @@ struct FalseLoopBenchmark {
   std::vector<FalseLoopRow> rows;  ///< ordered by log, kind, share and seed
 };
 
-/// Adds false loops of one kind to copies of the graph and tries each treatment. The number of false loops is
-/// `share_percent` percent of the number of true loops. Leaves FalseLoopRow::log empty.
+/// Adds false loops of one kind to copies of the graph, or bends its path, and tries each treatment. The
+/// number of false loops is `share_percent` percent of the number of true loops. Leaves FalseLoopRow::log
+/// empty.
 FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double share_percent,
                             std::uint64_t seed);
 

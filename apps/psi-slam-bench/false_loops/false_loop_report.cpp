@@ -6,6 +6,7 @@
 #include "base/number_text.h"
 #include "batch/kept_run.h"
 #include "common/log_plots.h"
+#include "false_loops/bent_path.h"
 
 namespace psi_slam {
 namespace {
@@ -82,7 +83,7 @@ ReportTable cases_table(const FalseLoopBenchmark& benchmark) {
          return ReportCell{{}, seeds_of(trials)};
        }},
       {{{}, "true_loops"}, [](const Trials& trials) { return cell(trials.front().true_loops); }},
-      {{"false loops", "false_loops"},
+      {{"false loops or slips", "false_loops"},
        [](const Trials& trials) { return cell(trials.front().false_loops); }}};
   add_columns({&FalseLoopRow::undefended, "undefended", "undefended [m]", 3}, columns);
   add_columns({&FalseLoopRow::defended, "defended", "defended [m]", 4, "[deg]", "kept / lost", "ms"},
@@ -112,22 +113,28 @@ ReportTable graphs_table(const std::vector<FalseLoopLog>& logs) {
 std::string markdown_of(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
                         const std::string& machine) {
   const FalseLoopOptions how;
+  const BentPathOptions slips;
   std::string text =
-      "# How false loops are rejected\n\nThis page shows how many false loops a pose graph tolerates. False "
-      "loops are added to finished graphs, and the graphs are optimised again.\n\n" +
+      "# How false loops are rejected\n\nThis page shows how many false loops, and how many slips of the "
+      "front "
+      "end, a pose graph tolerates. They are added to finished graphs, and the graphs are optimised "
+      "again.\n\n" +
       measured_by(machine) + "; " + seeds_text(options.seeds) +
-      " of the false loops. Errors are means over the relations.\n\n";
+      " of the false loops and slips. Errors are means over the relations.\n\n";
   text +=
       "- share: number of false loops added to the finished graph, as a percentage of the loops accepted "
-      "during mapping\n"
+      "during mapping; of slips, the percentage of the path's stretches that are bent\n"
       "- scattered: join random nodes and local maps, at a random place and heading within " +
       fixed_text(how.reach_m, 0) +
       " m of the anchor of the local map\n- groups: " + std::to_string(how.smallest_group) + " to " +
       std::to_string(how.largest_group) +
       " successive nodes agree on such a random place\n- nearby: true loops, shifted by " +
       fixed_text(how.min_error_m, 0) + " to " + fixed_text(how.nearby_m, 0) + " m and rotated by up to " +
-      fixed_text(how.min_error_rad * 180 / M_PI, 0) +
-      " degrees\n"
+      fixed_text(how.min_error_rad * 180 / M_PI, 0) + " degrees\n- slips: no false loops; stretches of " +
+      std::to_string(slips.stretch_nodes) + " nodes of the front end's path are " +
+      fixed_text(100 * slips.stretching, 0) + " % too long or too short, or turn " +
+      fixed_text(slips.turn_rad * 180 / M_PI, 0) +
+      " degrees too far, without larger covariances\n"
       "- undefended: the graph is optimised with all loops\n"
       "- defended: outlier loops are rejected as in the mapper\n"
       "- from the map: as defended, but starts at the finished map. The other columns start at the poses "
@@ -145,7 +152,8 @@ std::string markdown_of(const FalseLoopBenchmark& benchmark, const FalseLoopBenc
 /// graph.
 std::string false_loop_plot(const FalseLoopBenchmark& benchmark, FalseLoopKind kind) {
   GrowthPlot plot;
-  plot.title = "Error by the share of false loops, " + name_of(kind) + " (dark: defended, light: undefended)";
+  plot.title =
+      "Error by the share of false loops or slips, " + name_of(kind) + " (dark: defended, light: undefended)";
   plot.unit = "m";
   plot.labels = {"0 %"};
   for (const FalseLoopLog& log : benchmark.logs) {

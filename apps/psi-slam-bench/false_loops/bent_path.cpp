@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "false_loops/bent_path.h"
+
+#include "base/random_draws.h"
+#include "frames/pose_operations.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+/// Change of each motion of one stretch.
+struct Bend {
+  double scale = 1;
+  double turn_rad = 0;  ///< added to each motion
+};
+
+Bend draw_bend(const BentPathOptions& options, std::size_t bent_before, RandomDraws& draws) {
+  const double sign = draws.share() < 0.5 ? -1 : 1;
+  if (bent_before % 2 == 0) return {1 + sign * options.stretching, 0};
+  return {1, sign * options.turn_rad / static_cast<double>(options.stretch_nodes)};
+}
+
+bool is_of_front_end(const Constraint& constraint) {
+  return constraint.kind == Constraint::Kind::kOdometry || constraint.kind == Constraint::Kind::kLocalMap;
+}
+
+}  // namespace
+
+BentPath bent(const PoseGraph& graph, const std::vector<TPose2D>& unlooped, const BentPathOptions& options) {
+  RandomDraws draws(options.seed, "slips", 0);
+  BentPath result;
+  result.unlooped.assign(unlooped.begin(), unlooped.begin() + (unlooped.empty() ? 0 : 1));
+  Bend bend;
+  for (std::size_t node = 1; node < unlooped.size(); ++node) {
+    if ((node - 1) % options.stretch_nodes == 0) {
+      const bool slips = draws.share() < options.share;
+      bend = slips ? draw_bend(options, result.stretches, draws) : Bend{};
+      result.stretches += slips ? 1 : 0;
+    }
+    const TPose2D motion = between(unlooped[node - 1], unlooped[node]);
+    result.unlooped.push_back(
+        compose(result.unlooped.back(),
+                TPose2D(bend.scale * motion.x, bend.scale * motion.y, motion.phi + bend.turn_rad)));
+    result.unlooped.back().normalizePhi();
+  }
+
+  for (const TPose2D& pose : graph.poses()) result.graph.add_node(pose);
+  result.graph.set_root(graph.root());
+  for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
+    Constraint constraint = graph.constraint(i);
+    if (is_of_front_end(constraint)) {
+      const auto motion = [&](const std::vector<TPose2D>& path) {
+        return between(path[constraint.from], path[constraint.to]);
+      };
+      constraint.from_T_to =
+          compose(constraint.from_T_to, between(motion(unlooped), motion(result.unlooped)));
+      constraint.from_T_to.normalizePhi();
+    }
+    result.graph.set_enabled(result.graph.add_constraint(constraint), graph.enabled(i));
+  }
+  return result;
+}
+
+}  // namespace psi_slam

@@ -188,9 +188,11 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
               "Smallest half-width of the search window along x and y.")
       .angle_deg("min_window_theta_deg", candidates.min_window_rad, above(0).at_most(180),
                  "Smallest half-width of the search window in heading.")
-      .number("window_sigmas", candidates.window_sigmas, above(0).at_most(100), "",
-              "Half-width of the search window in standard deviations of the prediction, within the smallest "
-              "and largest half-widths.")
+      .number(
+          "window_sigmas", candidates.window_sigmas, above(0).at_most(100), "",
+          "Half-width of the search window in standard deviations of the prediction, within the smallest "
+          "and largest half-widths. Beyond 1 m, half-widths grow faster, because the drift of a long path "
+          "is itself uncertain.")
       .number("reach_m", candidates.reach_m, at_least(0).at_most(1000), "m",
               "A local map is searched for loops if one of its nodes is at most this far from the window.")
       .number("min_travel_m", candidates.min_travel_m, at_least(0), "m",

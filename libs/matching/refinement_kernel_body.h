@@ -84,7 +84,7 @@ inline Samples interpolate(const PlacedScan& scan, const Doubles& x, const Doubl
   Floats across[4] = {};  // weighted sums over the rows, one per column
   Floats across_slope[4] = {};
   for (int j = 0; j < 4; ++j) {
-    Ints cells;  // four neighbouring cells of a row, for each point
+    Ints cells = {};  // four neighbouring cells of a row, for each point
     for (int lane = 0; lane < kLanes; ++lane) {
       std::int32_t four;
       const std::ptrdiff_t offset = (row[lane] - 1 + j) * scan.row_bytes + column[lane] - 1;

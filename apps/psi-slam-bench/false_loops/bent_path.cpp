@@ -30,7 +30,7 @@ bool is_of_front_end(const Constraint& constraint) {
 BentPath bent(const PoseGraph& graph, const std::vector<TPose2D>& unlooped, const BentPathOptions& options) {
   RandomDraws draws(options.seed, "slips", 0);
   BentPath result;
-  result.unlooped.assign(unlooped.begin(), unlooped.begin() + (unlooped.empty() ? 0 : 1));
+  if (!unlooped.empty()) result.unlooped.push_back(unlooped.front());
   Bend bend;
   for (std::size_t node = 1; node < unlooped.size(); ++node) {
     if ((node - 1) % options.stretch_nodes == 0) {

@@ -121,9 +121,10 @@ void add_false_loops_command(CLI::App& app, const Streams& streams) {
   add_data_options(command, *arguments);
   add_logs_option(command, *arguments);
   command
-      .add_option("--shares", arguments->options.shares_percent,
-                  "Numbers of false loops in percent of the true loops, and up to 100 of bent stretches in "
-                  "percent of all stretches, separated by commas")
+      .add_option(
+          "--shares", arguments->options.shares_percent,
+          "Numbers of false loops in percent of the true loops, separated by commas. For slips: percent "
+          "of the stretches that are bent; values above 100 are left out")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 10'000.0))
       ->capture_default_str()

@@ -319,7 +319,7 @@ LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
     const int y = floor_to_int((py - scores_.origin_y_m()) * cells_per_m);
     if (!observed(x, y)) continue;
     ++agreement.observed;
-    bool hit = *finest.cell(x, y) >= kHitScore;  // as most points
+    bool hit = *finest.cell(x, y) >= kHitScore;  // true for most points
     for (int j = -1; j <= 1 && !hit; ++j) {
       const std::uint8_t* row = finest.cell(x, y + j);  // the margin makes row[-1] and row[1] valid
       hit = std::max({row[-1], row[0], row[1]}) >= kHitScore;

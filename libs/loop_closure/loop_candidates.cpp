@@ -10,12 +10,6 @@
 namespace psi_slam {
 namespace {
 
-// A prediction far ahead of the last loop is itself uncertain: where the front end slips, the robot is
-// farther off than three standard deviations. A window without the true pose leads to false loops, for
-// example at the next of several equal doors. Therefore half-widths grow faster beyond kTrusted_m.
-constexpr double kTrusted_m = 1.0;
-constexpr double kGrowthBeyond = 5.0 / 3;
-
 double nearest_node_m(const PlacedLocalMap& local_map, const mrpt::math::TPose2D& map_T_node,
                       const PoseGraph& graph) {
   double nearest_squared = std::numeric_limits<double>::infinity();
@@ -36,12 +30,12 @@ double travel_between_m(std::size_t node, const PlacedLocalMap& local_map, const
 }
 
 SearchExtent window_of(const PositionSigma& sigma, const LoopCandidateOptions& options) {
-  const double predicted_m = options.window_sigmas * sigma.metres;
-  const double half_width_m = predicted_m + (kGrowthBeyond - 1) * std::max(0.0, predicted_m - kTrusted_m);
-  return {std::clamp(half_width_m, options.min_window_m, options.max_window.x_m),
-          std::clamp(half_width_m, options.min_window_m, options.max_window.y_m),
-          std::clamp(options.window_sigmas * sigma.radians, options.min_window_rad,
-                     options.max_window.theta_rad)};
+  const auto half_width = [&](double deviation, double least, double most) {
+    return std::clamp(options.window_sigmas * deviation, least, most);
+  };
+  return {half_width(sigma.metres, options.min_window_m, options.max_window.x_m),
+          half_width(sigma.metres, options.min_window_m, options.max_window.y_m),
+          half_width(sigma.radians, options.min_window_rad, options.max_window.theta_rad)};
 }
 
 // Returns a candidate whose window holds all positions within reach_m of the local map's nodes.

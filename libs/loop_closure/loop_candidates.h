@@ -21,10 +21,8 @@ struct LoopCandidateOptions {
   SearchExtent max_window = {8.0, 8.0, radians_from_degrees(30.0L)};  ///< largest half-widths: W of the paper
   double min_window_m = 0.25;
   double min_window_rad = radians_from_degrees(3.5L);
-  /// Half-width of the window in standard deviations of the prediction. The part beyond 1 m is multiplied by
-  /// 5/3, because the drift of a long path is itself uncertain.
-  double window_sigmas = 3.0;
-  double reach_m = 5.0;  ///< largest distance between the window and a node of the local map
+  double window_sigmas = 3.0;  ///< half-width of the window in standard deviations of the prediction
+  double reach_m = 5.0;        ///< largest distance between the window and a node of the local map
   /// Smallest length of the robot's path between the node and the local map. The front end already links the
   /// node to local maps nearer along the path.
   double min_travel_m = 10.0;

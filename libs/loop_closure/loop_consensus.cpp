@@ -11,8 +11,12 @@
 namespace psi_slam {
 namespace {
 
+// Matches of a smaller weight count for nothing, however many they are.
+constexpr double kLeastWeight = 0.05;
+
 double weight(const LoopConsensus::Vote& vote) {
-  return 1 - vote.ambiguity;
+  const double weight = 1 - vote.ambiguity;
+  return weight < kLeastWeight ? 0 : weight;
 }
 
 }  // namespace
@@ -43,7 +47,7 @@ std::vector<std::size_t> LoopConsensus::add(const Vote& vote, const PoseGraph& g
   for (const Vote& other : counted) {
     if (!agree(other, vote, graph)) continue;
     together += weight(other);
-    first_m = std::min(first_m, other.travelled_m);
+    if (weight(other) > 0) first_m = std::min(first_m, other.travelled_m);
   }
   if (together < options_.min_weight || vote.travelled_m - first_m < options_.min_span_m) return {};
   for (const Vote& opponent : counted) {

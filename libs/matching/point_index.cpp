@@ -28,14 +28,14 @@ struct PointSource {
   // NOLINTEND
 };
 
-/// Result set for nanoflann that keeps the nearest points within a distance, the nearest first. Unlike
-/// nanoflann's own set, it does not search beyond that distance.
+/// Result set for nanoflann that keeps the nearest points within a distance, the nearest first. nanoflann 1.4
+/// has no such set: its set of nearest points makes it search without a limit.
 class Nearest {
  public:
   using DistanceType = float;
   /// `indices` and `squares` have room for `count` points.
-  Nearest(float square, std::size_t count, std::size_t* indices, float* squares)
-      : worst_(std::nextafter(square, std::numeric_limits<float>::infinity())),
+  Nearest(float max_square_m2, std::size_t count, std::size_t* indices, float* squares)
+      : worst_(std::nextafter(max_square_m2, std::numeric_limits<float>::infinity())),
         count_(count),
         indices_(indices),
         squares_(squares) {}

@@ -28,6 +28,7 @@ struct Linearisation {
 Linearisation linearise(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D& pose,
                         double score_sigma, const PosePrior& prior) {
   static_assert(sizeof(mrpt::math::TPoint2Df) == 2 * sizeof(float));
+  static_assert(ScoreLevel::kMargin >= 9, "the kernel reads nine cells beyond the grid");
   PlacedScan placed;
   placed.cells = grid.finest().cell(0, 0);
   placed.row_bytes = grid.finest().row_bytes();

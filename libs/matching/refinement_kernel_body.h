@@ -12,6 +12,8 @@ namespace psi_slam {
 namespace {
 
 constexpr int kLanes = 8;
+// Column and row to which points outside the grid are moved: all cells that are read there are 0.
+constexpr int kInMargin = -8;
 using Floats = float __attribute__((vector_size(4 * kLanes)));
 using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
 using Doubles = double __attribute__((vector_size(8 * kLanes)));
@@ -41,8 +43,8 @@ inline Vectors turned(const Vectors& v, double cosine, double sine) {
   return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y};
 }
 
-// Catmull-Rom weights of four neighbouring values and their derivatives, at the position u in [0, 1) between
-// the middle two values.
+// Catmull-Rom weights of four neighbouring values and their derivatives, at the position u from 0 to 1
+// between the middle two values.
 struct CubicWeights {
   Floats value[4];
   Floats slope[4];
@@ -64,9 +66,10 @@ inline Floats dot(const Floats (&values)[4], const Floats (&weights)[4]) {
          (values[2] * weights[2] + values[3] * weights[3]);
 }
 
-// Returns the largest integers not above the values, which are at least -8.
+// Returns the largest integers not above the values, which are at least kInMargin. A value within rounding
+// below an integer counts as that integer.
 inline Ints floors(const Doubles& values) {
-  return __builtin_convertvector(values + 8.0, Ints) - 8;
+  return __builtin_convertvector(values - static_cast<double>(kInMargin), Ints) + kInMargin;
 }
 
 // Interpolated scores and their derivatives, in units of a score byte and of a cell.
@@ -107,13 +110,12 @@ struct LaneSums {
 // Adds eight points. A lane with used = 0 adds nothing, with used = 1 its point.
 inline void add(const PlacedScan& scan, const float* points, const float* normals, const Doubles& used,
                 LaneSums& sums) {
-  constexpr double kInMargin = -8;  // all cells that are read there are 0
   const Vectors arm = turned(split(points), scan.cosine, scan.sine);
   const Doubles x = scan.x_cells + arm.x * scan.cells_per_m;
   const Doubles y = scan.y_cells + arm.y * scan.cells_per_m;
   const Longs inside =
       (x >= -2.0) & (x < scan.width + 1.0) & (y >= -2.0) & (y < scan.height + 1.0) & (used > 0.0);
-  const Doubles margin = kInMargin - Doubles{};
+  const Doubles margin = static_cast<double>(kInMargin) - Doubles{};
   const Samples samples = interpolate(scan, inside ? x : margin, inside ? y : margin);
 
   const Doubles score = widened(samples.value) / 255.0;
@@ -162,19 +164,9 @@ ScoreSums sum_scores(const PlacedScan& scan) {
     for (std::size_t lane = 0; lane < rest; ++lane) used[lane] = 1;
     add(scan, points, scan.normals == nullptr ? nullptr : normals, used, sums);
   }
-  ScoreSums result;
-  result.squares = total(sums.squares);
-  result.scores = total(sums.scores);
-  result.xx = total(sums.xx);
-  result.xy = total(sums.xy);
-  result.yy = total(sums.yy);
-  result.x_phi = total(sums.x_phi);
-  result.y_phi = total(sums.y_phi);
-  result.phi_phi = total(sums.phi_phi);
-  result.x = total(sums.x);
-  result.y = total(sums.y);
-  result.phi = total(sums.phi);
-  return result;
+  return {total(sums.squares), total(sums.scores), total(sums.xx),    total(sums.xy),
+          total(sums.yy),      total(sums.x_phi),  total(sums.y_phi), total(sums.phi_phi),
+          total(sums.x),       total(sums.y),      total(sums.phi)};
 }
 
 }  // namespace

@@ -188,11 +188,9 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
               "Smallest half-width of the search window along x and y.")
       .angle_deg("min_window_theta_deg", candidates.min_window_rad, above(0).at_most(180),
                  "Smallest half-width of the search window in heading.")
-      .number(
-          "window_sigmas", candidates.window_sigmas, above(0).at_most(100), "",
-          "Half-width of the search window in standard deviations of the prediction, within the smallest "
-          "and largest half-widths. Beyond 1 m, half-widths grow faster, because the drift of a long path "
-          "is itself uncertain.")
+      .number("window_sigmas", candidates.window_sigmas, above(0).at_most(100), "",
+              "Half-width of the search window in standard deviations of the prediction, within the smallest "
+              "and largest half-widths.")
       .number("reach_m", candidates.reach_m, at_least(0).at_most(1000), "m",
               "A local map is searched for loops if one of its nodes is at most this far from the window.")
       .number("min_travel_m", candidates.min_travel_m, at_least(0), "m",
@@ -341,8 +339,8 @@ void describe_consensus(OptionTable& table, LoopConsensusOptions& consensus) {
       .number("min_span_m", consensus.min_span_m, at_least(0), "m",
               "Least travel from the first to the last of the matches that agree.")
       .number("min_weight", consensus.min_weight, above(0), "",
-              "Least total weight of the matches that agree. An unambiguous match weighs 1, an ambiguous one "
-              "less.")
+              "Least total weight of the matches that agree. A match weighs 1 minus its ambiguity, and 0 if "
+              "that is below 0.05.")
       .number("max_other_place_share", consensus.max_rival_share, between(0, 1), "",
               "Largest weight of any other place, as a share of the weight of the matches that agree.");
 }

@@ -16,8 +16,8 @@ function(psi_slam_configure_target target)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
   if(PSI_SLAM_SANITIZE)
-    # MRPT's libraries lack the type information that the check of virtual calls needs. With sanitizers, GCC warns of values in
-    # std::regex.
+    # MRPT's libraries lack the type information that the check of virtual calls needs. With sanitizers, GCC falsely reports
+    # uninitialised values in std::regex.
     set(sanitizers -fsanitize=address,undefined -fno-sanitize=vptr -fno-sanitize-recover=undefined)
     target_compile_options(${target} PRIVATE ${sanitizers} -fno-omit-frame-pointer
       $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)

@@ -64,11 +64,10 @@ TEST(FalseLoopBenchmark, loops_straighten_a_path_with_slips) {
     bend.share = share_percent / 100;
     const double bent_m = trial.error(bent(trial.graph, trial.unlooped, bend).unlooped).translation_m;
     const FalseLoopRow row = run_loop_trial(trial, FalseLoopKind::kSlips, share_percent, bend.seed);
-    EXPECT_NEAR(static_cast<double>(row.false_loops), share_percent / 100 * 20, 2);  // 1,000 nodes
-    EXPECT_EQ(row.undefended.false_kept, 0U);
+    EXPECT_EQ(static_cast<double>(row.false_loops), share_percent / 100 * 20);  // 1,000 nodes
     for (const LoopTrialOutcome* outcome : {&row.defended, &row.from_map}) {
       EXPECT_LT(outcome->error.translation_m, 0.5 * bent_m);
-      EXPECT_EQ(outcome->false_kept, 0U);
+      EXPECT_LT(outcome->true_lost, row.true_loops / 2);
     }
     if (share_percent == 0) {
       EXPECT_EQ(row.defended.true_lost, 0U);

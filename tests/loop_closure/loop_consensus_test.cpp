@@ -86,19 +86,29 @@ TEST(LoopConsensus, ambiguous_matches_need_many_others) {
   std::size_t votes = 0;
   Loops confirmed;
   while (confirmed.empty() && votes < 30) {
-    confirmed = consensus.add(vote(votes, 0.5 * static_cast<double>(votes), 0.95), graph);  // weighs 0.05
+    confirmed = consensus.add(vote(votes, 0.5 * static_cast<double>(votes), 0.9499), graph);  // weighs 0.0501
     ++votes;
   }
-  EXPECT_GE(votes, 10U);
+  EXPECT_GE(votes, 9U);
   EXPECT_LE(votes, 11U);
   EXPECT_EQ(confirmed.size(), votes);
 }
 
 TEST(LoopConsensus, matches_that_fit_another_place_as_well_prove_nothing_together) {
   const PoseGraph graph = two_anchors();
+  for (const double ambiguity : {0.96, 1.0}) {
+    LoopConsensus consensus({});
+    for (std::size_t i = 0; i < 60; ++i)
+      ASSERT_EQ(consensus.add(vote(i, 0.25 * static_cast<double>(i), ambiguity), graph), Loops());
+  }
+}
+
+TEST(LoopConsensus, a_match_that_fits_another_place_as_well_confirms_no_single_match) {
+  const PoseGraph graph = two_anchors();
   LoopConsensus consensus({});
-  for (std::size_t i = 0; i < 60; ++i)
-    ASSERT_EQ(consensus.add(vote(i, 0.25 * static_cast<double>(i), 0.995), graph), Loops());
+  EXPECT_EQ(consensus.add(vote(0, 5, 1.0), graph), Loops());
+  EXPECT_EQ(consensus.add(vote(1, 6.5, 0), graph), Loops());
+  EXPECT_EQ(consensus.add(vote(2, 7.6, 0), graph), Loops({0, 1, 2}));
 }
 
 TEST(LoopConsensus, matches_of_different_places_do_not_add_up) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -71,6 +72,9 @@ TEST(PointIndex, finds_nothing_without_points) {
 TEST(PointIndex, includes_points_at_the_radius) {
   const PointIndex index({{0, 0}, {0.5F, 0}, {0, -0.5F}, {0.5625F, 0}});
   EXPECT_EQ(index.within({0, 0}, 0.5F), (std::vector<std::size_t>{0, 1, 2}));
+  std::vector<std::size_t> found;
+  index.nearest({0, 0}, 4, 0.5F, found);
+  EXPECT_EQ(std::set<std::size_t>(found.begin(), found.end()), (std::set<std::size_t>{0, 1, 2}));
 }
 
 TEST(PointIndex, works_after_a_move) {

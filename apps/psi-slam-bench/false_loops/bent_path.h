@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Slips of the front end: stretches of its path that are too long or turn too far, with no sign of it in the
-// covariances. Loops contradict such a path, and the back end must believe them.
+// Slips of the front end: stretches of its path that are too long or too short, or turn too far to the left
+// or to the right, with no sign of it in the covariances. Loops contradict such a path, and the back end must
+// believe them.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -15,7 +16,7 @@
 namespace psi_slam {
 
 struct BentPathOptions {
-  double share = 0.1;              ///< share of the stretches that are bent, 0 to 1
+  double share = 0.1;              ///< share of the stretches that are bent, 0 to 1; their number is rounded
   std::size_t stretch_nodes = 50;  ///< number of nodes of a stretch
   double stretching = 0.05;        ///< part by which every second bent stretch is too long or too short
   double turn_rad = radians_from_degrees(2.0L);  ///< by which the other bent stretches turn too far

@@ -219,7 +219,10 @@ FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& log
                               trial.error(trial.graph.poses()), trial.error(trial.unlooped)});
     for (const FalseLoopKind kind : options.kinds) {
       for (const double share_percent : options.shares_percent) {
-        if (kind == FalseLoopKind::kSlips && share_percent > 100) continue;
+        if (kind == FalseLoopKind::kSlips && share_percent > 100) {
+          done += static_cast<double>(options.seeds.count());
+          continue;
+        }
         for (const std::uint64_t seed : options.seeds.all()) {
           observer(log.name + ", " + name_of(kind), done, all);
           benchmark.rows.push_back(run_loop_trial(trial, kind, share_percent, seed));

@@ -51,6 +51,7 @@ struct FalseLoopOptions {
 /// any heading, and their information is that of a random loop of the graph. Successive nodes of a group move
 /// as in the true poses `map_T_node`. The loops of a group agree exactly, so they are harder to reject than
 /// loops of a matcher. Adds nothing to a graph without enabled loops.
+/// Slips are no loops: see bent().
 std::vector<std::size_t> add_false_loops(PoseGraph& graph, const std::vector<mrpt::math::TPose2D>& map_T_node,
                                          const FalseLoopOptions& options);
 

@@ -134,7 +134,7 @@ std::string markdown_of(const FalseLoopBenchmark& benchmark, const FalseLoopBenc
       std::to_string(slips.stretch_nodes) + " nodes of the front end's path are " +
       fixed_text(100 * slips.stretching, 0) + " % too long or too short, or turn " +
       fixed_text(slips.turn_rad * 180 / M_PI, 0) +
-      " degrees too far, without larger covariances\n"
+      " degrees too far to the left or to the right, without larger covariances\n"
       "- undefended: the graph is optimised with all loops\n"
       "- defended: outlier loops are rejected as in the mapper\n"
       "- from the map: as defended, but starts at the finished map. The other columns start at the poses "

@@ -22,10 +22,10 @@ struct LoopConsensusOptions {
   double memory_m = 15.0;                                ///< path length after which a match no longer counts
   double same_place_m = 0.5;                             ///< largest distance between poses that agree
   double same_heading_rad = radians_from_degrees(3.5L);  ///< largest turn between poses that agree
-  double min_span_m =
-      1.0;  ///< shortest path between the first match that agrees, with a weight, and the last
-  double min_weight =
-      0.5;  ///< minimum sum of agreeing weights; a weight is 1 - ambiguity, or 0 if that is below 0.05
+  /// Shortest path between the first match that agrees and has a weight, and the last.
+  double min_span_m = 1.0;
+  /// Minimum sum of agreeing weights. A weight is 1 - ambiguity, or 0 if that is below 0.05.
+  double min_weight = 0.5;
   double max_rival_share = 0.5;  ///< largest weight of another place, divided by the sum of agreeing weights
 };
 

@@ -27,22 +27,7 @@ struct Linearisation {
 
 Linearisation linearise(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D& pose,
                         double score_sigma, const PosePrior& prior) {
-  static_assert(sizeof(mrpt::math::TPoint2Df) == 2 * sizeof(float));
-  static_assert(ScoreLevel::kMargin >= 9, "the kernel reads nine cells beyond the grid");
-  PlacedScan placed;
-  placed.cells = grid.finest().cell(0, 0);
-  placed.row_bytes = grid.finest().row_bytes();
-  placed.width = grid.finest().width();
-  placed.height = grid.finest().height();
-  placed.cells_per_m = 1 / grid.resolution_m();
-  placed.x_cells = (pose.x - grid.origin_x_m()) * placed.cells_per_m - 0.5;
-  placed.y_cells = (pose.y - grid.origin_y_m()) * placed.cells_per_m - 0.5;
-  placed.cosine = portable::cos(pose.phi);
-  placed.sine = portable::sin(pose.phi);
-  placed.count = scan.points.size();
-  if (!scan.points.empty()) placed.points = &scan.points.front().x;
-  if (!scan.normals.empty()) placed.normals = &scan.normals.front().x;
-  const ScoreSums sums = refinement_kernel()(placed);
+  const ScoreSums sums = refinement_kernel()(placed(grid, scan, pose));
 
   Linearisation result;
   const double weight = 1 / (score_sigma * score_sigma);

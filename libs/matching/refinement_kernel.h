@@ -9,7 +9,15 @@
 
 #include "base/instruction_set.h"
 
+namespace mrpt::math {
+struct TPose2D;
+}
+
 namespace psi_slam {
+
+// Only declared, because the kernels must not compile inline functions of other headers.
+class ScoreGrid;
+struct ScanPoints;
 
 /// A scan at one pose in a score grid. The robot's position is counted in cells from the centre of cell
 /// (0, 0).
@@ -27,6 +35,10 @@ struct PlacedScan {
   const float* normals = nullptr;  ///< x and y of each normal, see ScanPoints::normals; null if unknown
   std::size_t count = 0;           ///< number of points
 };
+
+/// Places a scan at a pose of the robot. The result points into the finest level of the grid and into the
+/// scan.
+PlacedScan placed(const ScoreGrid& grid, const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot);
 
 /// Sums over the points. M is the interpolated score of a point, and (x, y, phi) its derivatives by the pose,
 /// in 1/m and 1/rad. On a straight surface, only the slope along its normal counts: a point does not

@@ -2,6 +2,7 @@
 #include "matching/refinement_kernel.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/math/TPose2D.h>
 
 #include <array>
 #include <cmath>
@@ -56,20 +57,7 @@ struct Problem {
   }
 
   ScoreSums by_kernel(InstructionSet set) const {
-    PlacedScan placed;
-    placed.cells = grid.finest().cell(0, 0);
-    placed.row_bytes = grid.finest().row_bytes();
-    placed.width = grid.finest().width();
-    placed.height = grid.finest().height();
-    placed.cells_per_m = 1 / grid.resolution_m();
-    placed.x_cells = (x_m - grid.origin_x_m()) / grid.resolution_m() - 0.5;
-    placed.y_cells = (y_m - grid.origin_y_m()) / grid.resolution_m() - 0.5;
-    placed.cosine = std::cos(phi);
-    placed.sine = std::sin(phi);
-    placed.points = scan.points.empty() ? nullptr : &scan.points.front().x;
-    placed.normals = scan.normals.empty() ? nullptr : &scan.normals.front().x;
-    placed.count = scan.points.size();
-    return refinement_kernel_for(set)(placed);
+    return refinement_kernel_for(set)(placed(grid, scan, {x_m, y_m, phi}));
   }
 
   ScoreSums point_by_point() const {

@@ -19,7 +19,9 @@
 namespace psi_slam {
 
 struct LoopConsensusOptions {
-  double memory_m = 15.0;                                ///< path length after which a match no longer counts
+  /// Path length after which a match no longer counts. Along a corridor with equal doors, false matches that
+  /// are off by the same number of doors confirm each other if they are counted over more than a few metres.
+  double memory_m = 4.0;
   double same_place_m = 0.5;                             ///< largest distance between poses that agree
   double same_heading_rad = radians_from_degrees(3.5L);  ///< largest turn between poses that agree
   /// Shortest path between the first match that agrees and has a weight, and the last.

@@ -330,8 +330,10 @@ void describe_verification(OptionTable& table, LoopVerificationOptions& verifica
 
 void describe_consensus(OptionTable& table, LoopConsensusOptions& consensus) {
   table.section("consensus", "Consensus: loops in wide windows wait until others agree with them")
-      .number("memory_m", consensus.memory_m, above(0), "m",
-              "Travel after which a waiting match no longer counts.")
+      .number(
+          "memory_m", consensus.memory_m, above(0), "m",
+          "Travel after which a waiting match no longer counts. Along equal doors, false matches agree for "
+          "longer.")
       .number("same_place_m", consensus.same_place_m, above(0).at_most(100), "m",
               "Matches agree only if they place the robot at most this far apart.")
       .angle_deg("same_heading_deg", consensus.same_heading_rad, above(0).at_most(180),

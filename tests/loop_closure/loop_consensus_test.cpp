@@ -86,7 +86,7 @@ TEST(LoopConsensus, ambiguous_matches_need_many_others) {
   std::size_t votes = 0;
   Loops confirmed;
   while (confirmed.empty() && votes < 30) {
-    confirmed = consensus.add(vote(votes, 0.5 * static_cast<double>(votes), 0.9499), graph);  // weighs 0.0501
+    confirmed = consensus.add(vote(votes, 0.35 * static_cast<double>(votes), 0.9499), graph);  // weighs 0.0501
     ++votes;
   }
   EXPECT_GE(votes, 9U);
@@ -159,9 +159,25 @@ TEST(LoopConsensus, old_matches_of_another_place_do_not_block) {
   const PoseGraph graph = two_anchors();
   LoopConsensus consensus({});
   consensus.add(vote(0, 5, 0, 0, {3, 0, 0}), graph);
-  consensus.add(vote(1, 18, 0.5), graph);
-  EXPECT_EQ(consensus.add(vote(2, 19.5, 0.5), graph), Loops()) << "the other place is 14.5 m back";
-  EXPECT_EQ(consensus.add(vote(3, 20.5, 0.9), graph), Loops({1, 2, 3})) << "the other place is 15.5 m back";
+  consensus.add(vote(1, 7.5, 0.5), graph);
+  EXPECT_EQ(consensus.add(vote(2, 8.9, 0.5), graph), Loops()) << "the other place is 3.9 m back";
+  EXPECT_EQ(consensus.add(vote(3, 9.1, 0.9), graph), Loops({1, 2, 3})) << "the other place is 4.1 m back";
+}
+
+// Matches that are off by the same number of equal doors agree along the whole corridor. In a real log they
+// were this ambiguous and this far apart.
+TEST(LoopConsensus, a_few_ambiguous_matches_along_a_corridor_confirm_nothing) {
+  const PoseGraph graph = two_anchors();
+  const auto confirms = [&](double step_m) {
+    LoopConsensus consensus({});
+    const std::vector<double> ambiguities = {0.89, 0.80, 0.83, 0.90};
+    for (std::size_t i = 0; i < ambiguities.size(); ++i)
+      if (!consensus.add(vote(i, 5 + static_cast<double>(i) * step_m, ambiguities[i]), graph).empty())
+        return true;
+    return false;
+  };
+  EXPECT_FALSE(confirms(1.7));
+  EXPECT_TRUE(confirms(0.5)) << "as densely as true matches follow each other";
 }
 
 TEST(LoopConsensus, matches_with_different_anchors_agree_about_one_place) {

@@ -12,13 +12,11 @@
 namespace psi_slam {
 namespace {
 
-using Reason = LoopRefusal::Reason;
-
 LoopPair pair_of(const LoopRecord& loop) {
   return {loop.node, loop.local_map};
 }
 
-void delete_by_hand(LoopRecord& loop, Reason reason) {
+void delete_by_hand(LoopRecord& loop, LoopRefusal::Reason reason) {
   loop.verdict = LoopVerdict::kDeleted;
   loop.refusal = LoopRefusal{reason};
   loop.by_hand = true;
@@ -37,7 +35,7 @@ std::size_t LoopLedger::add(LoopRecord loop) {
   if (wanted != by_hand_.end()) {
     wanted->second.before.push_back({loops_.size(), loop, std::nullopt});
     if (wanted->second.kind == LoopEdit::Kind::kDelete)
-      delete_by_hand(loop, Reason::kDeletedByHand);
+      delete_by_hand(loop, LoopRefusal::Reason::kDeletedByHand);
     else if (wanted->second.kind == LoopEdit::Kind::kForce && loop.verdict != LoopVerdict::kNotFound &&
              (!wanted->second.of_final_search || loop.in_final_search))
       accept_by_hand(loop);
@@ -85,7 +83,7 @@ void LoopLedger::settle(PoseGraph& graph, SparsePoseAdjustment& solver, double m
     const bool fits = graph.enabled(constraints[i]);
     loop.verdict = fits ? LoopVerdict::kAccepted : LoopVerdict::kSwitchedOff;
     loop.refusal.reset();
-    if (!fits) loop.refusal = LoopRefusal{Reason::kContradicted, chi[i], max_chi};
+    if (!fits) loop.refusal = LoopRefusal{LoopRefusal::Reason::kContradicted, chi[i], max_chi};
   }
 }
 
@@ -93,7 +91,7 @@ void LoopLedger::refuse_pending() {
   for (LoopRecord& loop : loops_) {
     if (loop.verdict != LoopVerdict::kPending) continue;
     loop.verdict = LoopVerdict::kRefused;
-    loop.refusal = LoopRefusal{Reason::kNoConsensus};
+    loop.refusal = LoopRefusal{LoopRefusal::Reason::kNoConsensus};
   }
 }
 
@@ -110,7 +108,7 @@ std::set<LoopPair> LoopLedger::searched_pairs() const {
 
 void LoopLedger::remove(const LoopPair& pair, PoseGraph& graph) {
   take_over(pair, LoopEdit::Kind::kDelete, graph);
-  for (const std::size_t loop : attempts_of(pair)) strike(loop, Reason::kDeletedByHand, graph);
+  for (const std::size_t loop : attempts_of(pair)) strike(loop, LoopRefusal::Reason::kDeletedByHand, graph);
 }
 
 bool LoopLedger::force(const LoopPair& pair, bool of_final_search, PoseGraph& graph) {
@@ -123,7 +121,7 @@ bool LoopLedger::force(const LoopPair& pair, bool of_final_search, PoseGraph& gr
   });
   if (found == attempts.rend()) return false;
   for (const std::size_t other : attempts)
-    if (other != *found) strike(other, Reason::kOtherMatchForced, graph);
+    if (other != *found) strike(other, LoopRefusal::Reason::kOtherMatchForced, graph);
   accept_by_hand(loops_[*found]);
   if (constraint_of_[*found])
     graph.set_enabled(*constraint_of_[*found], true);
@@ -148,7 +146,7 @@ void LoopLedger::replace(LoopRecord loop, PoseGraph& graph) {
   const LoopPair pair = pair_of(loop);
   take_over(pair, LoopEdit::Kind::kMatch, graph);
   const std::vector<std::size_t> attempts = attempts_of(pair);
-  for (const std::size_t before : attempts) strike(before, Reason::kMatchedAgain, graph);
+  for (const std::size_t before : attempts) strike(before, LoopRefusal::Reason::kMatchedAgain, graph);
   loop.by_hand = true;
   const bool accepted = loop.verdict == LoopVerdict::kAccepted;
   const std::size_t index = attempts.empty() ? enter(loop) : attempts.back();
@@ -160,7 +158,7 @@ bool LoopLedger::restore(const LoopPair& pair, PoseGraph& graph) {
   const auto wanted = by_hand_.find(pair);
   if (wanted == by_hand_.end()) return false;
   for (const std::size_t loop : attempts_of(pair)) {
-    strike(loop, Reason::kMatchTakenBack, graph);
+    strike(loop, LoopRefusal::Reason::kMatchTakenBack, graph);
     loops_[loop].by_hand = false;
   }
   for (const Entry& entry : wanted->second.before) {
@@ -201,7 +199,7 @@ void LoopLedger::link(std::size_t loop, std::size_t constraint) {
   constraints_.emplace_back(constraint, loop);
 }
 
-void LoopLedger::strike(std::size_t loop, Reason reason, PoseGraph& graph) {
+void LoopLedger::strike(std::size_t loop, LoopRefusal::Reason reason, PoseGraph& graph) {
   if (const auto constraint = std::exchange(constraint_of_[loop], std::nullopt)) {
     graph.set_enabled(*constraint, false);
     constraints_.erase(std::find(constraints_.begin(), constraints_.end(), std::pair(*constraint, loop)));

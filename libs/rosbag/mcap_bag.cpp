@@ -13,7 +13,7 @@
 namespace psi_slam {
 namespace {
 
-constexpr std::string_view kMagic = "\x89MCAP0\r\n";
+constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 constexpr std::int64_t kFooterBytes = 1 + 8 + 20 + 8;  // including the magic bytes after the footer
 
 enum Kind : std::uint8_t {
@@ -82,7 +82,7 @@ class Channels {
 class McapBag : public RecordBag {
  public:
   explicit McapBag(BagStream stream) : RecordBag(std::move(stream)) {
-    if (stream_.read_up_to(kMagic.size()) != kMagic)
+    if (stream_.read_up_to(kMcapMagic.size()) != kMcapMagic)
       throw UserError(
           stream_.path().string() +
           " is not an MCAP file of version 0, the only version that is read. Record the bag again");
@@ -155,8 +155,9 @@ class McapBag : public RecordBag {
 
   std::vector<BagTopic> topics_of_summary() const {
     const std::string footer = tail_of_file(stream_.path(), -kFooterBytes);
-    const bool is_footer = !footer.empty() && footer.front() == kFooter &&
-                           footer.compare(footer.size() - kMagic.size(), kMagic.size(), kMagic) == 0;
+    const bool is_footer =
+        !footer.empty() && footer.front() == kFooter &&
+        footer.compare(footer.size() - kMcapMagic.size(), kMcapMagic.size(), kMcapMagic) == 0;
     if (!is_footer) return {};
     const auto start = ByteCursor(std::string_view(footer).substr(9)).number<std::uint64_t>();
     if (start == 0 || start > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) return {};

@@ -9,7 +9,7 @@
 namespace psi_slam {
 namespace {
 
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
+constexpr std::string_view kRos1Magic = "#ROSBAG V2.0\n";
 
 /// Fields of a record's header, by name.
 using Fields = std::map<std::string_view, std::string_view>;
@@ -63,7 +63,7 @@ BagTopic topic_of(const Record& record) {
 class Ros1Bag final : public RecordBag {
  public:
   explicit Ros1Bag(BagStream stream) : RecordBag(std::move(stream)) {
-    if (stream_.read_up_to(kMagic.size()) != kMagic)
+    if (stream_.read_up_to(kRos1Magic.size()) != kRos1Magic)
       throw UserError(stream_.path().string() +
                       " is not a ROS 1 bag of version 2.0. Convert an older bag with rosbag fix");
     try {

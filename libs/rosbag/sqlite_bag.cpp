@@ -33,10 +33,10 @@ std::string uri_of(const std::filesystem::path& path) {
 }
 
 bool is_compressed(const std::filesystem::path& path) {
-  constexpr std::string_view kMagic("SQLite format 3\0", 16);
-  std::string head(kMagic.size(), '\0');
+  constexpr std::string_view kSqliteMagic("SQLite format 3\0", 16);
+  std::string head(kSqliteMagic.size(), '\0');
   std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
-  return head != kMagic;
+  return head != kSqliteMagic;
 }
 
 class SqliteBag : public BagFile {

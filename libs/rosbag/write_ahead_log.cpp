@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 32;
 constexpr std::size_t kFrameHeaderBytes = 24;
-constexpr std::uint32_t kMagic = 0x377F0682;  // the last bit states the byte order of the checksums
+constexpr std::uint32_t kWalMagic = 0x377F0682;  // the last bit states the byte order of the checksums
 constexpr std::size_t kFewestPageBytes = 512;
 constexpr std::size_t kMostPageBytes = 65536;
 
@@ -62,7 +62,7 @@ void WriteAheadLog::begin(const std::array<char, 32>& header) {
   offsets_.clear();
   page_bytes_ = 0;
   const std::uint32_t magic = number_at(header.data());
-  if ((magic & ~1U) != kMagic) return;
+  if ((magic & ~1U) != kWalMagic) return;
   sums_big_endian_ = (magic & 1U) != 0;
   sums_ = add({}, header.data(), kFrameHeaderBytes);
   const std::size_t page_bytes = number_at(&header[8]);

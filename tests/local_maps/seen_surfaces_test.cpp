@@ -14,7 +14,7 @@ namespace psi_slam {
 namespace {
 
 constexpr double kMaxRange_m = 40;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoRange = std::numeric_limits<double>::quiet_NaN();
 
 // Returns a scan of 181 beams, one degree apart. `range_at` gives the range for a bearing.
 template <class RangeAt>
@@ -30,7 +30,7 @@ LaserScan scan_of(RangeAt range_at) {
 // Returns the range in metres to a wall across the robot's path, `x_m` ahead. Returns NaN beyond 60 m.
 double wall_across(double x_m, double bearing_rad) {
   const double range = x_m / std::cos(bearing_rad);
-  return range > 0 && range < 60 ? range : kNan;
+  return range > 0 && range < 60 ? range : kNoRange;
 }
 
 std::size_t beam_at(double bearing_deg) {
@@ -96,7 +96,7 @@ TEST(SeenSurfaces, do_not_join_beams_on_scattered_objects) {
 TEST(SeenSurfaces, do_not_join_along_a_wall_at_a_grazing_angle) {
   // A corridor wall 1 m beside the robot. 20 m ahead, neighbouring beams hit it 7 m apart.
   const auto joined =
-      joined_ends(scan_of([](double b) { return b > 0.01 ? 1 / std::sin(b) : kNan; }), kMaxRange_m);
+      joined_ends(scan_of([](double b) { return b > 0.01 ? 1 / std::sin(b) : kNoRange; }), kMaxRange_m);
   for (int deg = 2; deg <= 10; ++deg) EXPECT_FALSE(joined[beam_at(deg)]) << deg;
   EXPECT_TRUE(joined[beam_at(20)]);
 }
@@ -105,7 +105,7 @@ TEST(SeenSurfaces, join_no_ends_without_return_or_beyond_the_range) {
   const auto far = joined_ends(scan_of([](double b) { return wall_across(20, b); }), 19);
   EXPECT_EQ(std::count(far.begin(), far.end(), true), 0);
   const auto gap = joined_ends(
-      scan_of([](double b) { return std::lround(b * 180 / M_PI) == 3 ? kNan : wall_across(20, b); }),
+      scan_of([](double b) { return std::lround(b * 180 / M_PI) == 3 ? kNoRange : wall_across(20, b); }),
       kMaxRange_m);
   EXPECT_FALSE(gap[beam_at(3)]);
   EXPECT_FALSE(gap[beam_at(4)]);
@@ -118,7 +118,7 @@ TEST(SeenSurfaces, join_the_ends_of_a_full_circle) {
   for (const float bearing : *scan.bearings_rad)
     scan.ranges_m.push_back(static_cast<float>(wall_across(10, static_cast<double>(bearing))));
   for (const std::size_t beam : {358U, 359U, 0U, 1U}) EXPECT_TRUE(joined_ends(scan, kMaxRange_m)[beam]);
-  scan.ranges_m[358] = scan.ranges_m[1] = static_cast<float>(kNan);
+  scan.ranges_m[358] = scan.ranges_m[1] = static_cast<float>(kNoRange);
   EXPECT_FALSE(joined_ends(scan, kMaxRange_m)[0]) << "no third beam shows that the surface continues";
   scan.bearings_rad = even_bearings(0, 2 * M_PI * 350 / 360, 360);
   EXPECT_FALSE(joined_ends(scan, kMaxRange_m)[0]) << "ten degrees are unseen";

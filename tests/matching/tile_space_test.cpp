@@ -137,7 +137,7 @@ TEST(CellTiles, contain_all_headings_of_their_cells_inside_the_window) {
   }
 }
 
-struct Problem {
+struct TileProblem {
   std::mt19937_64 random{81};
   ScoreGrid grid = random_grid(random, 90, 70, 16);
   ScanPoints scan = random_points(random, 25, 1.5);
@@ -155,7 +155,7 @@ Candidate slow_best(const SearchLattice& lattice, const Tile& tile) {
 }
 
 TEST(TileScorer, finds_the_best_pose_of_a_tile_and_bounds_it_on_the_pooled_level) {
-  const Problem problem;
+  const TileProblem problem;
   TileScorer scorer(problem.lattice);
   const WindowTiles space(problem.lattice.window(), true);
   for (int theta = -3; theta <= 3; ++theta)
@@ -170,7 +170,7 @@ TEST(TileScorer, finds_the_best_pose_of_a_tile_and_bounds_it_on_the_pooled_level
 }
 
 TEST(TileScorer, finds_the_best_pose_near_one_within_the_window) {
-  const Problem problem;
+  const TileProblem problem;
   TileScorer scorer(problem.lattice);
   for (const LatticePose& pose : {LatticePose{0, 0, 0}, {-20, 19, 3}, {20, -3, -3}, {-15, 12, 1}}) {
     const int x = std::max(-20, pose.x - 8);
@@ -184,7 +184,7 @@ TEST(TileScorer, finds_the_best_pose_near_one_within_the_window) {
 }
 
 TEST(TileScorer, counts_the_poses_it_scores) {
-  const Problem problem;
+  const TileProblem problem;
   TileScorer scorer(problem.lattice);
   scorer.score({0, {{0, 0}, 7, 5}}, TileLevel::kFinest);
   EXPECT_EQ(scorer.evaluations(), 35);

@@ -20,10 +20,10 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using Path = std::filesystem::path;
 
-constexpr TimeUs kStart_us = 1'600'000'000'000'000;
+constexpr TimeUs kFirst_us = 1'600'000'000'000'000;
 
 double true_heading_rad(TimeUs time_us) {
-  return 0.8 * std::sin(2 * seconds(time_us - kStart_us));
+  return 0.8 * std::sin(2 * seconds(time_us - kFirst_us));
 }
 
 /// Recording of a robot without odometry that turns to and fro for two seconds: a scan every 50 ms, a rate
@@ -31,8 +31,8 @@ double true_heading_rad(TimeUs time_us) {
 Recording turning_robot(const mrpt::math::TPose3D& mount = {0.1, 0, 0.2, 0, 0, 0}) {
   Recording recording{static_mount(), static_mount("imu", mount)};
   const auto rotation = mrpt::poses::CPose3D(mount).getRotationMatrix();
-  for (TimeUs t = kStart_us; t <= kStart_us + 2'000'000; t += 5'000) {
-    const double rate_radps = 1.6 * std::cos(2 * seconds(t - kStart_us));
+  for (TimeUs t = kFirst_us; t <= kFirst_us + 2'000'000; t += 5'000) {
+    const double rate_radps = 1.6 * std::cos(2 * seconds(t - kFirst_us));
     RecordedImu imu;
     imu.time_us = t;
     for (int axis = 0; axis < 3; ++axis)
@@ -124,7 +124,7 @@ TEST_F(BagGyroscopeTest, is_assumed_upright_if_its_mount_is_unknown) {
 TEST_F(BagGyroscopeTest, is_not_needed_with_odometry) {
   Recording recording = turning_robot();
   recording.insert(recording.begin() + 2,
-                   RecordedPose{"/odom", kStart_us, "odom", "base_link", {1, 2, 0, 0.5, 0, 0}});
+                   RecordedPose{"/odom", kFirst_us, "odom", "base_link", {1, 2, 0, 0.5, 0, 0}});
   const Log log = read(recording);
   EXPECT_TRUE(log.frames.front().has_odometry);
   expect_no_headings(log);
@@ -186,7 +186,7 @@ TEST_F(BagGyroscopeTest, an_imu_without_angular_velocities_is_no_gyroscope) {
 TEST_F(BagGyroscopeTest, every_nth_scan_keeps_only_turns_that_are_known) {
   Recording recording = turning_robot();
   const auto is_missing = [](const Recorded& message) {
-    const TimeUs t = time_of(message) - kStart_us;
+    const TimeUs t = time_of(message) - kFirst_us;
     return std::holds_alternative<RecordedImu>(message) && t > 420'000 && t < 1'000'000;
   };
   recording.erase(std::remove_if(recording.begin(), recording.end(), is_missing), recording.end());

@@ -20,10 +20,10 @@ namespace {
 
 using Path = std::filesystem::path;
 
-struct Kind {
+struct BagKind {
   std::string name;
   std::function<void(const Path&, const Recording&)> write;
-  friend void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
+  friend void PrintTo(const BagKind& kind, std::ostream* out) { *out << kind.name; }
 };
 
 struct Reading {
@@ -43,7 +43,7 @@ Reading read_to_the_end(const Path& path) {
   return reading;
 }
 
-class DamagedBag : public testing::TestWithParam<Kind> {
+class DamagedBag : public testing::TestWithParam<BagKind> {
  protected:
   void SetUp() override {
     GetParam().write(path_, recorded_run(8));
@@ -106,42 +106,42 @@ TEST_P(DamagedBag, lengths_of_gigabytes_allocate_no_memory) {
 
 INSTANTIATE_TEST_SUITE_P(
     Kinds, DamagedBag,
-    testing::Values(Kind{"ros1", [](const Path& p, const Recording& r) { write_ros1_bag(p, r); }},
-                    Kind{"ros1_bz2",
-                         [](const Path& p, const Recording& r) {
-                           write_ros1_bag(p, r, {"bz2", 4, true});
-                         }},
-                    Kind{"ros1_lz4",
-                         [](const Path& p, const Recording& r) {
-                           write_ros1_bag(p, r, {"lz4", 4, true});
-                         }},
-                    Kind{"db3", [](const Path& p, const Recording& r) { write_db3(p, r); }},
-                    Kind{"mcap",
-                         [](const Path& p, const Recording& r) {
-                           write_mcap(p, r, {"", 0, true, true});
-                         }},
-                    Kind{"mcap_lz4",
-                         [](const Path& p, const Recording& r) {
-                           write_mcap(p, r, {"lz4", 4, true, true});
-                         }},
-                    Kind{"mcap_zstd",
-                         [](const Path& p, const Recording& r) {
-                           write_mcap(p, r, {"zstd", 4, true, true});
-                         }},
-                    Kind{"mcap_of_compressed_messages",
-                         [](const Path& p, const Recording& r) {
-                           write_mcap(p, r, {"", 0, true, true, true});
-                         }},
-                    Kind{"mcap_in_zstd",
-                         [](const Path& p, const Recording& r) {
-                           write_mcap(p, r, {"", 4, true, true});
-                           write_file(p, zstd_frame(read_file(p), 500));
-                         }},
-                    Kind{"db3_in_zstd",
-                         [](const Path& p, const Recording& r) {
-                           write_db3(p, r);
-                           write_file(p, zstd_frame(read_file(p), 500));
-                         }}),
+    testing::Values(BagKind{"ros1", [](const Path& p, const Recording& r) { write_ros1_bag(p, r); }},
+                    BagKind{"ros1_bz2",
+                            [](const Path& p, const Recording& r) {
+                              write_ros1_bag(p, r, {"bz2", 4, true});
+                            }},
+                    BagKind{"ros1_lz4",
+                            [](const Path& p, const Recording& r) {
+                              write_ros1_bag(p, r, {"lz4", 4, true});
+                            }},
+                    BagKind{"db3", [](const Path& p, const Recording& r) { write_db3(p, r); }},
+                    BagKind{"mcap",
+                            [](const Path& p, const Recording& r) {
+                              write_mcap(p, r, {"", 0, true, true});
+                            }},
+                    BagKind{"mcap_lz4",
+                            [](const Path& p, const Recording& r) {
+                              write_mcap(p, r, {"lz4", 4, true, true});
+                            }},
+                    BagKind{"mcap_zstd",
+                            [](const Path& p, const Recording& r) {
+                              write_mcap(p, r, {"zstd", 4, true, true});
+                            }},
+                    BagKind{"mcap_of_compressed_messages",
+                            [](const Path& p, const Recording& r) {
+                              write_mcap(p, r, {"", 0, true, true, true});
+                            }},
+                    BagKind{"mcap_in_zstd",
+                            [](const Path& p, const Recording& r) {
+                              write_mcap(p, r, {"", 4, true, true});
+                              write_file(p, zstd_frame(read_file(p), 500));
+                            }},
+                    BagKind{"db3_in_zstd",
+                            [](const Path& p, const Recording& r) {
+                              write_db3(p, r);
+                              write_file(p, zstd_frame(read_file(p), 500));
+                            }}),
     [](const auto& tested) { return tested.param.name; });
 
 TEST(CutOffBag, within_its_only_chunk_is_not_taken_for_a_bag_without_scans) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "localization/global_search.h"
@@ -12,7 +13,8 @@ namespace psi_slam {
 /// other places agree with it, see LoopConsensus.
 class PlaceConsensus {
  public:
-  explicit PlaceConsensus(const LoopConsensusOptions& options) : consensus_(options) {
+  /// Places wait longer for others than loops do: searches of a whole map are 1 m of travel or more apart.
+  explicit PlaceConsensus(const LoopConsensusOptions& options) : consensus_(with_long_memory(options)) {
     map_frame_.add_node({0, 0, 0});
   }
 
@@ -25,6 +27,11 @@ class PlaceConsensus {
   }
 
  private:
+  static LoopConsensusOptions with_long_memory(LoopConsensusOptions options) {
+    options.memory_m = std::max(options.memory_m, 15.0);
+    return options;
+  }
+
   LoopConsensus consensus_;
   PoseGraph map_frame_;  // has one node, the origin of the map, as anchor of the places
 };

@@ -4,7 +4,8 @@
 // several places. But every match implies a pose of the front end's frame in the map. True matches of several
 // scans imply the same pose, whereas false matches imply different poses. The weight of a match decreases
 // with its ambiguity, down to 0: along a corridor with equal doors, matches that are all off by the same
-// number of doors agree with each other for as long as the robot follows the corridor.
+// number of doors agree with each other for as long as the robot follows the corridor. For the same reason,
+// only matches within a few metres of travel count together.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -19,9 +20,7 @@
 namespace psi_slam {
 
 struct LoopConsensusOptions {
-  /// Path length after which a match no longer counts. Along a corridor with equal doors, false matches that
-  /// are off by the same number of doors confirm each other if they are counted over more than a few metres.
-  double memory_m = 4.0;
+  double memory_m = 4.0;                                 ///< path length after which a match no longer counts
   double same_place_m = 0.5;                             ///< largest distance between poses that agree
   double same_heading_rad = radians_from_degrees(3.5L);  ///< largest turn between poses that agree
   /// Shortest path between the first match that agrees and has a weight, and the last.

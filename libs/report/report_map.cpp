@@ -45,6 +45,7 @@ void extend(Path& path, const Pixel& point, bool is_end) {
 Paths paths_of(const MappingResult& result, TPose2D FrameRecord::*pose, const MapPicture& picture) {
   Paths paths;
   for (const FrameSpan& run : runs_of(result)) {
+    if (run.begin == run.end) continue;
     const FrameRecord& first = result.frames[run.begin];
     Path path;
     for (std::size_t i = run.begin; i < run.end; ++i)

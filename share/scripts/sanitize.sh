@@ -6,9 +6,10 @@
 #     share/scripts/sanitize.sh asan [CTEST OPTION...]     # addresses and undefined behaviour: all tests but those below
 #     share/scripts/sanitize.sh tsan [CTEST OPTION...]     # threads: the tests of the libraries that use threads
 #
-# Builds in build/asan or build/tsan, which takes about twice as long as the release. Tests of scripts and packages do not
-# run: they test builds without sanitizers. Tests with real logs need the environment variable PSI_SLAM_DATA. It names the folder
-# that fetch-benchmark-logs.sh filled. CMAKE_BUILD_PARALLEL_LEVEL sets the number of compilers, by default one per processor.
+# Builds in build/asan with everything, or in build/tsan with these tests only. Both have assertions and little optimisation.
+# CTest options can only narrow the selection, by -E. Tests of scripts and packages do not run: they test builds without
+# sanitizers. Tests with real logs need the environment variable PSI_SLAM_DATA. It names the folder that fetch-benchmark-logs.sh
+# filled. CMAKE_BUILD_PARALLEL_LEVEL sets the number of compilers, by default one per processor.
 set -euo pipefail
 
 fail() {
@@ -16,7 +17,7 @@ fail() {
   exit "$2"
 }
 
-readonly threaded=(base batch exports gui live loop_closure mapping replay session)
+readonly threaded=(base batch exports gui live loop_closure mapping mrpt replay session)
 targets=()
 case "${1:-}" in
   asan) selection=(--exclude-regex '^(scripts|package)\.') ;;

@@ -26,7 +26,8 @@ json listed(std::vector<std::string> arguments) {
 TEST(OptionsCommand, json_has_every_option_with_its_values) {
   const json all = listed({});
   std::size_t described = 0;
-  for (const OptionSection& section : default_settings()->sections()) described += section.options.size();
+  const auto settings = default_settings();
+  for (const OptionSection& section : settings->sections()) described += section.options.size();
   EXPECT_EQ(all.size(), described);
   const auto option = [&](const std::string& name) {
     return *std::find_if(all.begin(), all.end(), [&](const json& one) { return one["name"] == name; });

@@ -107,7 +107,7 @@ TEST_F(GeoPackage, outlines_are_closed_and_thin_walls_are_single_lines) {
 }
 
 TEST_F(GeoPackage, path_has_the_time_of_each_pose_and_a_line_for_each_run) {
-  result_ = walk_around_the_room(5);
+  result_ = walk_around_the_room(30);
   result_.frames.resize(5);
   for (std::size_t i = 0; i < 5; ++i) result_.frames[i].map_T_robot = {static_cast<double>(i) + 0.5, 0.5, 0};
   result_.later_run_frames = {2, 4};

@@ -43,6 +43,19 @@ TEST(PlaceConsensus, believes_places_that_fit_the_path_between_them) {
   EXPECT_FALSE(agree({places.front()})) << "one place has no witness";
 }
 
+TEST(PlaceConsensus, believes_places_that_nearly_fit_elsewhere_if_there_are_many) {
+  const KeyframeStore keyframes = straight_keyframes(20);
+  PlaceConsensus consensus{LoopConsensusOptions()};
+  std::size_t searches = 0;
+  for (std::size_t node = 0; node < 20; node += 2) {  // a prior map is searched every 2 m
+    FoundPlace place = found_at({5.0 + static_cast<double>(node), 3.0, 0.0});
+    place.ambiguity = 0.86;
+    ++searches;
+    if (consensus.add(node, keyframes, place)) break;
+  }
+  EXPECT_EQ(searches, 4U) << "weights of 0.14 add up to 0.5";
+}
+
 TEST(PlaceConsensus, does_not_believe_places_that_contradict_each_other) {
   std::vector<TPose2D> places;
   for (int i = 0; i < 20; ++i) places.emplace_back(5.0 + 7 * (i % 5) * i, 3.0 * i * i, 0.4 * i);

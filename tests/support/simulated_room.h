@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,7 @@ inline BeamBearings even_bearings(double first_rad, double last_rad, int count) 
 /// A made-up result of the mapper: a walk around the room, every fifth scan a node, one accepted and one
 /// rejected loop, and invented times.
 inline MappingResult walk_around_the_room(int scans = 50) {
+  if (scans < 26) throw std::invalid_argument("walk_around_the_room() needs 26 scans for its loops");
   const SimulatedRoom room;
   const BeamBearings bearings = even_bearings(-M_PI / 2, M_PI / 2, 181);
   MappingResult result;

@@ -15,7 +15,7 @@
 namespace psi_slam {
 namespace {
 
-constexpr std::size_t kTracks = 30;
+constexpr std::size_t kCalibrationTracks = 30;
 constexpr std::size_t kMostPairs = 1500;
 constexpr double kShareOfReading = 0.25;  // of the time of an estimate, for each reading of the log
 
@@ -57,7 +57,7 @@ LaserEstimate estimate_once(const std::filesystem::path& path, const LogOptions&
                                                                  : "some scans have no odometry";
     return found;
   }
-  const auto tracks = tracks_from(frames_in_motion(marks, kTracks), marks.size());
+  const auto tracks = tracks_from(frames_in_motion(marks, kCalibrationTracks), marks.size());
   const auto pairs = overlapping_pairs(marks, kComparedMotion_m, kComparedTurn_rad, kMostPairs);
   ScanLibrary library;
   for (const auto& track : tracks) library.want(track);

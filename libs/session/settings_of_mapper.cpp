@@ -333,9 +333,8 @@ void describe_consensus(OptionTable& table, LoopConsensusOptions& consensus) {
       .number(
           "memory_m", consensus.memory_m, above(0), "m",
           "Travel after which a waiting match no longer counts. A larger value lets false matches along "
-          "equal "
-          "doors confirm each other, a smaller one loses loops of sparse logs. In searches of a whole map, "
-          "matches wait for at least 15 m.")
+          "equal doors confirm each other, a smaller one loses loops of sparse logs. In searches of a whole "
+          "map, matches wait for at least 15 m.")
       .number("same_place_m", consensus.same_place_m, above(0).at_most(100), "m",
               "Matches agree only if they place the robot at most this far apart.")
       .angle_deg("same_heading_deg", consensus.same_heading_rad, above(0).at_most(180),

@@ -21,7 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostReadBytes = std::size_t{64} * 1024;  // bytes received at once
 constexpr std::chrono::milliseconds kWait{100};
 // A recorder writes its last bytes at most so long after it has closed a bag.
 constexpr std::chrono::seconds kClosing{10};
@@ -33,7 +32,7 @@ class GrowingLines : public LineStream {
 
  protected:
   Received receive(std::string& bytes) override {
-    std::array<char, kMostReadBytes> room{};
+    std::array<char, kMostBytes> room{};
     const std::size_t got = file_.read(room.data(), room.size());
     if (got == 0) std::this_thread::sleep_for(kWait);
     bytes.append(room.data(), got);

@@ -17,6 +17,8 @@ namespace psi_slam {
 /// a stated time without a byte.
 class LineStream : public ByteSource {
  public:
+  static constexpr std::size_t kMostBytes = std::size_t{64} * 1024;  ///< bytes received at once
+
   /// `name` is the path in messages. `idle_s`: seconds without a byte after which the stream ends;
   /// empty: never.
   LineStream(std::filesystem::path name, LiveControl control, std::optional<double> idle_s);

@@ -18,8 +18,6 @@
 namespace psi_slam {
 namespace {
 
-constexpr std::size_t kMostReceivedBytes = std::size_t{64} * 1024;  // bytes received at once
-
 bool is_temporary(int error) {
   return error == EINTR || error == EAGAIN || error == EWOULDBLOCK;
 }
@@ -32,7 +30,7 @@ bool is_ready(int descriptor, int wait_ms) {
 
 /// Appends what a descriptor holds. Returns what read() returned.
 ssize_t append_from(int descriptor, std::string& bytes) {
-  std::array<char, kMostReceivedBytes> room{};
+  std::array<char, LineStream::kMostBytes> room{};
   const ssize_t got = ::read(descriptor, room.data(), room.size());
   if (got > 0) bytes.append(room.data(), static_cast<std::size_t>(got));
   return got;

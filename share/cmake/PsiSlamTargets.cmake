@@ -90,8 +90,7 @@ function(psi_slam_configure_light_target target)
 endfunction()
 
 # psi_slam_add_tests(NAME [SEPARATE] LINK dependency...)
-# Adds one program NAME_tests with all tests/NAME/*_test.cpp. CTest lists each test under its own name. SEPARATE compiles each
-# source alone.
+# Adds one program NAME_tests with all tests/NAME/*_test.cpp, see psi_slam_add_test_suites(). SEPARATE compiles each source alone.
 function(psi_slam_add_tests name)
   cmake_parse_arguments(ARG "SEPARATE" "" "LINK" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*_test.cpp)
@@ -107,5 +106,19 @@ function(psi_slam_add_tests name)
   if(TARGET psi_slam_test_headers)
     target_precompile_headers(${name}_tests REUSE_FROM psi_slam_test_headers)
   endif()
-  gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
+  psi_slam_add_test_suites(${name} TIMEOUT 900)
+endfunction()
+
+# psi_slam_add_test_suites(NAME PROPERTY VALUE...)
+# CTest runs each suite of the program NAME_tests as the test NAME.Suite, with these properties.
+function(psi_slam_add_test_suites name)
+  set(tests ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
+  add_custom_command(TARGET ${name}_tests POST_BUILD BYPRODUCTS ${tests}
+    COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${name}_tests> -D PREFIX=${name} -D "PROPERTIES=${ARGN}"
+      -D RESULTS=${PROJECT_BINARY_DIR}/test-results -D OUTPUT=${tests}
+      -P ${PROJECT_SOURCE_DIR}/share/cmake/write-test-suites.cmake
+    VERBATIM)
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${name}_tests.cmake
+    "if(EXISTS [==[${tests}]==])\n  include([==[${tests}]==])\nelse()\n  add_test(${name}_NOT_BUILT ${name}_NOT_BUILT)\nendif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}_tests.cmake)
 endfunction()

@@ -41,7 +41,7 @@ share/scripts/install-dependencies.sh build runtime test
 cmake --preset "$preset" -D PSI_SLAM_BUILD_TESTS=ON >/dev/null
 cmake --build --preset "$preset" --parallel "${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}" "${targets[@]}"
 results=$PWD/build/$preset/test-results.xml
-rm -f "$results"
+rm -rf "$results" "build/$preset/test-results"
 status=0
 ctest --preset "$preset" --parallel "$(nproc)" "${selection[@]}" --output-junit "$results" "$@" || status=$?
 [ -s "$results" ] || fail "ctest wrote no results to $results. Read its message above" 1

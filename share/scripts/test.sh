@@ -21,7 +21,7 @@ cd "$(dirname "$0")/../.."
 results="$PWD/build/release/test-results.xml"
 
 share/scripts/build.sh --tests
-rm -f "$results"
+rm -rf "$results" build/release/test-results
 status=0
 # Runs one more test than there are processors, because tests of the window mostly wait.
 ctest --preset release --parallel "$(($(nproc) + 1))" --output-junit "$results" "$@" || status=$?

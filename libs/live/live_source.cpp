@@ -8,7 +8,7 @@
 #include "live/growing_folder.h"
 #include "live/growing_log.h"
 #include "live/line_streams.h"
-#include "live/sensor_set.h"
+#include "live/sensor_module.h"
 #include "logs/frame_pipeline.h"
 #include "psi_slam/user_error.h"
 #include "rawlog/observation_stream.h"
@@ -103,9 +103,9 @@ std::unique_ptr<FrameSource> open_live(const LiveInput& input, const LogOptions&
   const LogFormat format = format_of(input);
   check_options_for(format, name, options);
   if (input.kind == LiveInput::Kind::kSensors)
-    return std::make_unique<AwaitedSource<ObjectSource>>(
-        std::make_unique<SensorSet>(input.file, control, input.idle_s), open_observation_stream, format,
-        options, input.look_over_s);
+    return std::make_unique<AwaitedSource<ObjectSource>>(open_sensors(input.file, control, input.idle_s),
+                                                         open_observation_stream, format, options,
+                                                         input.look_over_s);
   if (format == LogFormat::kCarmen)
     return std::make_unique<AwaitedSource<ByteSource>>(open_lines(input, control), open_carmen_stream, format,
                                                        options, input.look_over_s);

@@ -3,10 +3,14 @@
 # layout and installation.
 include(GNUInstallDirs)
 
+# The programs of the build tree find the project's modules here.
+set(PSI_SLAM_MODULES ${PROJECT_BINARY_DIR}/modules)
+
 # Sets language level, strict warnings and sanitizers of a target.
 function(psi_slam_configure_target target)
   target_compile_features(${target} PUBLIC cxx_std_17)
-  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${target} PROPERTIES
+    CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON BUILD_RPATH ${PSI_SLAM_MODULES})
   # Without contraction to fused multiply-add, every machine rounds each expression in the same way.
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "base/portable_math.h"
 #include "frames/pose_operations.h"
@@ -16,6 +18,27 @@ namespace {
 
 using mrpt::math::TPose2D;
 
+/// Directions of a laser's beams in the robot's frame. Most scans have those of the scan before.
+class BeamDirections {
+ public:
+  const std::vector<mrpt::math::TPoint2D>& of(const LaserScan& scan, double laser_yaw_rad) {
+    if (bearings_rad_ == scan.bearings_rad && laser_yaw_rad_ == laser_yaw_rad) return directions_;
+    bearings_rad_ = scan.bearings_rad;
+    laser_yaw_rad_ = laser_yaw_rad;
+    directions_.clear();
+    for (const float bearing_rad : *scan.bearings_rad) {
+      const double bearing = static_cast<double>(bearing_rad) + laser_yaw_rad;
+      directions_.emplace_back(portable::cos(bearing), portable::sin(bearing));
+    }
+    return directions_;
+  }
+
+ private:
+  std::shared_ptr<const std::vector<float>> bearings_rad_;
+  double laser_yaw_rad_ = 0;
+  std::vector<mrpt::math::TPoint2D> directions_;
+};
+
 ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
                             const ScanFilterOptions& options) {
   ScanPoints result;
@@ -25,13 +48,14 @@ ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
   double last_x = 0;
   double last_y = 0;
   double farthest_squared = 0;
+  thread_local BeamDirections beams;
+  const std::vector<mrpt::math::TPoint2D>& directions = beams.of(scan, robot_T_laser.phi);
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
     // Also skips beams without a return, whose range is infinite or NaN.
     if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;
-    const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + robot_T_laser.phi;
-    const double x = robot_T_laser.x + range * portable::cos(bearing);
-    const double y = robot_T_laser.y + range * portable::sin(bearing);
+    const double x = robot_T_laser.x + range * directions[i].x;
+    const double y = robot_T_laser.y + range * directions[i].y;
     const double gap_squared = (x - last_x) * (x - last_x) + (y - last_y) * (y - last_y);
     if (!result.points.empty() && gap_squared < spacing_squared) continue;
     last_x = x;

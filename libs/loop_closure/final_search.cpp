@@ -21,11 +21,9 @@ class NodeChoice {
  public:
   NodeChoice(const std::vector<NodeScan>& nodes, double stretch_m)
       : stretch_m_(stretch_m), moved_m_(nodes.size()) {
-    for (std::size_t node = 1; node < nodes.size(); ++node) {
-      const mrpt::math::TPose2D motion = between(nodes[node - 1].local_T_robot, nodes[node].local_T_robot);
+    for (std::size_t node = 1; node < nodes.size(); ++node)
       moved_m_[node] =
-          moved_m_[node - 1] + portable::hypot(motion.x, motion.y) + kTravelOfTurn_m * std::abs(motion.phi);
-    }
+          moved_m_[node - 1] + travel_and_turn_m(nodes[node - 1].local_T_robot, nodes[node].local_T_robot);
   }
 
   bool contains(std::size_t node, std::size_t local_map) const {

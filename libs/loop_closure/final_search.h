@@ -25,18 +25,14 @@ namespace psi_slam {
 /// Nodes with at most this many local maps near them are matched with all of these.
 inline constexpr int kFewMaps = 4;
 
-/// A turn of 1 rad counts as this much travel: by default, after both of them the front end adds about
-/// equally many nodes.
-inline constexpr double kTravelOfTurn_m = 1.5;
-
 struct FinalSearchOptions {
   int passes = 2;  ///< number of passes, each followed by an optimisation; 0: no final loop search
   double window_m = 0.3;
   double window_rad = radians_from_degrees(3.0L);
   double reach_m = 5.0;  ///< largest distance between a node and the nearest node of a local map
   /// Of the nodes with more than kFewMaps local maps near them, a local map is matched with one in each
-  /// stretch of this travel, where a turn of 1 rad counts as kTravelOfTurn_m; 0: with all.
-  double travel_m = 0.6;
+  /// stretch of this travel, see travel_and_turn_m(); 0: with all.
+  double travel_m = 0.9;
 };
 
 struct FinalSearchOutcome {

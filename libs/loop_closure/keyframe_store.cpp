@@ -17,6 +17,11 @@ constexpr std::size_t kUnpackedLocalMaps = 48;
 
 }  // namespace
 
+double travel_and_turn_m(const mrpt::math::TPose2D& from, const mrpt::math::TPose2D& to) {
+  const mrpt::math::TPose2D motion = between(from, to);
+  return portable::hypot(motion.x, motion.y) + kTravelOfTurn_m * std::abs(motion.phi);
+}
+
 bool is_unplaced(std::size_t node, const KeyframeStore& keyframes) {
   return std::any_of(keyframes.unplaced.begin(), keyframes.unplaced.end(),
                      [&](const UnplacedRun& run) { return run.contains(node); });

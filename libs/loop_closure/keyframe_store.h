@@ -42,6 +42,13 @@ struct KeyframeStore {
   std::vector<UnplacedRun> unplaced;
 };
 
+/// A turn of 1 rad counts as this much travel: by default, after both of them the front end adds about
+/// equally many nodes.
+inline constexpr double kTravelOfTurn_m = 1.5;
+
+/// Returns the distance between two poses, plus their turn as travel.
+double travel_and_turn_m(const mrpt::math::TPose2D& from, const mrpt::math::TPose2D& to);
+
 /// Returns whether the node belongs to a run whose place in the map is unknown.
 bool is_unplaced(std::size_t node, const KeyframeStore& keyframes);
 

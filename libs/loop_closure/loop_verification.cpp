@@ -15,6 +15,7 @@ namespace {
 using mrpt::math::TPose2D;
 
 constexpr double kReverseTolerance_m = 0.25;
+constexpr double kNeighbourSpacing_m = 0.3;
 constexpr double kReportedShare = 0.8;  // of min_response()
 
 double largest_sigma_m(const Eigen::Matrix3d& covariance) {
@@ -23,15 +24,18 @@ double largest_sigma_m(const Eigen::Matrix3d& covariance) {
   return std::sqrt(mean + portable::hypot(half_difference, covariance(0, 1)));
 }
 
-// Returns the agreement of the neighbouring scans with the local map. The matched pose and the front end's
-// motion place these scans. If the match is true, these scans fit the local map too.
+// Returns the agreement of the neighbouring scans with the local map, of one scan for each kNeighbourSpacing_m
+// of travel and turns. The matched pose and the front end's motion place these scans. If the match is true,
+// these scans fit the local map too.
 LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeStore& keyframes,
                                          double neighbourhood_m) {
   const LocalMap& map = *keyframes.local_maps[loop.local_map].map;
   const NodeScan& here = keyframes.nodes[loop.node];
   LocalMap::Agreement sum;
-  const auto add = [&](std::size_t node) {
-    const NodeScan& there = keyframes.nodes[node];
+  const NodeScan* last = &here;
+  const auto add = [&](const NodeScan& there) {
+    if (travel_and_turn_m(last->local_T_robot, there.local_T_robot) < kNeighbourSpacing_m) return;
+    last = &there;
     const LocalMap::Agreement one = map.agreement(
         *there.points, compose(loop.anchor_T_node, between(here.local_T_robot, there.local_T_robot)));
     sum.observed += one.observed;
@@ -40,8 +44,10 @@ LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeS
   const auto near = [&](std::size_t node) {
     return std::abs(keyframes.nodes[node].travelled_m - here.travelled_m) <= neighbourhood_m;
   };
-  for (std::size_t node = loop.node; node-- > 0 && near(node);) add(node);
-  for (std::size_t node = loop.node + 1; node < keyframes.nodes.size() && near(node); ++node) add(node);
+  for (std::size_t node = loop.node; node-- > 0 && near(node);) add(keyframes.nodes[node]);
+  last = &here;
+  for (std::size_t node = loop.node + 1; node < keyframes.nodes.size() && near(node); ++node)
+    add(keyframes.nodes[node]);
   return sum;
 }
 

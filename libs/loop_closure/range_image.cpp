@@ -2,33 +2,21 @@
 #include "loop_closure/range_image.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "base/portable_math.h"
+#include "loop_closure/bearing_bin.h"
 
 namespace psi_slam {
-namespace {
-
-constexpr std::size_t kBins = 360;
-
-}  // namespace
-
-std::size_t RangeImage::bin(double bearing_rad) {
-  const double turns = bearing_rad / (2 * M_PI);
-  const auto index = static_cast<std::size_t>((turns - std::floor(turns)) * kBins);
-  return std::min(index, kBins - 1);
-}
-
 RangeImage::RangeImage(const ScanPoints& scan) {
   for_each_laser(scan, [&](const mrpt::math::TPoint2Df& origin, std::size_t first, std::size_t end) {
-    View view{origin, std::vector<float>(kBins, std::numeric_limits<float>::infinity()),
-              std::vector<float>(kBins, 0.0F)};
+    View view{origin, std::vector<float>(kBearingBins, std::numeric_limits<float>::infinity()),
+              std::vector<float>(kBearingBins, 0.0F)};
     for (std::size_t i = first; i < end; ++i) {
       const float dx = scan.points[i].x - origin.x;
       const float dy = scan.points[i].y - origin.y;
-      const std::size_t b = bin(portable::atan2(static_cast<double>(dy), static_cast<double>(dx)));
+      const std::size_t b = bearing_bin(static_cast<double>(dx), static_cast<double>(dy));
       const float range = portable::hypot(dx, dy);
       view.nearest_m[b] = std::min(view.nearest_m[b], range);
       view.farthest_m[b] = std::max(view.farthest_m[b], range);
@@ -40,7 +28,7 @@ RangeImage::RangeImage(const ScanPoints& scan) {
 RangeImage::Verdict RangeImage::View::judge(double x, double y, double tolerance_m) const {
   const double dx = x - static_cast<double>(origin.x);
   const double dy = y - static_cast<double>(origin.y);
-  const std::size_t b = bin(portable::atan2(dy, dx));
+  const std::size_t b = bearing_bin(dx, dy);
   if (farthest_m[b] <= 0) return Verdict::kNothing;
   const double range = portable::hypot(dx, dy);
   if (range > static_cast<double>(farthest_m[b]) + tolerance_m)

@@ -42,8 +42,6 @@ class RangeImage {
     Verdict judge(double x, double y, double tolerance_m) const;
   };
 
-  static std::size_t bin(double bearing_rad);
-
   std::vector<View> views_;
 };
 

@@ -24,7 +24,7 @@ struct RefinementOptions {
   double score_sigma = 0.5;  ///< standard deviation s of a point's score, enlarged for correlated neighbours
   /// Length of a step that ends the iteration. A step that lowers the cost must also turn by less than a
   /// tenth of this value, in radians.
-  double converged_step_m = 2e-5;
+  double converged_step_m = 2e-4;
   double max_shift_m = 0.15;  ///< refine() returns the start if the pose moved farther, to another peak
 };
 

@@ -5,6 +5,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -80,30 +82,44 @@ class SurfaceSearch {
   std::vector<std::size_t> found_;
 };
 
+/// A point of the scan near a surface.
+struct Contact {
+  std::size_t point = 0;  ///< index in the scan
+  Surface surface;
+};
+
+std::vector<Contact> contacts(const SurfaceMap& map, const SurfacePoints& scan, const TPose2D& pose,
+                              const SurfaceAlignmentOptions& options) {
+  std::vector<Contact> found;
+  found.reserve(scan.points.size());
+  const Turned turned(pose.phi);
+  const Point position(static_cast<float>(pose.x), static_cast<float>(pose.y));
+  SurfaceSearch search(map, options);
+  for (std::size_t j = 0; j < scan.points.size(); ++j)
+    if (const auto surface = search.near(turned(scan.points[j]) + position, turned(scan.normals[j])))
+      found.push_back({j, *surface});
+  return found;
+}
+
 /// Normal equations of the scan without the prior, for points with unit variance.
 struct Normals {
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
   Eigen::Vector3d descent = Eigen::Vector3d::Zero();
   double weights = 0;
   double weighted_squares = 0;
-  std::size_t points = 0;
 
   double variance() const { return weighted_squares / weights; }
 };
 
-Normals compare(const SurfaceMap& map, const SurfacePoints& scan, const TPose2D& pose,
+Normals compare(const std::vector<Contact>& contacts, const SurfacePoints& scan, const TPose2D& pose,
                 const SurfaceAlignmentOptions& options) {
   Normals normals;
   const Turned turned(pose.phi);
   const Point position(static_cast<float>(pose.x), static_cast<float>(pose.y));
-  SurfaceSearch search(map, options);
-  for (std::size_t j = 0; j < scan.points.size(); ++j) {
-    const Point arm = turned(scan.points[j]);
-    const Point at = arm + position;
-    const auto surface = search.near(at, turned(scan.normals[j]));
-    if (!surface) continue;
-    const Point& normal = surface->normal;
-    const auto residual = static_cast<double>(dot(normal, at - surface->point));
+  for (const Contact& contact : contacts) {
+    const Point arm = turned(scan.points[contact.point]);
+    const Point& normal = contact.surface.normal;
+    const auto residual = static_cast<double>(dot(normal, arm + position - contact.surface.point));
     const double shrink = 1 + residual * residual / (options.kernel_m * options.kernel_m);
     const double weight = 1 / (shrink * shrink);
     const Eigen::Vector3d slope(static_cast<double>(normal.x), static_cast<double>(normal.y),
@@ -112,9 +128,21 @@ Normals compare(const SurfaceMap& map, const SurfacePoints& scan, const TPose2D&
     normals.descent -= weight * residual * slope;
     normals.weights += weight;
     normals.weighted_squares += weight * residual * residual;
-    ++normals.points;
   }
   return normals;
+}
+
+/// Distance of the farthest point from the robot.
+double reach(const SurfacePoints& scan) {
+  float squared = 0;
+  for (const Point& point : scan.points) squared = std::max(squared, dot(point, point));
+  return std::sqrt(static_cast<double>(squared));
+}
+
+/// Returns how far at most a point of the scan moves between two poses.
+double largest_move(const TPose2D& from, const TPose2D& to, double reach_m) {
+  return portable::hypot(to.x - from.x, to.y - from.y) +
+         reach_m * std::abs(mrpt::math::wrapToPi(to.phi - from.phi));
 }
 
 }  // namespace
@@ -147,19 +175,26 @@ SurfaceAlignment align_to_surfaces(const SurfaceMap& map, const SurfacePoints& s
   const Eigen::Vector3d prior(1 / (options.prior_sigma_m * options.prior_sigma_m),
                               1 / (options.prior_sigma_m * options.prior_sigma_m),
                               1 / (options.prior_sigma_rad * options.prior_sigma_rad));
+  const double reach_m = reach(scan);
   SurfaceAlignment result{start, 0};
   TPose2D& pose = result.map_T_robot;
+  TPose2D searched_at = start;
+  std::vector<Contact> near = contacts(map, scan, start, options);
   for (int i = 0; i < options.iterations; ++i) {
-    const Normals scan_alone = compare(map, scan, pose, options);
-    result.points = scan_alone.points;
-    if (scan_alone.points < options.min_points) return {start, scan_alone.points};
+    if (largest_move(searched_at, pose, reach_m) > options.search_again_m) {
+      near = contacts(map, scan, pose, options);
+      searched_at = pose;
+    }
+    result.points = near.size();
+    if (near.size() < options.min_points) return {start, near.size()};
+    const Normals scan_alone = compare(near, scan, pose, options);
     const Eigen::Vector3d held = scan_alone.variance() * prior;
     Eigen::Matrix3d hessian = scan_alone.hessian;
     hessian.diagonal() += held;
     const Eigen::Vector3d off(held_at.x - pose.x, held_at.y - pose.y,
                               mrpt::math::wrapToPi(held_at.phi - pose.phi));
     const Eigen::Vector3d step = hessian.ldlt().solve(scan_alone.descent + held.cwiseProduct(off));
-    if (!step.allFinite()) return {start, scan_alone.points};
+    if (!step.allFinite()) return {start, near.size()};
     pose = TPose2D(pose.x + step.x(), pose.y + step.y(), mrpt::math::wrapToPi(pose.phi + step.z()));
   }
   return result;

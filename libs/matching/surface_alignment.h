@@ -6,9 +6,10 @@
 //     minimise over the pose:  sum_j rho(n_j . (T p_j - q_j)) / s^2  +  |x - x_held|^2 / sigma_prior^2
 //
 // The sum is over the points p_j of the scan, and T is the pose x as a transform. q_j and n_j are the mean
-// point and the mean normal of the surface points nearest to T p_j. rho is the kernel of Geman and McClure. s
-// is the standard deviation of one point, estimated from the residuals at every iteration. x_held is the pose
-// of the prior. sigma_prior is prior_sigma_m for x and y, and prior_sigma_rad for the heading.
+// point and the mean normal of the surface points nearest to T p_j. They are kept while the scan hardly moves,
+// because their search takes most of the time. rho is the kernel of Geman and McClure. s is the standard
+// deviation of one point, estimated from the residuals at every iteration. x_held is the pose of the prior.
+// sigma_prior is prior_sigma_m for x and y, and prior_sigma_rad for the heading.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -58,6 +59,9 @@ struct SurfaceAlignmentOptions {
   double prior_sigma_m = 0.01;  ///< standard deviation of `held_at`, which fixes the pose along a corridor
   double prior_sigma_rad = radians_from_degrees(0.25L);
   int iterations = 4;
+  /// The surface points near the scan are searched again if one of its points may have moved farther than
+  /// this.
+  double search_again_m = 0.002;
   std::size_t min_points = 20;  ///< with fewer points near surfaces, the result is the start
 };
 

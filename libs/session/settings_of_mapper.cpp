@@ -438,6 +438,9 @@ void describe_joint_refinement(OptionTable& table, JointRefinementOptions& refin
                  "Standard deviation of the optimised heading that the refinement starts from.")
       .integer("iterations", alignment.iterations, between(1, 100), "iterations",
                "Number of Gauss-Newton iterations for each scan.")
+      .number(
+          "search_again_m", alignment.search_again_m, at_least(0), "m",
+          "The surface points near a scan are searched again when one of its points may have moved farther.")
       .integer(
           "min_points", alignment.min_points, between(1, 1000000), "points",
           "Least number of a scan's points near surfaces. A scan with fewer such points keeps its pose.");
@@ -467,7 +470,7 @@ void describe_localization(OptionTable& table, LocalizerOptions& localization) {
           "each place that csm_ga or ga finds and that would be accepted.")
       .number("search_resolution_m", search.resolution_m, between(0.005, 10), "m",
               "Cell size for searching the whole map. Larger cells of the map itself are kept.")
-      .number("search_travel_m", localization.search_travel_m, above(0), "m",
+      .number("search_travel_m", localization.search_travel_m, above(0).at_most(10), "m",
               "While lost: travel from one search of the whole map to the next.")
       .number("context_travel_m", search.context.travel_m, at_least(0), "m",
               "The whole map is searched with all scans of this much travel.")

@@ -119,7 +119,7 @@ TEST(BackEndThread, the_poses_of_the_nodes_follow_the_corrections) {
   double largest_m = 0;
   for (std::size_t node = 0; node < middle.size(); ++node)
     largest_m = std::max(largest_m, std::hypot(last[node].x - middle[node].x, last[node].y - middle[node].y));
-  EXPECT_GT(largest_m, 0.01);
+  EXPECT_GT(largest_m, 0.005);
 }
 
 TEST(BackEndThread, waiting_completes_the_records) {

@@ -119,11 +119,11 @@ TEST_F(MapperEditsTest, the_graph_is_optimised_at_once) {
     const TPose2D now = mapper_.graph().poses().back();
     return std::hypot(now.x - closed.x, now.y - closed.y);
   };
-  EXPECT_GT(for_accepted(Kind::kDelete), 0.03) << "without loops, the map is distorted";
+  EXPECT_GT(for_accepted(Kind::kDelete), 0.015) << "without loops, the map is distorted";
   const TPose2D robot = mapper_.map_T_robot();
-  EXPECT_GT(std::hypot(robot.x - closed.x, robot.y - closed.y), 0.03)
+  EXPECT_GT(std::hypot(robot.x - closed.x, robot.y - closed.y), 0.015)
       << "the pose of the robot changes with the map";
-  EXPECT_LT(for_accepted(Kind::kRestore), 0.01) << "the restored loops correct the map again";
+  EXPECT_LT(for_accepted(Kind::kRestore), 0.005) << "the restored loops correct the map again";
 }
 
 TEST_F(MapperEditsTest, a_loop_deleted_before_it_is_found_never_becomes_a_constraint) {

@@ -108,6 +108,29 @@ TEST(SurfaceAlignment, moves_a_scan_to_its_true_pose) {
   }
 }
 
+TEST(SurfaceAlignment, hardly_changes_if_surfaces_are_searched_again_at_every_iteration) {
+  const SimulatedWalls walls = furnished_room();
+  const SeenRoom room(walls, kViews, 0.01);
+  const SurfaceAlignmentOptions options;
+  SurfaceAlignmentOptions thorough;
+  thorough.search_again_m = 0;
+  bool differs = false;
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> off(-0.02, 0.02);
+    const TPose2D truth(3.1, 2.2, 0.55);
+    const SurfacePoints scan = surface_points(scan_at(walls, truth, 0.01, seed));
+    const TPose2D start = truth + TPose2D(off(random), off(random), off(random) / 4);
+    const TPose2D fast = align_to_surfaces(room.map(), scan, start, start, options).map_T_robot;
+    const TPose2D slow = align_to_surfaces(room.map(), scan, start, start, thorough).map_T_robot;
+    EXPECT_NEAR(fast.x, slow.x, 3e-4);
+    EXPECT_NEAR(fast.y, slow.y, 3e-4);
+    EXPECT_NEAR(fast.phi, slow.phi, 1e-4);
+    differs = differs || fast.x != slow.x;
+  }
+  EXPECT_TRUE(differs) << "no search was saved, so nothing was tested";
+}
+
 TEST(SurfaceAlignment, ends_at_a_minimum_of_the_cost) {
   const SimulatedWalls walls = furnished_room();
   const SeenRoom room(walls, kViews, 0.01);

@@ -134,6 +134,10 @@ TEST_F(SettingsTest, rejects_options_that_contradict_each_other) {
   EXPECT_THAT(
       refusal({"final_search.window_m=0.3", "loop_closure.window_x_m=4", "loop_closure.min_sigma_m=9"}),
       HasSubstr("loop_closure.min_sigma_m = 9 must not be more than loop_closure.max_sigma_m"));
+  EXPECT_EQ(refusal({"loop_closure.min_sigma_m=0.01", "loop_closure.attempt_distance_m=5"}),
+            "loop_closure.attempt_distance_m = 5 must not be more than consensus.memory_m = 4");
+  EXPECT_EQ(refusal({"loop_closure.attempt_distance_m=0.5", "consensus.min_span_m=4.5"}),
+            "consensus.min_span_m = 4.5 must not be more than consensus.memory_m = 4");
 }
 
 TEST_F(SettingsTest, old_option_names_are_accepted_with_a_warning) {

@@ -24,9 +24,9 @@ double largest_sigma_m(const Eigen::Matrix3d& covariance) {
   return std::sqrt(mean + portable::hypot(half_difference, covariance(0, 1)));
 }
 
-// Returns the agreement of the neighbouring scans with the local map, of one scan for each kNeighbourSpacing_m
-// of travel and turns. The matched pose and the front end's motion place these scans. If the match is true,
-// these scans fit the local map too.
+// Returns the agreement of the neighbouring scans with the local map, of one scan for each
+// kNeighbourSpacing_m of travel and turns. The matched pose and the front end's motion place these scans. If
+// the match is true, these scans fit the local map too.
 LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeStore& keyframes,
                                          double neighbourhood_m) {
   const LocalMap& map = *keyframes.local_maps[loop.local_map].map;

@@ -23,6 +23,7 @@
 #include "main_frame.h"
 #include "main_menu.h"
 #include "map_canvas.h"
+#include "sanitizer.h"
 #include "screen_image.h"
 #include "temporary_folder.h"
 
@@ -234,7 +235,7 @@ class GuiRun {
   std::chrono::steady_clock::duration longest_gap_{};
   std::vector<Gauge> gauges_;
   double cpu_ms_before_ = 0;
-  std::chrono::steady_clock::duration limit_ = std::chrono::minutes(1);
+  std::chrono::steady_clock::duration limit_ = std::chrono::minutes(kHasAddressSanitizer ? 10 : 1);
   MainFrame* frame_ = nullptr;
   std::unique_ptr<Timer> timer_;
 };

@@ -68,7 +68,7 @@ std::string failure_of(const ChildEnd& end) {
 
 constexpr const char* kUnfinished = "not_finished_in_s";
 
-struct Task {
+struct BaselineTask {
   BaselineRun run;
   fs::path file;
   RunKey key;
@@ -86,7 +86,7 @@ std::string key_of(const BaselineRun& run) {
 }
 
 /// Reads the result of an earlier run into `task.result`. Returns false if the run must be made.
-bool read_kept(const Task& task) {
+bool read_kept(const BaselineTask& task) {
   const std::optional<Json> kept = kept_run(task.file, task.key);
   if (!kept) return false;
   BaselineResult& result = *task.result;
@@ -101,7 +101,7 @@ bool read_kept(const Task& task) {
 }
 
 /// Writes a result to its file. Does not write a failure, so that the next command repeats the run.
-void keep(const Task& task, const BaselineResult& result) {
+void keep(const BaselineTask& task, const BaselineResult& result) {
   if (!result.figures && !result.not_finished_in_s) return;
   Json content = {{"schema", "psi-slam-rival-run"},
                   {"schema_version", 1},
@@ -115,16 +115,16 @@ void keep(const Task& task, const BaselineResult& result) {
 }
 
 /// Returns the runs without kept results. Fills `results` with the kept results of all other runs.
-std::vector<Task> tasks_of(const std::vector<BaselineProgram>& baselines,
-                           const std::vector<BenchmarkLog>& logs, const BaselineOptions& options,
-                           std::vector<BaselineResult>& results) {
-  std::vector<Task> tasks;
+std::vector<BaselineTask> tasks_of(const std::vector<BaselineProgram>& baselines,
+                                   const std::vector<BenchmarkLog>& logs, const BaselineOptions& options,
+                                   std::vector<BaselineResult>& results) {
+  std::vector<BaselineTask> tasks;
   results.resize(logs.size() * baselines.size());
   auto result = results.begin();
   for (const BenchmarkLog& log : logs)
     for (const BaselineProgram& baseline : baselines) {
       const std::string name = log.name + '-' + baseline.kind.name;
-      Task task;
+      BaselineTask task;
       task.run = {baseline, log, options.output / "baselines" / name, options.time_limit_s};
       task.file = options.output / "runs" / (name + ".json");
       task.key = {key_of(task.run), options.processes};
@@ -282,14 +282,14 @@ std::vector<BaselineResult> run_baselines(const std::vector<BaselineProgram>& ba
                                           const BaselineOptions& options, const std::atomic<bool>& stop,
                                           const ProgressObserver& observer) {
   std::vector<BaselineResult> results;
-  const std::vector<Task> tasks = tasks_of(baselines, logs, options, results);
+  const std::vector<BaselineTask> tasks = tasks_of(baselines, logs, options, results);
   double work = 0;
-  for (const Task& task : tasks) work += task.work;
+  for (const BaselineTask& task : tasks) work += task.work;
   TaskProgress progress(tasks.size(), work, observer);
   WorkerPool pool(options.processes);
   pool.run(tasks.size(), [&](std::size_t index) {
     if (stop) return;
-    const Task& task = tasks[index];
+    const BaselineTask& task = tasks[index];
     const BaselineResult result = run_baseline(task.run, [&] {
       progress.show(task.run.baseline.kind.name + " on " + task.run.log.name);
       return stop.load();

@@ -13,22 +13,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kModule = "psi-slam-sensors.so";
-
-// The build tree has the module in the search path of its programs.
-std::string module_file() {
+// Installed programs share a folder beside that of the libraries. In the build tree, tests share a folder,
+// and each other program has its own.
+fs::path module_file() {
+  const fs::path name = "psi-slam-sensors.so";
   std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  const fs::path installed = program.parent_path().parent_path() / PSI_SLAM_MODULE_FOLDER / kModule;
-  return fs::is_regular_file(installed, ignored) ? installed.string() : kModule;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  const fs::path installed = folder.parent_path() / PSI_SLAM_MODULE_FOLDER / name;
+  for (const fs::path& built :
+       {folder.parent_path() / "modules" / name, folder.parent_path().parent_path() / "modules" / name})
+    if (!fs::exists(installed, ignored) && fs::exists(built, ignored)) return built;
+  return installed;
 }
 
 PsiSlamOpenSensors& load_module() {
-  void* const module = ::dlopen(module_file().c_str(), RTLD_NOW);  // stays loaded
+  const fs::path file = module_file();
+  void* const module = ::dlopen(file.c_str(), RTLD_NOW);  // stays loaded
   void* const function = module != nullptr ? ::dlsym(module, "psi_slam_open_sensors") : nullptr;
   if (function == nullptr)
-    throw UserError(std::string("cannot load ") + kModule +
-                    ", which holds the drivers of sensors: " + ::dlerror() + ". Install psi-slam again");
+    throw UserError("cannot load the drivers of sensors from " + file.string() + ": " + ::dlerror() +
+                    ". Install psi-slam and MRPT's hwdrivers again");
   return *reinterpret_cast<PsiSlamOpenSensors*>(function);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The drivers of sensors are in a module, which is loaded when a sensor is opened. With the drivers linked,
-// every program would need twice the time to start and 50 MB more memory, because MRPT's drivers link its
-// windows and OpenCV's video input.
+// psi-slam would need twice the time to start and 47 MiB more memory, because MRPT's drivers link its windows
+// and OpenCV's video input.
 #pragma once
 
 #include <filesystem>

@@ -18,7 +18,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// Directions of a laser's beams in the robot's frame. Most scans have those of the scan before.
+/// Directions of a laser's beams in the robot's frame. A log of one laser shares its bearings among all
+/// scans, which then have the directions of the scan before.
 class BeamDirections {
  public:
   const std::vector<mrpt::math::TPoint2D>& of(const LaserScan& scan, double laser_yaw_rad) {

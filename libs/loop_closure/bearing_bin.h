@@ -11,13 +11,14 @@ namespace psi_slam {
 inline constexpr std::size_t kBearingBins = 360;
 
 /// Returns the bin of the bearing of a point: bin i holds the bearings from i to i + 1 degrees. A point
-/// within 0.001 degrees of an edge may be in the bin on the other side. The arctangent is a polynomial
-/// (Hastings 1955), which takes a third of the time of an exact one and has the same bits on every processor.
+/// within 0.001 degrees of an edge may be in the bin on the other side, because the arctangent is a
+/// polynomial that is off by up to 1.2e-5 rad (Hastings 1955). Points at the origin or at infinity are in bin
+/// 0.
 inline std::size_t bearing_bin(double x, double y) {
   const double across = std::abs(x);
   const double along = std::abs(y);
   const double larger = std::max(across, along);
-  if (!(larger > 0)) return 0;
+  if (!(larger > 0 && std::isfinite(larger))) return 0;
   const double slope = std::min(across, along) / larger;
   const double square = slope * slope;
   double angle_rad =

@@ -24,17 +24,18 @@ double largest_sigma_m(const Eigen::Matrix3d& covariance) {
   return std::sqrt(mean + portable::hypot(half_difference, covariance(0, 1)));
 }
 
-// Returns the agreement of the neighbouring scans with the local map, of one scan for each
-// kNeighbourSpacing_m of travel and turns. The matched pose and the front end's motion place these scans. If
-// the match is true, these scans fit the local map too.
+// Returns the agreement of the neighbouring scans with the local map: on each side, of the nearest one and of
+// those at least kNeighbourSpacing_m of distance and turn from the one compared before. The matched pose and
+// the front end's motion place these scans. If the match is true, these scans fit the local map too.
 LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeStore& keyframes,
                                          double neighbourhood_m) {
   const LocalMap& map = *keyframes.local_maps[loop.local_map].map;
   const NodeScan& here = keyframes.nodes[loop.node];
   LocalMap::Agreement sum;
-  const NodeScan* last = &here;
+  const NodeScan* last = nullptr;
   const auto add = [&](const NodeScan& there) {
-    if (travel_and_turn_m(last->local_T_robot, there.local_T_robot) < kNeighbourSpacing_m) return;
+    if (last != nullptr && travel_and_turn_m(last->local_T_robot, there.local_T_robot) < kNeighbourSpacing_m)
+      return;
     last = &there;
     const LocalMap::Agreement one = map.agreement(
         *there.points, compose(loop.anchor_T_node, between(here.local_T_robot, there.local_T_robot)));
@@ -45,7 +46,7 @@ LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeS
     return std::abs(keyframes.nodes[node].travelled_m - here.travelled_m) <= neighbourhood_m;
   };
   for (std::size_t node = loop.node; node-- > 0 && near(node);) add(keyframes.nodes[node]);
-  last = &here;
+  last = nullptr;
   for (std::size_t node = loop.node + 1; node < keyframes.nodes.size() && near(node); ++node)
     add(keyframes.nodes[node]);
   return sum;

@@ -9,6 +9,7 @@
 #include "loop_closure/bearing_bin.h"
 
 namespace psi_slam {
+
 RangeImage::RangeImage(const ScanPoints& scan) {
   for_each_laser(scan, [&](const mrpt::math::TPoint2Df& origin, std::size_t first, std::size_t end) {
     View view{origin, std::vector<float>(kBearingBins, std::numeric_limits<float>::infinity()),

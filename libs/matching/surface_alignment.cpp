@@ -88,8 +88,8 @@ struct Contact {
   Surface surface;
 };
 
-std::vector<Contact> contacts(const SurfaceMap& map, const SurfacePoints& scan, const TPose2D& pose,
-                              const SurfaceAlignmentOptions& options) {
+std::vector<Contact> find_contacts(const SurfaceMap& map, const SurfacePoints& scan, const TPose2D& pose,
+                                   const SurfaceAlignmentOptions& options) {
   std::vector<Contact> found;
   found.reserve(scan.points.size());
   const Turned turned(pose.phi);
@@ -179,10 +179,10 @@ SurfaceAlignment align_to_surfaces(const SurfaceMap& map, const SurfacePoints& s
   SurfaceAlignment result{start, 0};
   TPose2D& pose = result.map_T_robot;
   TPose2D searched_at = start;
-  std::vector<Contact> near = contacts(map, scan, start, options);
+  std::vector<Contact> near = find_contacts(map, scan, start, options);
   for (int i = 0; i < options.iterations; ++i) {
     if (largest_move(searched_at, pose, reach_m) > options.search_again_m) {
-      near = contacts(map, scan, pose, options);
+      near = find_contacts(map, scan, pose, options);
       searched_at = pose;
     }
     result.points = near.size();

@@ -6,10 +6,11 @@
 //     minimise over the pose:  sum_j rho(n_j . (T p_j - q_j)) / s^2  +  |x - x_held|^2 / sigma_prior^2
 //
 // The sum is over the points p_j of the scan, and T is the pose x as a transform. q_j and n_j are the mean
-// point and the mean normal of the surface points nearest to T p_j. They are kept while the scan hardly moves,
-// because their search takes most of the time. rho is the kernel of Geman and McClure. s is the standard
-// deviation of one point, estimated from the residuals at every iteration. x_held is the pose of the prior.
-// sigma_prior is prior_sigma_m for x and y, and prior_sigma_rad for the heading.
+// point and the mean normal of the surface points nearest to T p_j. They are kept while no point of the scan
+// may have moved farther than search_again_m, because their search takes most of the time. rho is the kernel
+// of Geman and McClure. s is the standard deviation of one point, estimated from the residuals at every
+// iteration. x_held is the pose of the prior. sigma_prior is prior_sigma_m for x and y, and prior_sigma_rad
+// for the heading.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

@@ -289,7 +289,7 @@ void check_values(const Settings& settings) {
                   {"verification.wide_window_m", back_end.loop_closure.verification.wide_window_m});
   require_at_most({"loop_closure.min_sigma_m", back_end.loop_matcher.min_sigma_m},
                   {"loop_closure.max_sigma_m", back_end.loop_matcher.max_sigma_m});
-  // Otherwise no match in a wide window would meet another.
+  // Otherwise each waiting match would be dropped before the next one comes.
   const LoopConsensusOptions& consensus = back_end.loop_consensus;
   require_at_most({"consensus.min_span_m", consensus.min_span_m}, {"consensus.memory_m", consensus.memory_m});
   require_at_most({"loop_closure.attempt_distance_m", back_end.loop_closure.attempt_distance_m},

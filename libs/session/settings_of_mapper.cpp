@@ -324,8 +324,10 @@ void describe_verification(OptionTable& table, LoopVerificationOptions& verifica
               "Least share of the neighbouring scans' points that fit the local map.")
       .number("min_reverse_agree", verification.min_reverse_agree, between(0, 1), "",
               "Least share of the local map's points that fit the matched scan.")
-      .number("neighbourhood_m", verification.neighbourhood_m, at_least(0), "m",
-              "Scans up to this much travel before and after the matched scan are its neighbours.");
+      .number(
+          "neighbourhood_m", verification.neighbourhood_m, at_least(0), "m",
+          "Scans up to this much travel before and after the matched scan are its neighbours. Of these, the "
+          "nearest and one in every 0.3 m of distance and turn are compared.");
 }
 
 void describe_consensus(OptionTable& table, LoopConsensusOptions& consensus) {

@@ -3,14 +3,10 @@
 # layout and installation.
 include(GNUInstallDirs)
 
-# The programs of the build tree find the project's modules here.
-set(PSI_SLAM_MODULES ${PROJECT_BINARY_DIR}/modules)
-
 # Sets language level, strict warnings and sanitizers of a target.
 function(psi_slam_configure_target target)
   target_compile_features(${target} PUBLIC cxx_std_17)
-  set_target_properties(${target} PROPERTIES
-    CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON BUILD_RPATH ${PSI_SLAM_MODULES})
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   # Without contraction to fused multiply-add, every machine rounds each expression in the same way.
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
@@ -110,7 +106,11 @@ function(psi_slam_add_tests name)
   if(TARGET psi_slam_test_headers)
     target_precompile_headers(${name}_tests REUSE_FROM psi_slam_test_headers)
   endif()
-  psi_slam_add_test_suites(${name} TIMEOUT 900)
+  if(PSI_SLAM_SANITIZE OR PSI_SLAM_SANITIZE_THREADS)
+    psi_slam_add_test_suites(${name} TIMEOUT 3600)
+  else()
+    psi_slam_add_test_suites(${name} TIMEOUT 900)
+  endif()
 endfunction()
 
 # psi_slam_add_test_suites(NAME PROPERTY VALUE...)

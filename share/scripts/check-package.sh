@@ -72,13 +72,13 @@ dpkg-deb --contents "$programs" >"$work/programs.txt"
 dpkg-deb --contents "$bench" >"$work/bench.txt"
 dpkg-deb --contents "$library" >"$work/library.txt"
 # Names of libraries differ between releases.
-for library_name in libc6 'libmrpt-maps[0-9.]+' 'libwxgtk3[.]2-1(t64)?' 'libgdal[0-9]+(t64)?'; do
+for library_name in libc6 'libmrpt-maps[0-9.]+' 'libmrpt-hwdrivers[0-9.]+' 'libwxgtk3[.]2-1(t64)?' 'libgdal[0-9]+(t64)?'; do
   grep -Eq "(^|, )$library_name( |,|$)" "$work/depends.txt" || fail "psi-slam does not depend on $library_name"
 done
 if grep -q openmpi "$work/depends.txt"; then fail "psi-slam depends on Open MPI"; fi
 mapfile -t program_names < <(sed -n 's|.* ./usr/bin/\(..*\)$|\1|p' "$work/programs.txt")
 files=(./usr/bin/psi-slam ./usr/bin/psi-graphslam ./usr/share/man/man5/psi-slam.ini.5.gz ./usr/share/psi-slam/ini/psi-slam.ini
-  ./usr/share/doc/psi-slam/copyright)
+  './usr/lib/.*/psi-slam-sensors[.]so' ./usr/share/doc/psi-slam/copyright)
 for program in "${program_names[@]}"; do
   files+=("./usr/share/man/man1/$program.1.gz" "./usr/share/bash-completion/completions/$program")
 done

@@ -235,7 +235,7 @@ class GuiRun {
   std::chrono::steady_clock::duration longest_gap_{};
   std::vector<Gauge> gauges_;
   double cpu_ms_before_ = 0;
-  std::chrono::steady_clock::duration limit_ = std::chrono::minutes(kHasAddressSanitizer ? 10 : 1);
+  std::chrono::steady_clock::duration limit_ = std::chrono::minutes(kHasAddressSanitizer ? 4 : 1);
   MainFrame* frame_ = nullptr;
   std::unique_ptr<Timer> timer_;
 };

@@ -58,6 +58,17 @@ TEST(MatchingPoints, lie_where_the_beams_ended_in_the_robots_frame) {
   EXPECT_NEAR(distance(scan.origin, {0.5F, -0.25F}), 0, 1e-6);
 }
 
+TEST(MatchingPoints, of_successive_scans_depend_on_bearings_and_mount_of_each) {
+  LaserScan scan = scan_of({2, 3, 4});
+  matching_points(scan, without_thinning());
+  scan.robot_T_laser.phi = M_PI / 2;  // another mount, same bearings
+  const ScanPoints turned = matching_points(scan, without_thinning());
+  EXPECT_NEAR(distance(turned.points[1], {0, 3}), 0, 1e-6);
+  scan.bearings_rad = even_bearings(0, M_PI, 3);  // other bearings, same mount
+  const ScanPoints other = matching_points(scan, without_thinning());
+  EXPECT_NEAR(distance(other.points[1], {-3, 0}), 0, 1e-6);
+}
+
 TEST(MatchingPoints, the_farthest_is_measured_from_the_robot_not_from_the_laser) {
   const ScanPoints scan = matching_points(scan_of({2, 3, 4}, {0.5, -0.25, 0}), without_thinning());
   double farthest = 0;

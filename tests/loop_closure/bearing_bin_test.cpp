@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace psi_slam {
 namespace {
@@ -23,7 +24,10 @@ TEST(BearingBin, is_that_of_the_exact_bearing_but_at_edges) {
 }
 
 TEST(BearingBin, has_a_value_for_every_point) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(bearing_bin(0, 0), 0U);
+  EXPECT_EQ(bearing_bin(kInfinity, -kInfinity), 0U);
+  EXPECT_EQ(bearing_bin(std::nan(""), std::nan("")), 0U);
   EXPECT_EQ(bearing_bin(1, 0), 0U);
   EXPECT_EQ(bearing_bin(0, 1), 90U);
   EXPECT_EQ(bearing_bin(-1, 0), 180U);

@@ -83,9 +83,8 @@ TEST(FinalSearch, matches_one_node_in_each_stretch_where_many_local_maps_are_nea
   std::vector<double> moved_m{0};
   double longest_step_m = 0;
   for (std::size_t node = 1; node < rounds.keyframes.nodes.size(); ++node) {
-    const auto motion =
-        rounds.keyframes.nodes[node].local_T_robot - rounds.keyframes.nodes[node - 1].local_T_robot;
-    const double step_m = std::hypot(motion.x, motion.y) + kTravelOfTurn_m * std::abs(motion.phi);
+    const double step_m = travel_and_turn_m(rounds.keyframes.nodes[node - 1].local_T_robot,
+                                            rounds.keyframes.nodes[node].local_T_robot);
     longest_step_m = std::max(longest_step_m, step_m);
     moved_m.push_back(moved_m.back() + step_m);
   }

@@ -39,6 +39,13 @@ TEST(RememberNode, keeps_the_scan_and_sums_up_the_path_length) {
   EXPECT_EQ(keyframes.nodes[2].points, last.points);
 }
 
+TEST(TravelAndTurn, sums_distance_and_turn_either_way) {
+  const mrpt::math::TPose2D from(1, 2, 3);
+  EXPECT_NEAR(travel_and_turn_m(from, {1.3, 2.4, 3}), 0.5, 1e-12);
+  EXPECT_NEAR(travel_and_turn_m(from, {1, 2, 3 - 2 * M_PI - 0.2}), 0.2 * kTravelOfTurn_m, 1e-12);
+  EXPECT_NEAR(travel_and_turn_m({1.3, 2.4, 2.8}, from), 0.5 + 0.2 * kTravelOfTurn_m, 1e-12);
+}
+
 TEST(BeginsStretch, once_in_each_stretch) {
   EXPECT_EQ(first_of_stretches({0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.1}, 0.5), (std::vector<std::size_t>{0, 3, 5}));
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "two_rounds.h"
@@ -55,6 +56,34 @@ TEST(LoopVerification, a_match_one_metre_off_is_refused_with_a_reason) {
       EXPECT_TRUE(loop.refusal.has_value()) << off.asString();
       EXPECT_LT(loop.neighbours_agree, 0.75) << off.asString();
     }
+}
+
+TEST(LoopVerification, of_neighbours_close_to_one_another_only_the_nearest_counts) {
+  KeyframeStore keyframes = two_rounds().keyframes;
+  const auto agreement = [&] {
+    LoopRecord loop = two_rounds().loop(kNarrow_m);
+    verify(loop, *keyframes.nodes[loop.node].points, keyframes, {});
+    return loop.neighbours_agree;
+  };
+  const double all = agreement();
+  const std::size_t nearest = two_rounds().node - 1;
+  ASSERT_LT(
+      travel_and_turn_m(keyframes.nodes[nearest].local_T_robot, keyframes.nodes[nearest - 1].local_T_robot),
+      0.3);
+  const auto nonsense = std::make_shared<ScanPoints>();
+  nonsense->points.assign(100, {0.3F, 0.3F});  // in free space
+  keyframes.nodes[nearest - 1].points = nonsense;
+  EXPECT_EQ(agreement(), all);
+  keyframes.nodes[nearest].points = nonsense;
+  EXPECT_LT(agreement(), all);
+}
+
+TEST(LoopVerification, the_nearest_neighbours_count_however_small_the_neighbourhood) {
+  LoopVerificationOptions options;
+  options.neighbourhood_m = 0.2;
+  LoopRecord loop = two_rounds().loop(kNarrow_m);
+  judge(loop, options);
+  EXPECT_GT(loop.neighbours_agree, 0.9);
 }
 
 TEST(LoopVerification, a_wrong_match_is_refused_by_the_reverse_test_too) {

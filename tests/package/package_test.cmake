@@ -67,7 +67,7 @@ endif()
 file(GLOB_RECURSE module ${WORK}/installed/lib*/psi-slam-sensors.so)
 file(REMOVE ${module})
 execute_process(COMMAND ${read_sensors} RESULT_VARIABLE result ERROR_VARIABLE complaint)
-if(NOT result EQUAL 2 OR NOT complaint MATCHES "cannot load psi-slam-sensors.so")
+if(NOT result EQUAL 2 OR NOT complaint MATCHES "cannot load the drivers of sensors from [^ ]*psi-slam-sensors.so")
   message(FATAL_ERROR "a missing module is not reported: ${result} ${complaint}")
 endif()
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests share/scripts/test-summary.py with results of a suite that passed, of one with a failed case, of one that crashed, of one that
-failed at its end, and of a script that was skipped.
+failed at its end, of one whose results cannot be read, and of a script that was skipped.
 
 usage: test_summary_test.py SOURCES
 """
@@ -15,6 +15,7 @@ CTEST = """<testsuite>
 <testcase name="base.Rooms/Bad" status="fail"><failure/></testcase>
 <testcase name="base.Crashed" status="fail"><failure/></testcase>
 <testcase name="base.Leaked" status="fail"><failure/></testcase>
+<testcase name="base.Garbled" status="fail"><failure/></testcase>
 <testcase name="scripts.site" status="notrun"><skipped message="SKIP_RETURN_CODE=77"/></testcase>
 </testsuite>"""
 SUITES = {
@@ -31,6 +32,7 @@ SUITES = {
     "base.Leaked": """<testsuites><testsuite>
 <testcase name="one" classname="Leaked" status="run" result="completed"/>
 </testsuite></testsuites>""",
+    "base.Garbled": """<testsuites><testsuite><testcase name="one"><failure message="\x01"/></testcase></testsuite></testsuites>""",
 }
 EXPECTED = """skipped (needs a log): base.Good.three
 skipped (disabled): base.Good.four
@@ -38,7 +40,8 @@ skipped (no reason given): scripts.site
 failed: base.Rooms/Bad.two/0
 failed: base.Crashed
 failed: base.Leaked
-4 passed, 3 failed, 3 skipped
+failed: base.Garbled
+4 passed, 4 failed, 3 skipped
 """
 
 

@@ -316,7 +316,6 @@ void ForeignReaders::drawings_have_the_walls_in_metres() {
   EXPECT_NEAR(static_cast<double>(plan.getYMax()), of_formats[0][3] + kMargin_m, 0.1);
 }
 
-// Two tests only, because ctest runs each test in a process of its own, which maps the log.
 TEST_F(ForeignReaders, read_the_trajectory_and_the_graph) {
   evo_reads_the_trajectory();
   gtsam_reads_the_graph();

@@ -117,8 +117,11 @@ endfunction()
 # CTest runs each suite of the program NAME_tests as the test NAME.Suite, with these properties.
 function(psi_slam_add_test_suites name)
   set(tests ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
+  # The presets set the same options of sanitizers for the tests.
   add_custom_command(TARGET ${name}_tests POST_BUILD BYPRODUCTS ${tests}
-    COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${name}_tests> -D PREFIX=${name} -D "PROPERTIES=${ARGN}"
+    COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0
+      TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/thread-sanitizer.supp
+      ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${name}_tests> -D PREFIX=${name} -D "PROPERTIES=${ARGN}"
       -D RESULTS=${PROJECT_BINARY_DIR}/test-results -D OUTPUT=${tests}
       -P ${PROJECT_SOURCE_DIR}/share/cmake/write-test-suites.cmake
     VERBATIM)

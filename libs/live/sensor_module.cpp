@@ -20,9 +20,9 @@ fs::path module_file() {
   std::error_code ignored;
   const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
   const fs::path installed = folder.parent_path() / PSI_SLAM_MODULE_FOLDER / name;
-  for (const fs::path& built :
-       {folder.parent_path() / "modules" / name, folder.parent_path().parent_path() / "modules" / name})
-    if (!fs::exists(installed, ignored) && fs::exists(built, ignored)) return built;
+  for (const fs::path& file : {installed, folder.parent_path() / "modules" / name,
+                               folder.parent_path().parent_path() / "modules" / name})
+    if (fs::exists(file, ignored)) return file;
   return installed;
 }
 

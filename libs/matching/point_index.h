@@ -20,11 +20,6 @@ class PointIndex {
 
   const std::vector<mrpt::math::TPoint2Df>& points() const { return points_; }
 
-  /// Sets `found` to the indices of the points nearest to `at`, nearest first: at most `count` points, each
-  /// at most `max_distance_m` away.
-  void nearest(const mrpt::math::TPoint2Df& at, std::size_t count, float max_distance_m,
-               std::vector<std::size_t>& found) const;
-
   /// Returns the indices of all points at most `radius_m` from `at`, in ascending order.
   std::vector<std::size_t> within(const mrpt::math::TPoint2Df& at, float radius_m) const;
 

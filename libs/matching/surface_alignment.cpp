@@ -28,7 +28,10 @@ class Turned {
   float c_, s_;
 };
 
-PointIndex placed_points(const std::vector<SurfaceMap::Part>& parts) {
+// Size of the cells in which the surface points are sorted. Affects the speed only.
+constexpr double kCell_m = 0.07;
+
+PointGrid placed_points(const std::vector<SurfaceMap::Part>& parts) {
   std::vector<Point> placed;
   for (const SurfaceMap::Part& part : parts) {
     const Turned turned(part.map_T_robot.phi);
@@ -36,7 +39,7 @@ PointIndex placed_points(const std::vector<SurfaceMap::Part>& parts) {
       placed.push_back(turned(point) +
                        Point(static_cast<float>(part.map_T_robot.x), static_cast<float>(part.map_T_robot.y)));
   }
-  return PointIndex(std::move(placed));
+  return PointGrid(std::move(placed), kCell_m);
 }
 
 float dot(const Point& a, const Point& b) {
@@ -62,7 +65,7 @@ class SurfaceSearch {
     map_.index().nearest(at, options_.neighbours, static_cast<float>(options_.max_distance_m), found_);
     Surface sum{{0, 0}, {0, 0}};
     float count = 0;
-    for (const std::size_t k : found_) {
+    for (const std::uint32_t k : found_) {
       if (dot(map_.normals()[k], facing) < least_cosine_) continue;
       sum.point += map_.index().points()[k];
       sum.normal += map_.normals()[k];
@@ -79,7 +82,7 @@ class SurfaceSearch {
   const SurfaceMap& map_;
   const SurfaceAlignmentOptions& options_;
   float least_cosine_;
-  std::vector<std::size_t> found_;
+  std::vector<std::uint32_t> found_;
 };
 
 /// A point of the scan near a surface.

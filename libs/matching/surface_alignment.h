@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "base/degrees.h"
-#include "matching/point_index.h"
+#include "matching/point_grid.h"
 #include "matching/scan_points.h"
 
 namespace psi_slam {
@@ -43,12 +43,12 @@ class SurfaceMap {
   };
   explicit SurfaceMap(const std::vector<Part>& parts);
 
-  const PointIndex& index() const { return index_; }
+  const PointGrid& index() const { return index_; }
   /// Normals of the points of index(), in the same order.
   const std::vector<mrpt::math::TPoint2Df>& normals() const { return normals_; }
 
  private:
-  PointIndex index_;
+  PointGrid index_;
   std::vector<mrpt::math::TPoint2Df> normals_;
 };
 

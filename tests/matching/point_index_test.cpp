@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -35,46 +34,24 @@ std::vector<std::size_t> slow_within(const std::vector<Point>& points, const Poi
   return found;
 }
 
-std::vector<std::size_t> slow_nearest(const std::vector<Point>& points, const Point& at, std::size_t count,
-                                      float max_distance_m) {
-  std::vector<std::size_t> found = slow_within(points, at, max_distance_m);
-  std::sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) {
-    return distance_m(points[a], at) < distance_m(points[b], at);
-  });
-  found.resize(std::min(found.size(), count));
-  return found;
-}
-
 TEST(PointIndex, equals_a_search_through_all_points) {
   const std::vector<Point> points = drawn_points(700);
   const PointIndex index(points);
-  std::vector<std::size_t> near;
   for (const Point& at : drawn_points(60)) {
     const Point query = at + Point(0.01F, 0.02F);
-    for (const float reach : {0.05F, 0.4F, 20.0F}) {
+    for (const float reach : {0.05F, 0.4F, 20.0F})
       EXPECT_EQ(index.within(query, reach), slow_within(points, query, reach));
-      for (const std::size_t count : {1U, 6U, 900U}) {
-        index.nearest(query, count, reach, near);
-        EXPECT_EQ(near, slow_nearest(points, query, count, reach)) << count << " within " << reach;
-      }
-    }
   }
 }
 
 TEST(PointIndex, finds_nothing_without_points) {
   const PointIndex index(std::vector<Point>{});
-  std::vector<std::size_t> near = {1, 2};
-  index.nearest({0, 0}, 3, 10, near);
-  EXPECT_TRUE(near.empty());
   EXPECT_TRUE(index.within({0, 0}, 10).empty());
 }
 
 TEST(PointIndex, includes_points_at_the_radius) {
   const PointIndex index({{0, 0}, {0.5F, 0}, {0, -0.5F}, {0.5625F, 0}});
   EXPECT_EQ(index.within({0, 0}, 0.5F), (std::vector<std::size_t>{0, 1, 2}));
-  std::vector<std::size_t> found;
-  index.nearest({0, 0}, 4, 0.5F, found);
-  EXPECT_EQ(std::set<std::size_t>(found.begin(), found.end()), (std::set<std::size_t>{0, 1, 2}));
 }
 
 TEST(PointIndex, works_after_a_move) {

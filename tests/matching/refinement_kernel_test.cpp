@@ -22,7 +22,7 @@ std::array<double, 11> in_a_row(const ScoreSums& sums) {
           sums.y_phi,   sums.phi_phi, sums.x,  sums.y,  sums.phi};
 }
 
-ScoreGrid random_grid(std::mt19937_64& random) {
+ScoreGrid grid_of_random_scores(std::mt19937_64& random) {
   ScoreGrid grid(-1.5, -1.0, 0.05, 60, 41);
   for (int y = 0; y < 41; ++y)
     for (int x = 0; x < 60; ++x) *grid.finest().cell(x, y) = static_cast<std::uint8_t>(random() % 256);
@@ -49,7 +49,7 @@ struct Problem {
   double x_m, y_m, phi;
 
   Problem(std::mt19937_64& random, std::size_t count, bool with_normals)
-      : grid(random_grid(random)), scan(random_scan(random, count, with_normals)) {
+      : grid(grid_of_random_scores(random)), scan(random_scan(random, count, with_normals)) {
     std::uniform_real_distribution<double> coordinate(-0.5, 0.5), angle(-3, 3);
     x_m = coordinate(random);
     y_m = coordinate(random);

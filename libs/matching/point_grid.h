@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds the points near a place when they are many and the place is near: a scan beside the surfaces of other
+// scans. The points are sorted into square cells, and a search looks at the cells within its distance. The
+// rows and columns of cells repeat after 64, so that few cells hold points of any extent. Points that are far
+// apart can share a cell, and the distance separates them.
+#pragma once
+
+#include <mrpt/math/TPoint2D.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace psi_slam {
+
+/// Points of the plane in cells, metres. Searches are thread-safe.
+class PointGrid {
+ public:
+  /// All points must be finite; an empty vector is valid. `cell_m` affects the speed only. It is best near
+  /// the distance of the searches.
+  PointGrid(std::vector<mrpt::math::TPoint2Df> points, double cell_m);
+
+  const std::vector<mrpt::math::TPoint2Df>& points() const { return points_; }
+
+  /// Sets `found` to the indices of the points nearest to `at`, nearest first: at most `count` points, each
+  /// at most `max_distance_m` away.
+  void nearest(const mrpt::math::TPoint2Df& at, std::size_t count, float max_distance_m,
+               std::vector<std::uint32_t>& found) const;
+
+ private:
+  std::size_t cell_of(const mrpt::math::TPoint2Df& point) const;
+
+  std::vector<mrpt::math::TPoint2Df> points_;
+  double cells_per_m_;
+  std::vector<std::uint32_t> begin_;  ///< first entry of each cell in the following vectors, row by row
+  std::vector<float> x_;
+  std::vector<float> y_;
+  std::vector<std::uint32_t> index_;  ///< index in points_
+};
+
+}  // namespace psi_slam

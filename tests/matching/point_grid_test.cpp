@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/point_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "base/random_draws.h"
+
+namespace psi_slam {
+namespace {
+
+using Point = mrpt::math::TPoint2Df;
+
+std::vector<Point> scattered_points(std::size_t count, double extent_m) {
+  RandomDraws random(5, "points", 0);
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < count; ++i)
+    points.emplace_back(static_cast<float>(random.plus_minus(extent_m)),
+                        static_cast<float>(random.plus_minus(extent_m)));
+  return points;
+}
+
+float square_m2(const Point& a, const Point& b) {
+  const float dx = a.x - b.x;
+  const float dy = a.y - b.y;
+  return dx * dx + dy * dy;
+}
+
+/// Squares of the distances of the nearest points, in ascending order.
+std::vector<float> slow_nearest(const std::vector<Point>& points, const Point& at, std::size_t count,
+                                float max_distance_m) {
+  std::vector<float> squares;
+  for (const Point& point : points)
+    if (square_m2(point, at) <= max_distance_m * max_distance_m) squares.push_back(square_m2(point, at));
+  std::sort(squares.begin(), squares.end());
+  squares.resize(std::min(squares.size(), count));
+  return squares;
+}
+
+// The cells repeat after 64 times their size, so the extents are within one period, and several.
+TEST(PointGrid, equals_a_search_through_all_points) {
+  for (const double extent_m : {0.6, 4.0, 30.0}) {
+    const std::vector<Point> points = scattered_points(700, extent_m);
+    std::vector<std::uint32_t> near;
+    for (const double cell_m : {0.02, 0.07, 1.0}) {
+      const PointGrid grid(points, cell_m);
+      for (const Point& at : scattered_points(40, extent_m)) {
+        const Point query = at + Point(0.01F, 0.02F);
+        for (const float reach : {0.05F, 0.4F, 2.2F, 20.0F})
+          for (const std::size_t count : {1U, 6U, 900U}) {
+            grid.nearest(query, count, reach, near);
+            std::vector<float> squares;
+            for (const std::uint32_t i : near) squares.push_back(square_m2(points[i], query));
+            EXPECT_EQ(squares, slow_nearest(points, query, count, reach))
+                << count << " within " << reach << " of " << extent_m << ", cells of " << cell_m;
+            EXPECT_EQ(std::set<std::uint32_t>(near.begin(), near.end()).size(), near.size());
+          }
+      }
+    }
+  }
+}
+
+TEST(PointGrid, finds_nothing_without_points) {
+  const PointGrid grid({}, 0.1);
+  std::vector<std::uint32_t> near = {1, 2};
+  grid.nearest({0, 0}, 3, 10, near);
+  EXPECT_TRUE(near.empty());
+}
+
+TEST(PointGrid, includes_points_at_the_largest_distance) {
+  const PointGrid grid({{0, 0}, {0.5F, 0}, {0, -0.5F}, {0.5625F, 0}}, 0.1);
+  std::vector<std::uint32_t> near;
+  grid.nearest({0, 0}, 4, 0.5F, near);
+  std::sort(near.begin(), near.end());
+  EXPECT_EQ(near, (std::vector<std::uint32_t>{0, 1, 2}));
+}
+
+// Equal distances keep the order of the points, so the result is the same on every machine.
+TEST(PointGrid, keeps_the_order_of_equal_points) {
+  const PointGrid grid({{1, 1}, {1, 1}, {1, 1}, {1, 1}}, 0.1);
+  std::vector<std::uint32_t> near;
+  grid.nearest({1, 1.01F}, 3, 0.1F, near);
+  EXPECT_EQ(near, (std::vector<std::uint32_t>{0, 1, 2}));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/portable_math.h"
+#include "matching/point_kernels.h"
 #include "matching/sum_kernel.h"
 
 namespace psi_slam {
@@ -80,35 +81,21 @@ void BoundLevel::make_offsets(int number, Layer& layer) {
   const double middle_rad =
       centre.phi + (number * headings_ + to_middle - window.n_theta) * window.angular_step_rad;
   const double farthest = std::max(std::abs(first_x), std::abs(first_y)) + 2 * reach_cells_ + stride_;
+  SquareSearch search;
+  search.middle = {static_cast<float>(first_x), static_cast<float>(first_y),
+                   static_cast<float>(portable::cos(middle_rad)),
+                   static_cast<float>(portable::sin(middle_rad))};
+  search.across = static_cast<float>(portable::sin(std::min(half_turn_rad, M_PI / 2)));
+  search.along = static_cast<float>(1 - portable::cos(std::min(half_turn_rad, M_PI)));
   // Single precision halves the time. The squares are larger by its rounding errors.
-  const auto rounding = static_cast<float>(kRounding + kFloatRounding * farthest);
-  const auto x0 = static_cast<float>(first_x);
-  const auto y0 = static_cast<float>(first_y);
-  const auto c = static_cast<float>(portable::cos(middle_rad));
-  const auto s = static_cast<float>(portable::sin(middle_rad));
-  const auto across = static_cast<float>(portable::sin(std::min(half_turn_rad, M_PI / 2)));
-  const auto along = static_cast<float>(1 - portable::cos(std::min(half_turn_rad, M_PI)));
+  search.rounding = static_cast<float>(kRounding + kFloatRounding * farthest);
+  search.stride = stride_;
+  search.columns = columns_;
+  search.rows = rows_;
+  search.layout = tables.layout();
   const std::size_t points = x_cells_.size();
   squares_.resize(points);
-  // Copies of members, because a write of a square could change them as far as the compiler knows.
-  const BoundLayout layout = tables.layout();
-  const int stride = stride_;
-  const int columns = columns_;
-  const int rows = rows_;
-  const float* x_cells = x_cells_.data();
-  const float* y_cells = y_cells_.data();
-  std::int32_t* squares = squares_.data();
-  for (std::size_t i = 0; i < points; ++i) {
-    const float u = c * x_cells[i] - s * y_cells[i];
-    const float v = s * x_cells[i] + c * y_cells[i];
-    const float dx = std::abs(v) * across + std::abs(u) * along + rounding;
-    const float dy = std::abs(u) * across + std::abs(v) * along + rounding;
-    const int x = floor_to_int(x0 + u - dx) >> 1;
-    const int y = floor_to_int(y0 + v - dy) >> 1;
-    const int x_last = (floor_to_int(x0 + u + dx) + stride - 1) >> 1;
-    const int y_last = (floor_to_int(y0 + v + dy) + stride - 1) >> 1;
-    squares[i] = layout.offset(x, y, std::max(x_last - x, y_last - y) + 1, columns, rows);
-  }
+  point_kernels().find_squares(search, x_cells_.data(), y_cells_.data(), points, squares_.data());
   layer.known = true;
   layer.offsets.resize(points);
   std::size_t inside = 0;

@@ -31,16 +31,21 @@ struct BoundLayout {
 
   /// Returns the offset of the square that begins at half cell (x, y), with sides of `half_cells`: half a
   /// stride to one stride + 1, the sizes that points need which move by up to a stride. Returns -1 if no
-  /// block of a window of `window_columns` x `window_rows` blocks from this square on has scores.
-  std::int32_t offset(int x, int y, int half_cells, int window_columns, int window_rows) const {
+  /// block of a window of `window_columns` x `window_rows` blocks from this square on has scores. Always
+  /// inlined, because kernels for other instruction sets use it.
+  __attribute__((always_inline)) std::int32_t offset(int x, int y, int half_cells, int window_columns,
+                                                     int window_rows) const {
     const int column = x >> log_phases;
     const int row = y >> log_phases;
     const bool may_score = (column + window_columns > 0) & (column < plane_columns) &
                            (row + window_rows > 0) & (row < plane_rows);
     const int plane = ((y & (phases - 1)) << log_phases) + (x & (phases - 1));
-    const std::int64_t place = std::int64_t{half_cells - phases} * table_bytes +
-                               std::int64_t{plane} * plane_bytes + std::int64_t{rows + row} * row_bytes +
-                               columns + column;
+    // Unsigned numbers may overflow where no block has scores.
+    const auto times = [](int count, std::int32_t bytes) {
+      return static_cast<std::uint32_t>(count) * static_cast<std::uint32_t>(bytes);
+    };
+    const std::uint32_t place = times(half_cells - phases, table_bytes) + times(plane, plane_bytes) +
+                                times(rows + row, row_bytes) + static_cast<std::uint32_t>(columns + column);
     return may_score ? static_cast<std::int32_t>(place) : -1;
   }
 };

@@ -18,17 +18,6 @@
 
 namespace psi_slam {
 
-/// Returns the largest integer not above `value`, which must fit an int. Faster than std::floor, which is a
-/// library call on baseline x86-64.
-inline int floor_to_int(double value) {
-  const int towards_zero = static_cast<int>(value);
-  return towards_zero - (value < towards_zero ? 1 : 0);
-}
-inline int floor_to_int(float value) {
-  const int towards_zero = static_cast<int>(value);
-  return towards_zero - (value < static_cast<float>(towards_zero) ? 1 : 0);
-}
-
 /// One level of the pyramid. Cell (x, y) of a level with `stride_cells` = s > 1 holds the largest score among
 /// the finest cells [x s, (x + 2) s) x [y s, (y + 2) s); for s = 1, it holds the score. The factor 2 is
 /// needed because s shifts of an arbitrary point reach into two aligned blocks. A level takes 1 / s^2 of the

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/portable_math.h"
+#include "matching/point_kernels.h"
 #include "matching/sum_kernel.h"
 
 namespace psi_slam {
@@ -25,6 +26,10 @@ int log2_of(int stride) {
   int log2 = 0;
   while ((1 << log2) < stride) ++log2;
   return log2;
+}
+
+Cell in_level(const UnclippedCells& cells, Cell cell) {
+  return {(cell.x + cells.shift.x) >> cells.log_stride, (cell.y + cells.shift.y) >> cells.log_stride};
 }
 
 }  // namespace
@@ -76,14 +81,10 @@ void SearchLattice::turn_scan(int theta) const {
   const double x0 = (centre_.x - grid_->origin_x_m()) * cells_per_m;
   const double y0 = (centre_.y - grid_->origin_y_m()) * cells_per_m;
   const double heading = centre_.phi + theta * window_.angular_step_rad;
-  const double c = portable::cos(heading) * cells_per_m;
-  const double s = portable::sin(heading) * cells_per_m;
-  Cell* cell = cells_.get() + turn * points_;
-  for (const auto& point : scan_->points) {
-    const double x = static_cast<double>(point.x);
-    const double y = static_cast<double>(point.y);
-    *cell++ = {floor_to_int(x0 + c * x - s * y), floor_to_int(y0 + s * x + c * y)};
-  }
+  const CellPlacement<double> placement = {x0, y0, portable::cos(heading) * cells_per_m,
+                                           portable::sin(heading) * cells_per_m};
+  if (points_ > 0)
+    point_kernels().place(placement, &scan_->points.front().x, points_, cells_.get() + turn * points_);
   turned_[turn] = true;
 }
 
@@ -101,18 +102,21 @@ void ShiftSums::compute(const ScoreLevel& level, const Cell* cells, std::size_t 
   sums_.assign(static_cast<std::size_t>(row_ * height), 0);
   offsets_.resize(points);
   std::size_t inside = 0;
-  const int log2 = log2_of(level.stride_cells());
-  const auto row_bytes = static_cast<std::int32_t>(level.row_bytes());
-  // Up to these cells, all runs lie inside the grid and its margin and need no clipping.
-  const int x_end = level.width() + ScoreLevel::kMargin - width;
-  const int y_end = level.height() + ScoreLevel::kMargin - height;
+  // Up to the last of these cells, all runs lie inside the grid and its margin.
+  UnclippedCells unclipped;
+  unclipped.shift = shift;
+  unclipped.log_stride = log2_of(level.stride_cells());
+  unclipped.first = {-ScoreLevel::kMargin, -ScoreLevel::kMargin};
+  unclipped.last = {level.width() + ScoreLevel::kMargin - width,
+                    level.height() + ScoreLevel::kMargin - height};
+  unclipped.row_bytes = static_cast<std::int32_t>(level.row_bytes());
+  point_kernels().find_offsets(unclipped, cells, points, offsets_.data());
   for (std::size_t p = 0; p < points; ++p) {
-    const Cell cell = {(cells[p].x + shift.x) >> log2, (cells[p].y + shift.y) >> log2};
-    if (cell.x >= -ScoreLevel::kMargin && cell.x <= x_end && cell.y >= -ScoreLevel::kMargin &&
-        cell.y <= y_end)
-      offsets_[inside++] = cell.y * row_bytes + cell.x;
+    const std::int32_t offset = offsets_[p];
+    if (offset != PointKernels::kClipped)
+      offsets_[inside++] = offset;
     else
-      add_clipped(level, cell, width, height);
+      add_clipped(level, in_level(unclipped, cells[p]), width, height);
   }
   static const SumKernel kernel = sum_kernel();
   kernel(level.cell(0, 0), level.row_bytes(), offsets_.data(), inside, width, height, sums_.data(), row_);

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/portable_math.h"
-#include "matching/point_index.h"
+#include "matching/point_grid.h"
 
 namespace psi_slam {
 namespace {
@@ -25,10 +25,10 @@ mrpt::math::TPoint2Df position(const TPose2D& pose) {
   return {static_cast<float>(pose.x), static_cast<float>(pose.y)};
 }
 
-PointIndex positions(const std::vector<TPose2D>& poses) {
+PointGrid positions(const std::vector<TPose2D>& poses, double cell_m) {
   std::vector<mrpt::math::TPoint2Df> points;
   for (const TPose2D& pose : poses) points.push_back(position(pose));
-  return PointIndex(std::move(points));
+  return PointGrid(std::move(points), cell_m);
 }
 
 /// Poses of the nodes in one round, and the surfaces that their scans saw.
@@ -36,7 +36,10 @@ class Round {
  public:
   Round(std::vector<TPose2D> map_T_node, const std::vector<SurfacePoints>& seen,
         const JointRefinementOptions& options)
-      : map_T_node_(std::move(map_T_node)), seen_(seen), options_(options), index_(positions(map_T_node_)) {}
+      : map_T_node_(std::move(map_T_node)),
+        seen_(seen),
+        options_(options),
+        index_(positions(map_T_node_, options.reach_m)) {}
 
   /// Surfaces seen by the nodes near `node`, except those seen by `node` itself.
   SurfaceMap surfaces_near(std::size_t node) const {
@@ -65,7 +68,7 @@ class Round {
   std::vector<TPose2D> map_T_node_;
   const std::vector<SurfacePoints>& seen_;
   const JointRefinementOptions& options_;
-  PointIndex index_;
+  PointGrid index_;
 };
 
 std::vector<TPose2D> poses_of(const std::vector<TPose2D>& map_T_frame,

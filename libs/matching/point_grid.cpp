@@ -89,6 +89,19 @@ std::size_t PointGrid::cell_of(const Point& point) const {
   return cell_at(InCells(point.y, cells_per_m_).cell, InCells(point.x, cells_per_m_).cell);
 }
 
+template <class Visit>
+void PointGrid::visit_cells(std::int64_t row, std::int64_t first_column, std::int64_t last_column,
+                            const Point& at, const Visit& visit) const {
+  for (std::int64_t column = first_column; column <= last_column; ++column) {
+    const std::size_t cell = cell_at(row, column);
+    for (std::uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
+      const float dx = x_[i] - at.x;
+      const float dy = y_[i] - at.y;
+      visit(dx * dx + dy * dy, index_[i]);
+    }
+  }
+}
+
 void PointGrid::nearest(const Point& at, std::size_t count, float max_distance_m,
                         std::vector<std::uint32_t>& found) const {
   found.resize(std::min(count, points_.size()));
@@ -97,15 +110,9 @@ void PointGrid::nearest(const Point& at, std::size_t count, float max_distance_m
   squares.resize(found.size());
   Nearest nearest(max_distance_m * max_distance_m, found.size(), found.data(), squares.data());
   const auto search_cells = [&](std::int64_t row, std::int64_t first_column, std::int64_t last_column) {
-    for (std::int64_t column = first_column; column <= last_column; ++column) {
-      const std::size_t cell = cell_at(row, column);
-      for (std::uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
-        const float dx = x_[i] - at.x;
-        const float dy = y_[i] - at.y;
-        const float square = dx * dx + dy * dy;
-        if (square < nearest.worst()) nearest.add(square, index_[i]);
-      }
-    }
+    visit_cells(row, first_column, last_column, at, [&](float square, std::uint32_t index) {
+      if (square < nearest.worst()) nearest.add(square, index);
+    });
   };
   const InCells x(at.x, cells_per_m_);
   const InCells y(at.y, cells_per_m_);
@@ -125,6 +132,21 @@ void PointGrid::nearest(const Point& at, std::size_t count, float max_distance_m
       }
     }
   found.resize(nearest.size());
+}
+
+std::vector<std::uint32_t> PointGrid::within(const Point& at, float radius_m) const {
+  std::vector<std::uint32_t> found;
+  const InCells x(at.x, cells_per_m_);
+  const InCells y(at.y, cells_per_m_);
+  const double reach = std::ceil(static_cast<double>(radius_m) * cells_per_m_);
+  const auto rings = static_cast<std::int64_t>(std::min(reach, kSide / 2.0));
+  const std::int64_t width = std::min(2 * rings + 1, kSide);  // each cell once, although the cells repeat
+  for (std::int64_t row = y.cell - rings; row < y.cell - rings + width; ++row)
+    visit_cells(row, x.cell - rings, x.cell - rings + width - 1, at, [&](float square, std::uint32_t index) {
+      if (square <= radius_m * radius_m) found.push_back(index);
+    });
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 }  // namespace psi_slam

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the points near a place when they are many and the place is near: a scan beside the surfaces of other
-// scans. The points are sorted into square cells, and a search looks at the cells within its distance. The
-// rows and columns of cells repeat after 64, so that few cells hold points of any extent. Points that are far
-// apart can share a cell, and the distance separates them.
+// Finds points near a place: surfaces near a scan, or nodes near a node. The points are sorted into square
+// cells, and a search looks at the cells within its distance. The rows and columns of cells repeat after 64,
+// so that few cells hold points of any extent. Points that are far apart can share a cell, and the distance
+// separates them.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -27,8 +27,15 @@ class PointGrid {
   void nearest(const mrpt::math::TPoint2Df& at, std::size_t count, float max_distance_m,
                std::vector<std::uint32_t>& found) const;
 
+  /// Returns the indices of all points at most `radius_m` from `at`, in ascending order.
+  std::vector<std::uint32_t> within(const mrpt::math::TPoint2Df& at, float radius_m) const;
+
  private:
   std::size_t cell_of(const mrpt::math::TPoint2Df& point) const;
+  /// Calls `visit` with the square of the distance and the index of each point in some cells of a row.
+  template <class Visit>
+  void visit_cells(std::int64_t row, std::int64_t first_column, std::int64_t last_column,
+                   const mrpt::math::TPoint2Df& at, const Visit& visit) const;
 
   std::vector<mrpt::math::TPoint2Df> points_;
   double cells_per_m_;

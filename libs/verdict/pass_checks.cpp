@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/portable_math.h"
-#include "matching/point_index.h"
+#include "matching/point_grid.h"
 
 namespace psi_slam {
 namespace {
@@ -56,7 +56,7 @@ std::vector<std::size_t> views_to_compare(const std::vector<MapView>& views) {
 /// Indices of the best views of other passes near a view: at most one view of each pass.
 std::vector<std::size_t> views_of_other_passes(std::size_t view, const std::vector<MapView>& views,
                                                const std::vector<std::size_t>& candidates,
-                                               const PointIndex& positions, const PassCheckOptions& options) {
+                                               const PointGrid& positions, const PassCheckOptions& options) {
   const MapView& here = views[view];
   std::vector<std::pair<double, std::size_t>> near;
   for (const std::size_t near_one : positions.within(position(here), static_cast<float>(options.reach_m))) {
@@ -87,7 +87,7 @@ std::vector<PassCheck> check_passes(const std::vector<MapView>& views, const Pas
   const std::vector<std::size_t> candidates = views_to_compare(views);
   std::vector<mrpt::math::TPoint2Df> at;
   for (const std::size_t view : candidates) at.push_back(position(views[view]));
-  const PointIndex positions(std::move(at));
+  const PointGrid positions(std::move(at), options.reach_m);
   std::vector<PassCheck> checks;
   const auto compare = [&](std::size_t view, std::size_t other, bool same_pass) {
     PassCheck check{view, other, same_pass, compare_scans(views[view], views[other], options.scans),

@@ -57,7 +57,7 @@ function(psi_slam_add_library name)
     $<BUILD_INTERFACE:${psi-slam_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC})
   foreach(dependency IN LISTS ARG_PRIVATE)
-    if(dependency MATCHES "^(nanoflann|nlohmann_json)::")  # header-only: users of the static library do not need it
+    if(dependency MATCHES "^nlohmann_json::")  # header-only: users of the static library do not need it
       set(dependency $<BUILD_INTERFACE:${dependency}>)
     endif()
     target_link_libraries(${target} PRIVATE ${dependency})

@@ -18,7 +18,7 @@ readonly tried="Debian 12 and Debian 13"
 # shellcheck disable=SC2034  # the lists are read by their names
 build=(
   build-essential cmake ninja-build pkg-config file
-  libmrpt-dev libeigen3-dev libopencv-dev libwxgtk3.2-dev libnanoflann-dev libgdal-dev
+  libmrpt-dev libeigen3-dev libopencv-dev libwxgtk3.2-dev libgdal-dev
   libcli11-dev nlohmann-json3-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev libssl-dev libsleef-dev
 )
 # shellcheck disable=SC2034

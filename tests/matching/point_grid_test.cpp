@@ -41,6 +41,13 @@ std::vector<float> slow_nearest(const std::vector<Point>& points, const Point& a
   return squares;
 }
 
+std::vector<std::uint32_t> slow_within(const std::vector<Point>& points, const Point& at, float radius_m) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    if (square_m2(points[i], at) <= radius_m * radius_m) found.push_back(i);
+  return found;
+}
+
 // The cells repeat after 64 times their size, so the extents are within one period, and several.
 TEST(PointGrid, equals_a_search_through_all_points) {
   for (const double extent_m : {0.6, 4.0, 30.0}) {
@@ -59,6 +66,9 @@ TEST(PointGrid, equals_a_search_through_all_points) {
                 << count << " within " << reach << " of " << extent_m << ", cells of " << cell_m;
             EXPECT_EQ(std::set<std::uint32_t>(near.begin(), near.end()).size(), near.size());
           }
+        for (const float reach : {0.05F, 0.4F, 2.2F, 20.0F})
+          EXPECT_EQ(grid.within(query, reach), slow_within(points, query, reach))
+              << reach << " of " << cell_m;
       }
     }
   }
@@ -69,6 +79,7 @@ TEST(PointGrid, finds_nothing_without_points) {
   std::vector<std::uint32_t> near = {1, 2};
   grid.nearest({0, 0}, 3, 10, near);
   EXPECT_TRUE(near.empty());
+  EXPECT_TRUE(grid.within({0, 0}, 10).empty());
 }
 
 TEST(PointGrid, includes_points_at_the_largest_distance) {
@@ -77,6 +88,7 @@ TEST(PointGrid, includes_points_at_the_largest_distance) {
   grid.nearest({0, 0}, 4, 0.5F, near);
   std::sort(near.begin(), near.end());
   EXPECT_EQ(near, (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(grid.within({0, 0}, 0.5F), near);
 }
 
 // Equal distances keep the order of the points, so the result is the same on every machine.

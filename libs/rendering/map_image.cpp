@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
@@ -23,25 +25,29 @@ Pixel mixed(const Pixel& a, const Pixel& b, double share_of_b) {
   return result;
 }
 
-/// Returns the colour of the pixel that shows a block of side x side cells. A wall of one cell that crosses
-/// the block is as dark as a thick wall.
-Pixel block_colour(const COccupancyGridMap2D& grid, int x_begin, int y_begin, int side,
-                   const Pixel& unknown) {
-  int free = 0;
-  int occupied = 0;
-  const int x_end = std::min(x_begin + side, static_cast<int>(grid.getSizeX()));
-  const int y_end = std::min(y_begin + side, static_cast<int>(grid.getSizeY()));
-  for (int y = std::max(y_begin, 0); y < y_end; ++y) {
-    const auto* row = grid.getRow(y);
-    for (int x = std::max(x_begin, 0); x < x_end; ++x) {
-      free += is_free(row[x]) ? 1 : 0;
-      occupied += is_occupied(row[x]) ? 1 : 0;
-    }
+/// Colours of pixels that show a block of side x side cells. A wall of one cell that crosses the block is as
+/// dark as a thick wall.
+class BlockColours {
+ public:
+  BlockColours(int side, const Pixel& unknown) : cells_(side * side) {
+    for (int occupied = 0; occupied <= cells_; ++occupied)
+      for (int free = 0; free <= cells_; ++free) {
+        const int open = cells_ - occupied;
+        const Pixel ground =
+            open == 0 ? kFreeInk : mixed(unknown, kFreeInk, std::min(1.0, static_cast<double>(free) / open));
+        colours_.push_back(mixed(ground, kWallInk, std::min(1.0, static_cast<double>(occupied) / side)));
+      }
   }
-  const int open = side * side - occupied;
-  const Pixel ground = open == 0 ? kFreeInk : mixed(unknown, kFreeInk, static_cast<double>(free) / open);
-  return mixed(ground, kWallInk, std::min(1.0, static_cast<double>(occupied) / side));
-}
+
+  /// `occupied` and `free` are numbers of cells of the block.
+  const Pixel& colour(int occupied, int free) const {
+    return colours_[static_cast<std::size_t>(occupied * (cells_ + 1) + free)];
+  }
+
+ private:
+  int cells_;
+  std::vector<Pixel> colours_;
+};
 
 /// The part of a grid that a picture shows, before it is enlarged.
 struct ShownPart : PicturePlace {
@@ -72,18 +78,47 @@ ShownPart shown_part(const COccupancyGridMap2D& grid, const MapPictureOptions& o
 /// Draws into an image of this size with three or four channels.
 void draw(const COccupancyGridMap2D& grid, const ShownPart& part, const Pixel& unknown, cv::Mat& image) {
   const int channels = image.channels();
+  const int side = part.cells_a_pixel;
+  const BlockColours colours(side, unknown);
   for (int row = 0; row < image.rows; ++row) {
     std::uint8_t* pixel = image.ptr(row);
+    const int y_begin = part.y_end - (row + 1) * side;
+    const int y_end = std::min(y_begin + side, static_cast<int>(grid.getSizeY()));
     for (int column = 0; column < image.cols; ++column, pixel += channels) {
-      const Pixel colour =
-          block_colour(grid, part.x_begin + column * part.cells_a_pixel,
-                       part.y_end - (row + 1) * part.cells_a_pixel, part.cells_a_pixel, unknown);
-      std::copy_n(colour.val, channels, pixel);
+      const int x_begin = part.x_begin + column * side;
+      const int x_end = std::min(x_begin + side, static_cast<int>(grid.getSizeX()));
+      int occupied = 0;
+      int free = 0;
+      for (int y = std::max(y_begin, 0); y < y_end; ++y) {
+        const auto* cells = grid.getRow(y);
+        for (int x = std::max(x_begin, 0); x < x_end; ++x) {
+          occupied += is_occupied(cells[x]) ? 1 : 0;
+          free += is_free(cells[x]) ? 1 : 0;
+        }
+      }
+      std::copy_n(colours.colour(occupied, free).val, channels, pixel);
     }
   }
 }
 
+template <class Condition>
+COccupancyGridMap2D::cellType first_cell(const Condition& holds) {
+  auto cell = std::numeric_limits<COccupancyGridMap2D::cellType>::min();
+  while (cell < std::numeric_limits<COccupancyGridMap2D::cellType>::max() &&
+         !holds(COccupancyGridMap2D::l2p(cell)))
+    ++cell;
+  return cell;
+}
+
 }  // namespace
+
+COccupancyGridMap2D::cellType first_cell_from(float probability) {
+  return first_cell([&](float free) { return free >= probability; });
+}
+
+COccupancyGridMap2D::cellType first_cell_above(float probability) {
+  return first_cell([&](float free) { return free > probability; });
+}
 
 double scale_bar_m(double width_m, double resolution_m) {
   const double longest_m = std::max(width_m / 5, resolution_m);
@@ -121,15 +156,24 @@ SeenCells seen_cells(const COccupancyGridMap2D& grid) {
   SeenCells seen{width, 0, height, 0, 0, 0};
   for (int y = 0; y < height; ++y) {
     const auto* row = grid.getRow(y);
+    int occupied = 0;
+    int free = 0;
     for (int x = 0; x < width; ++x) {
-      const bool occupied = is_occupied(row[x]);
-      if (!occupied && !is_free(row[x])) continue;
-      ++(occupied ? seen.occupied : seen.free);
-      seen.x_begin = std::min(seen.x_begin, x);
-      seen.x_end = std::max(seen.x_end, x + 1);
-      seen.y_begin = std::min(seen.y_begin, y);
-      seen.y_end = y + 1;
+      occupied += is_occupied(row[x]) ? 1 : 0;
+      free += is_free(row[x]) ? 1 : 0;
     }
+    if (occupied + free == 0) continue;
+    seen.occupied += static_cast<std::size_t>(occupied);
+    seen.free += static_cast<std::size_t>(free);
+    const auto is_seen = [&](int x) { return is_occupied(row[x]) || is_free(row[x]); };
+    int first = 0;
+    while (!is_seen(first)) ++first;
+    int last = width - 1;
+    while (!is_seen(last)) --last;
+    seen.x_begin = std::min(seen.x_begin, first);
+    seen.x_end = std::max(seen.x_end, last + 1);
+    seen.y_begin = std::min(seen.y_begin, y);
+    seen.y_end = y + 1;
   }
   if (seen.x_end == 0) return {0, width, 0, height, 0, 0};
   return seen;

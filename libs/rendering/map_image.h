@@ -12,13 +12,20 @@
 
 namespace psi_slam {
 
-/// Whether a cell is occupied, by the threshold of ROS's map_server.
+/// Returns the first cell whose probability to be free is at least `probability`, or above it. Cells of free
+/// space are the larger ones.
+mrpt::maps::COccupancyGridMap2D::cellType first_cell_from(float probability);
+mrpt::maps::COccupancyGridMap2D::cellType first_cell_above(float probability);
+
+/// The thresholds of ROS's map_server, as cells: a comparison of probabilities would call MRPT for each cell.
+inline const auto kFirstUnknownCell = first_cell_from(0.35F);
+inline const auto kFirstFreeCell = first_cell_above(0.804F);
+
 inline bool is_occupied(mrpt::maps::COccupancyGridMap2D::cellType cell) {
-  return mrpt::maps::COccupancyGridMap2D::l2p(cell) < 0.35F;
+  return cell < kFirstUnknownCell;
 }
-/// Whether a cell is free, by the threshold of ROS's map_server.
 inline bool is_free(mrpt::maps::COccupancyGridMap2D::cellType cell) {
-  return mrpt::maps::COccupancyGridMap2D::l2p(cell) > 0.804F;
+  return cell >= kFirstFreeCell;
 }
 
 /// The observed part of a grid: cells [x_begin, x_end) x [y_begin, y_end).

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace psi_slam {
 namespace {
@@ -45,6 +46,16 @@ MapPictureOptions plain() {
   options.margin_m = 0;
   options.scale_bar = false;
   return options;
+}
+
+TEST(MapImage, has_the_thresholds_of_map_server) {
+  using Grid = mrpt::maps::COccupancyGridMap2D;
+  for (int i = std::numeric_limits<Grid::cellType>::min(); i <= std::numeric_limits<Grid::cellType>::max();
+       ++i) {
+    const auto cell = static_cast<Grid::cellType>(i);
+    EXPECT_EQ(is_occupied(cell), Grid::l2p(cell) < 0.35F) << i;
+    EXPECT_EQ(is_free(cell), Grid::l2p(cell) > 0.804F) << i;
+  }
 }
 
 TEST(MapImage, counts_what_was_seen_and_where) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "loop_closure/rival_loops.h"
 #include "pose_graph/constraint_error.h"
 #include "pose_graph/graduated_non_convexity.h"
 #include "pose_graph/path_covariance.h"
@@ -17,6 +18,8 @@ namespace {
 
 // Loops with at least this share of the worst residual are disabled in the same round.
 constexpr double kShareOfWorst = 0.5;
+// Fewer disabled loops may agree by chance.
+constexpr std::size_t kFewestRivals = 20;
 
 std::vector<double> optimized_chi(PoseGraph& graph, SparsePoseAdjustment& solver,
                                   const std::vector<std::size_t>& loops) {
@@ -76,6 +79,48 @@ void place_without_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
   solver.optimize(graph);
 }
 
+// Switches off the worst loops first, except those that `kept` marks. Then enables those that fit after all.
+void settle(PoseGraph& graph, SparsePoseAdjustment& solver, const std::vector<std::size_t>& loops,
+            double max_chi, const std::vector<bool>& kept, std::vector<double>& chi) {
+  switch_off_worst_first(graph, solver, loops, max_chi, kept, chi);
+  const std::vector<bool> plausible = plausible_along_path(graph, loops, max_chi);
+  bool any_fits_after_all = false;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (graph.enabled(loops[i]) || (chi[i] > max_chi && !plausible[i])) continue;
+    graph.set_enabled(loops[i], true);
+    any_fits_after_all = true;
+  }
+  if (!any_fits_after_all) return;
+  chi = optimized_chi(graph, solver, loops);
+  switch_off_worst_first(graph, solver, loops, max_chi, plausible, chi);
+}
+
+std::size_t enabled_loops(const PoseGraph& graph, const std::vector<std::size_t>& loops) {
+  return static_cast<std::size_t>(
+      std::count_if(loops.begin(), loops.end(), [&](std::size_t loop) { return graph.enabled(loop); }));
+}
+
+// Enables the loops of rival_loops() in a copy of the graph, instead of those that contradict them. Takes the
+// copy over and returns true if it has more loops than before, by half of the rivals.
+bool prefer_rivals(PoseGraph& graph, SparsePoseAdjustment& solver, const std::vector<std::size_t>& loops,
+                   double max_chi, std::vector<double>& chi) {
+  const std::vector<std::size_t> rivals = rival_loops(graph, loops);
+  if (rivals.size() < kFewestRivals) return false;
+  PoseGraph trial = graph;
+  std::vector<bool> kept(loops.size());
+  for (const std::size_t rival : rivals) {
+    trial.set_enabled(loops[rival], true);
+    kept[rival] = true;
+  }
+  std::vector<double> trial_chi = optimized_chi(trial, solver, loops);
+  switch_off_worst_first(trial, solver, loops, max_chi, kept, trial_chi);
+  settle(trial, solver, loops, max_chi, std::vector<bool>(loops.size()), trial_chi);
+  if (enabled_loops(trial, loops) < enabled_loops(graph, loops) + rivals.size() / 2) return false;
+  graph = std::move(trial);
+  chi = std::move(trial_chi);
+  return true;
+}
+
 }  // namespace
 
 std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
@@ -86,17 +131,8 @@ std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustm
     select_inlier_loops(graph, solver, loops, max_chi);
     chi = optimized_chi(graph, solver, loops);
   }
-  switch_off_worst_first(graph, solver, loops, max_chi, std::vector<bool>(loops.size()), chi);
-  const std::vector<bool> plausible = plausible_along_path(graph, loops, max_chi);
-  bool any_fits_after_all = false;
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (graph.enabled(loops[i]) || (chi[i] > max_chi && !plausible[i])) continue;
-    graph.set_enabled(loops[i], true);
-    any_fits_after_all = true;
-  }
-  if (any_fits_after_all) {
-    chi = optimized_chi(graph, solver, loops);
-    switch_off_worst_first(graph, solver, loops, max_chi, plausible, chi);
+  settle(graph, solver, loops, max_chi, std::vector<bool>(loops.size()), chi);
+  while (prefer_rivals(graph, solver, loops, max_chi, chi)) {
   }
   return chi;
 }

@@ -104,6 +104,42 @@ TEST(OutlierLoops, enables_loops_that_fit_in_the_end) {
   EXPECT_FALSE(graph.enabled(loops[2]));
 }
 
+// Loops that agree about the end of the chain: `count` of them, each with an error of `off_m`.
+std::vector<std::size_t> add_bent_loops(PoseGraph& graph, int count, double off_m, bool enabled) {
+  std::vector<std::size_t> loops;
+  for (int i = 0; i < count; ++i) {
+    loops.push_back(add_bent_loop(graph, 15 + static_cast<std::size_t>(i % 5), off_m));
+    graph.set_enabled(loops.back(), enabled);
+  }
+  return loops;
+}
+
+TEST(OutlierLoops, prefers_many_disabled_loops_that_agree_to_the_few_that_contradict_them) {
+  PoseGraph graph = odometry_chain();
+  const std::vector<std::size_t> many = add_bent_loops(graph, 30, 0, false);
+  const std::vector<std::size_t> few = add_bent_loops(graph, 5, 3, true);
+  std::vector<std::size_t> loops = many;
+  loops.insert(loops.end(), few.begin(), few.end());
+  SparsePoseAdjustment solver = plain_solver();
+  const std::vector<double> chi = switch_off_outlier_loops(graph, solver, loops, kOutlierChi);
+  for (const std::size_t loop : many) EXPECT_TRUE(graph.enabled(loop));
+  for (const std::size_t loop : few) EXPECT_FALSE(graph.enabled(loop));
+  EXPECT_NEAR(graph.pose(17).y, 0, 1e-3);
+  EXPECT_NEAR(chi.back(), 3 / 0.02, 1) << "residual in the graph that was chosen";
+}
+
+TEST(OutlierLoops, keeps_the_larger_of_two_sets_that_agree) {
+  PoseGraph graph = odometry_chain();
+  const std::vector<std::size_t> kept = add_bent_loops(graph, 40, 0, true);
+  const std::vector<std::size_t> rivals = add_bent_loops(graph, 30, 3, false);
+  std::vector<std::size_t> loops = kept;
+  loops.insert(loops.end(), rivals.begin(), rivals.end());
+  SparsePoseAdjustment solver = plain_solver();
+  switch_off_outlier_loops(graph, solver, loops, kOutlierChi);
+  for (const std::size_t loop : kept) EXPECT_TRUE(graph.enabled(loop));
+  for (const std::size_t loop : rivals) EXPECT_FALSE(graph.enabled(loop));
+}
+
 TEST(OutlierLoops, keeps_a_loop_at_the_limit) {
   PoseGraph graph = odometry_chain();
   const std::vector<std::size_t> loops = {add_bent_loop(graph, 19, 3)};

@@ -49,12 +49,11 @@ MapPictureOptions plain() {
 }
 
 TEST(MapImage, has_the_thresholds_of_map_server) {
-  using Grid = mrpt::maps::COccupancyGridMap2D;
-  for (int i = std::numeric_limits<Grid::cellType>::min(); i <= std::numeric_limits<Grid::cellType>::max();
-       ++i) {
-    const auto cell = static_cast<Grid::cellType>(i);
-    EXPECT_EQ(is_occupied(cell), Grid::l2p(cell) < 0.35F) << i;
-    EXPECT_EQ(is_free(cell), Grid::l2p(cell) > 0.804F) << i;
+  for (int i = std::numeric_limits<COccupancyGridMap2D::cellType>::min();
+       i <= std::numeric_limits<COccupancyGridMap2D::cellType>::max(); ++i) {
+    const auto cell = static_cast<COccupancyGridMap2D::cellType>(i);
+    EXPECT_EQ(is_occupied(cell), COccupancyGridMap2D::l2p(cell) < 0.35F) << i;
+    EXPECT_EQ(is_free(cell), COccupancyGridMap2D::l2p(cell) > 0.804F) << i;
   }
 }
 

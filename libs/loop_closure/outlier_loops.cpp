@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
-#include "loop_closure/rival_loops.h"
+#include "loop_closure/agreeing_loops.h"
 #include "pose_graph/constraint_error.h"
 #include "pose_graph/graduated_non_convexity.h"
 #include "pose_graph/path_covariance.h"
@@ -18,8 +20,6 @@ namespace {
 
 // Loops with at least this share of the worst residual are disabled in the same round.
 constexpr double kShareOfWorst = 0.5;
-// Fewer disabled loops may agree by chance.
-constexpr std::size_t kFewestRivals = 20;
 
 std::vector<double> optimized_chi(PoseGraph& graph, SparsePoseAdjustment& solver,
                                   const std::vector<std::size_t>& loops) {
@@ -79,10 +79,10 @@ void place_without_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
   solver.optimize(graph);
 }
 
-// Switches off the worst loops first, except those that `kept` marks. Then enables those that fit after all.
+// Disables the worst loops first. Then enables those that fit after all.
 void settle(PoseGraph& graph, SparsePoseAdjustment& solver, const std::vector<std::size_t>& loops,
-            double max_chi, const std::vector<bool>& kept, std::vector<double>& chi) {
-  switch_off_worst_first(graph, solver, loops, max_chi, kept, chi);
+            double max_chi, std::vector<double>& chi) {
+  switch_off_worst_first(graph, solver, loops, max_chi, std::vector<bool>(loops.size()), chi);
   const std::vector<bool> plausible = plausible_along_path(graph, loops, max_chi);
   bool any_fits_after_all = false;
   for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -100,22 +100,24 @@ std::size_t enabled_loops(const PoseGraph& graph, const std::vector<std::size_t>
       std::count_if(loops.begin(), loops.end(), [&](std::size_t loop) { return graph.enabled(loop); }));
 }
 
-// Enables the loops of rival_loops() in a copy of the graph, instead of those that contradict them. Takes the
-// copy over and returns true if it has more loops than before, by half of the rivals.
-bool prefer_rivals(PoseGraph& graph, SparsePoseAdjustment& solver, const std::vector<std::size_t>& loops,
-                   double max_chi, std::vector<double>& chi) {
-  const std::vector<std::size_t> rivals = rival_loops(graph, loops);
-  if (rivals.size() < kFewestRivals) return false;
+// Enables the loops that agree in a copy of the graph, instead of those that contradict them. Takes the copy
+// over and returns true if it has more loops than before, by at least half of those that agree.
+bool prefer_agreeing(PoseGraph& graph, SparsePoseAdjustment& solver, const std::vector<std::size_t>& loops,
+                     double max_chi, std::vector<double>& chi) {
+  const std::vector<std::size_t> agreeing = agreeing_loops(graph, loops);
+  std::set<std::size_t> nodes;
+  for (const std::size_t i : agreeing) nodes.insert(graph.constraint(loops[i]).to);
+  if (nodes.size() < kFewestAgreeingNodes) return false;
   PoseGraph trial = graph;
   std::vector<bool> kept(loops.size());
-  for (const std::size_t rival : rivals) {
-    trial.set_enabled(loops[rival], true);
-    kept[rival] = true;
+  for (const std::size_t i : agreeing) {
+    trial.set_enabled(loops[i], true);
+    kept[i] = true;
   }
   std::vector<double> trial_chi = optimized_chi(trial, solver, loops);
   switch_off_worst_first(trial, solver, loops, max_chi, kept, trial_chi);
-  settle(trial, solver, loops, max_chi, std::vector<bool>(loops.size()), trial_chi);
-  if (enabled_loops(trial, loops) < enabled_loops(graph, loops) + rivals.size() / 2) return false;
+  settle(trial, solver, loops, max_chi, trial_chi);
+  if (enabled_loops(trial, loops) < enabled_loops(graph, loops) + agreeing.size() / 2) return false;
   graph = std::move(trial);
   chi = std::move(trial_chi);
   return true;
@@ -131,8 +133,8 @@ std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustm
     select_inlier_loops(graph, solver, loops, max_chi);
     chi = optimized_chi(graph, solver, loops);
   }
-  settle(graph, solver, loops, max_chi, std::vector<bool>(loops.size()), chi);
-  while (prefer_rivals(graph, solver, loops, max_chi, chi)) {
+  settle(graph, solver, loops, max_chi, chi);
+  while (prefer_agreeing(graph, solver, loops, max_chi, chi)) {
   }
   return chi;
 }

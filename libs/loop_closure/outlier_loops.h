@@ -11,8 +11,8 @@
 // If many loops are contradicted, false loops may outnumber true ones, and the loop with the largest residual
 // need not be false. Then select_inlier_loops() selects consistent loops first.
 //
-// At last, the disabled loops may be right and a few enabled ones false, if many disabled loops agree, see
-// rival_loops(). Then the larger set is kept.
+// Finally, the disabled loops may be right and a few enabled ones false, if the loops of many nodes agree,
+// see agreeing_loops(). Then they are tried instead of those that contradict them.
 #pragma once
 
 #include <cstddef>
@@ -30,12 +30,17 @@ inline constexpr double kDoubtfulShare = 0.2;
 /// 3.75 standard deviations, which 0.3 % of true loops exceed.
 inline constexpr double kPlausibleShare = 0.75;
 
+/// Smallest number of nodes whose disabled loops agree before they are tried. Fewer may all have been matched
+/// with one wrong place.
+inline constexpr std::size_t kFewestAgreeingNodes = 20;
+
 /// Optimises the graph. Enables and disables the constraints `loops` until no enabled loop has a residual
 /// above `max_chi` standard deviations and a path_chi() above kPlausibleShare * `max_chi`. Computes
 /// path_chi() once, when no enabled loop is contradicted, of the loops that are then disabled. Loops that are
-/// disabled after that stay disabled. Does the same from rival loops on, and keeps what results if more loops
-/// are enabled then. Returns the residuals in the order of `loops`. If `doubtful_share` is
-/// 1, never calls select_inlier_loops().
+/// disabled after that stay disabled. Then repeats this with the loops of agreeing_loops() enabled, if they
+/// are of enough nodes, and keeps the result if it enables more loops, by at least half of those that agree.
+/// Returns the residuals in the order of `loops`. If `doubtful_share` is 1, never calls
+/// select_inlier_loops().
 std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
                                              const std::vector<std::size_t>& loops, double max_chi,
                                              double doubtful_share = kDoubtfulShare);

@@ -90,8 +90,8 @@ void BoundLevel::make_offsets(int number, Layer& layer) {
   // Single precision halves the time. The squares are larger by its rounding errors.
   search.rounding = static_cast<float>(kRounding + kFloatRounding * farthest);
   search.stride = stride_;
-  search.columns = columns_;
-  search.rows = rows_;
+  search.window_columns = columns_;
+  search.window_rows = rows_;
   search.layout = tables.layout();
   const std::size_t points = x_cells_.size();
   squares_.resize(points);

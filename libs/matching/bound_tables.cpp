@@ -77,9 +77,9 @@ BoundTables::BoundTables(int stride_cells, Cell first, Cell end, int columns, in
   if (size > std::numeric_limits<std::int32_t>::max())
     throw std::invalid_argument("no bounds for a window of " + std::to_string(columns * stride_) + " x " +
                                 std::to_string(rows * stride_) + " cells: expected tables of at most 2 GB");
-  layout_.row_bytes = static_cast<std::int32_t>(row_bytes);
-  layout_.plane_bytes = static_cast<std::int32_t>(plane_bytes);
-  layout_.table_bytes = static_cast<std::int32_t>(table_bytes);
+  layout_.row_bytes = static_cast<std::uint32_t>(row_bytes);
+  layout_.plane_bytes = static_cast<std::uint32_t>(plane_bytes);
+  layout_.table_bytes = static_cast<std::uint32_t>(table_bytes);
   bytes_.assign(static_cast<std::size_t>(size), 0);
 }
 

@@ -11,44 +11,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "matching/bound_layout.h"
 #include "matching/cell.h"
 
 namespace psi_slam {
 
 class ScoreLevel;
-
-/// Where the squares are in the tables.
-struct BoundLayout {
-  int phases = 0;      ///< planes of a table along each axis: half a stride
-  int log_phases = 0;  ///< binary logarithm of `phases`
-  int columns = 0;     ///< blocks of zeros before each row of a plane
-  int rows = 0;        ///< rows of zeros before each plane
-  int plane_columns = 0;
-  int plane_rows = 0;
-  std::int32_t row_bytes = 0;
-  std::int32_t plane_bytes = 0;
-  std::int32_t table_bytes = 0;
-
-  /// Returns the offset of the square that begins at half cell (x, y), with sides of `half_cells`: half a
-  /// stride to one stride + 1, the sizes that points need which move by up to a stride. Returns -1 if no
-  /// block of a window of `window_columns` x `window_rows` blocks from this square on has scores. Always
-  /// inlined, because kernels for other instruction sets use it.
-  __attribute__((always_inline)) std::int32_t offset(int x, int y, int half_cells, int window_columns,
-                                                     int window_rows) const {
-    const int column = x >> log_phases;
-    const int row = y >> log_phases;
-    const bool may_score = (column + window_columns > 0) & (column < plane_columns) &
-                           (row + window_rows > 0) & (row < plane_rows);
-    const int plane = ((y & (phases - 1)) << log_phases) + (x & (phases - 1));
-    // Unsigned numbers may overflow where no block has scores.
-    const auto times = [](int count, std::int32_t bytes) {
-      return static_cast<std::uint32_t>(count) * static_cast<std::uint32_t>(bytes);
-    };
-    const std::uint32_t place = times(half_cells - phases, table_bytes) + times(plane, plane_bytes) +
-                                times(rows + row, row_bytes) + static_cast<std::uint32_t>(columns + column);
-    return may_score ? static_cast<std::int32_t>(place) : -1;
-  }
-};
 
 class BoundTables {
  public:

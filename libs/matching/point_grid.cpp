@@ -16,7 +16,8 @@ constexpr std::int64_t kSide = 64;  // rows and columns of cells, a power of two
 /// A coordinate in cells.
 struct InCells {
   InCells(float coordinate_m, double cells_per_m)
-      : position(static_cast<double>(coordinate_m) * cells_per_m), cell(std::llround(std::floor(position))) {}
+      : position(static_cast<double>(coordinate_m) * cells_per_m),
+        cell(static_cast<std::int64_t>(std::floor(position))) {}
   /// Returns the distance to the nearer border of the cell, in cells.
   double to_border() const {
     const double behind = position - static_cast<double>(cell);
@@ -31,24 +32,26 @@ std::size_t cell_at(std::int64_t row, std::int64_t column) {
   return static_cast<std::size_t>((row & (kSide - 1)) * kSide + (column & (kSide - 1)));
 }
 
-/// The nearest points found so far, the nearest first.
+/// The nearest points found so far, the nearest first. Of equally near ones, the one with the smaller index.
 class Nearest {
  public:
   /// `indices` and `squares` have room for `count` points, at least one.
   Nearest(float max_square_m2, std::size_t count, std::uint32_t* indices, float* squares)
-      : worst_(std::nextafter(max_square_m2, 2 * max_square_m2 + 1)),
-        count_(count),
-        indices_(indices),
-        squares_(squares) {}
+      : worst_(max_square_m2), count_(count), indices_(indices), squares_(squares) {}
 
   std::size_t size() const { return size_; }
   bool is_full() const { return size_ == count_; }
-  /// Points from this square of a distance on are not kept.
+  /// Points with a larger square of the distance are not kept.
   float worst() const { return worst_; }
 
+  /// `square` is at most worst().
   void add(float square, std::uint32_t index) {
+    const auto is_nearer = [&](std::size_t place) {
+      return square < squares_[place] || (square == squares_[place] && index < indices_[place]);
+    };
+    if (is_full() && !is_nearer(count_ - 1)) return;
     std::size_t place = is_full() ? count_ - 1 : size_++;
-    for (; place > 0 && squares_[place - 1] > square; --place) {
+    for (; place > 0 && is_nearer(place - 1); --place) {
       squares_[place] = squares_[place - 1];
       indices_[place] = indices_[place - 1];
     }
@@ -64,6 +67,13 @@ class Nearest {
   std::uint32_t* indices_;
   float* squares_;
 };
+
+/// Returns how many rings of cells around a cell hold all points at most `distance_m` from any of its points,
+/// or a number of rings that holds all cells, which repeat.
+std::int64_t rings_within(float distance_m, double cells_per_m) {
+  return static_cast<std::int64_t>(
+      std::min(std::ceil(static_cast<double>(distance_m) * cells_per_m), kSide / 2.0));
+}
 
 }  // namespace
 
@@ -111,17 +121,17 @@ void PointGrid::nearest(const Point& at, std::size_t count, float max_distance_m
   Nearest nearest(max_distance_m * max_distance_m, found.size(), found.data(), squares.data());
   const auto search_cells = [&](std::int64_t row, std::int64_t first_column, std::int64_t last_column) {
     visit_cells(row, first_column, last_column, at, [&](float square, std::uint32_t index) {
-      if (square < nearest.worst()) nearest.add(square, index);
+      if (square <= nearest.worst()) nearest.add(square, index);
     });
   };
   const InCells x(at.x, cells_per_m_);
   const InCells y(at.y, cells_per_m_);
   const double to_border = std::min(x.to_border(), y.to_border());
-  const double rings = std::ceil(static_cast<double>(max_distance_m) * cells_per_m_ - to_border);
+  const std::int64_t rings = rings_within(max_distance_m, cells_per_m_);
   if (2 * rings >= kSide)
     for (std::int64_t row = 0; row < kSide; ++row) search_cells(row, 0, kSide - 1);
   else
-    for (std::int64_t ring = 0; static_cast<double>(ring) <= rings; ++ring) {
+    for (std::int64_t ring = 0; ring <= rings; ++ring) {
       const double searched_m = (static_cast<double>(ring) - 1 + to_border) / cells_per_m_;
       if (ring > 0 && nearest.is_full() && static_cast<double>(nearest.worst()) < searched_m * searched_m)
         break;
@@ -138,8 +148,7 @@ std::vector<std::uint32_t> PointGrid::within(const Point& at, float radius_m) co
   std::vector<std::uint32_t> found;
   const InCells x(at.x, cells_per_m_);
   const InCells y(at.y, cells_per_m_);
-  const double reach = std::ceil(static_cast<double>(radius_m) * cells_per_m_);
-  const auto rings = static_cast<std::int64_t>(std::min(reach, kSide / 2.0));
+  const std::int64_t rings = rings_within(radius_m, cells_per_m_);
   const std::int64_t width = std::min(2 * rings + 1, kSide);  // each cell once, although the cells repeat
   for (std::int64_t row = y.cell - rings; row < y.cell - rings + width; ++row)
     visit_cells(row, x.cell - rings, x.cell - rings + width - 1, at, [&](float square, std::uint32_t index) {

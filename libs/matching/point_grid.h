@@ -16,14 +16,15 @@ namespace psi_slam {
 /// Points of the plane in cells, metres. Searches are thread-safe.
 class PointGrid {
  public:
-  /// All points must be finite; an empty vector is valid. `cell_m` affects the speed only. It is best near
-  /// the distance of the searches.
+  /// The points must be finite and less than 2^62 cells from the origin; an empty vector is valid. `cell_m`
+  /// is above 0 and affects the speed only. It is best near half the distance of the searches: those of 32
+  /// cells or more look at all points.
   PointGrid(std::vector<mrpt::math::TPoint2Df> points, double cell_m);
 
   const std::vector<mrpt::math::TPoint2Df>& points() const { return points_; }
 
   /// Sets `found` to the indices of the points nearest to `at`, nearest first: at most `count` points, each
-  /// at most `max_distance_m` away.
+  /// at most `max_distance_m` away. Equally near points are in the order of their indices.
   void nearest(const mrpt::math::TPoint2Df& at, std::size_t count, float max_distance_m,
                std::vector<std::uint32_t>& found) const;
 

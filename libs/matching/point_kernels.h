@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "base/instruction_set.h"
-#include "matching/bound_tables.h"
+#include "matching/bound_layout.h"
 #include "matching/cell.h"
 
 namespace psi_slam {
@@ -16,9 +16,10 @@ namespace psi_slam {
 /// A rotation and a translation, which place points of the robot's frame in cells of a grid.
 template <class Number>
 struct CellPlacement {
-  Number x0 = 0;
+  Number x0 = 0;  ///< position of the robot in cells
   Number y0 = 0;
-  Number cosine = 1;  ///< both times the cells per unit of the points
+  /// Cosine and sine of the heading, multiplied by the number of cells per unit of the points.
+  Number cosine = 1;
   Number sine = 0;
 };
 
@@ -29,8 +30,8 @@ struct SquareSearch {
   float along = 0;              ///< 1 - cosine of half the turn
   float rounding = 0;           ///< by which the squares are larger
   int stride = 0;
-  int columns = 0;  ///< blocks of the window
-  int rows = 0;
+  int window_columns = 0;  ///< blocks of the window
+  int window_rows = 0;
   BoundLayout layout;
 };
 
@@ -38,11 +39,12 @@ struct SquareSearch {
 struct UnclippedCells {
   Cell shift;          ///< added to each cell before it is divided by the stride
   int log_stride = 0;  ///< binary logarithm of the stride
-  Cell first;          ///< smallest and largest cell
-  Cell last;
+  Cell first;          ///< smallest such cell along each axis
+  Cell last;           ///< largest such cell along each axis
   std::int32_t row_bytes = 0;
 };
 
+/// The kernels for one instruction set.
 struct PointKernels {
   /// Offset of a cell that needs a bounds check.
   static constexpr std::int32_t kClipped = INT32_MIN;

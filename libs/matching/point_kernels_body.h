@@ -5,7 +5,6 @@
 #pragma once
 
 #include "matching/point_kernels.h"
-#include "matching/score_grid.h"
 
 namespace psi_slam {
 namespace {
@@ -35,7 +34,8 @@ void find_squares_of_points(const SquareSearch& search, const float* x_cells, co
     const int y = floor_to_int(middle.y0 + v - dy) >> 1;
     const int width = ((floor_to_int(middle.x0 + u + dx) + s.stride - 1) >> 1) - x;
     const int height = ((floor_to_int(middle.y0 + v + dy) + s.stride - 1) >> 1) - y;
-    squares[i] = s.layout.offset(x, y, (width > height ? width : height) + 1, s.columns, s.rows);
+    squares[i] =
+        s.layout.offset(x, y, (width > height ? width : height) + 1, s.window_columns, s.window_rows);
   }
 }
 

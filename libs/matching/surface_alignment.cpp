@@ -28,7 +28,8 @@ class Turned {
   float c_, s_;
 };
 
-// Size of the cells in which the surface points are sorted. Affects the speed only.
+// Size of the cells in which the surface points are sorted. Affects the speed only, which is best near this
+// size with the default max_distance_m.
 constexpr double kCell_m = 0.07;
 
 PointGrid placed_points(const std::vector<SurfaceMap::Part>& parts) {

@@ -25,29 +25,39 @@ Pixel mixed(const Pixel& a, const Pixel& b, double share_of_b) {
   return result;
 }
 
-/// Colours of pixels that show a block of side x side cells. A wall of one cell that crosses the block is as
-/// dark as a thick wall.
-class BlockColours {
- public:
-  BlockColours(int side, const Pixel& unknown) : cells_(side * side) {
-    for (int occupied = 0; occupied <= cells_; ++occupied)
-      for (int free = 0; free <= cells_; ++free) {
-        const int open = cells_ - occupied;
-        const Pixel ground =
-            open == 0 ? kFreeInk : mixed(unknown, kFreeInk, std::min(1.0, static_cast<double>(free) / open));
-        colours_.push_back(mixed(ground, kWallInk, std::min(1.0, static_cast<double>(occupied) / side)));
-      }
-  }
-
-  /// `occupied` and `free` are numbers of cells of the block.
-  const Pixel& colour(int occupied, int free) const {
-    return colours_[static_cast<std::size_t>(occupied * (cells_ + 1) + free)];
-  }
-
- private:
-  int cells_;
-  std::vector<Pixel> colours_;
+/// Numbers of cells of a block.
+struct BlockCount {
+  int occupied = 0;
+  int free = 0;
 };
+
+bool operator==(const BlockCount& a, const BlockCount& b) {
+  return a.occupied == b.occupied && a.free == b.free;
+}
+
+/// Counts the cells of the block of side x side cells that begins at (x_begin, y_begin).
+BlockCount count_block(const COccupancyGridMap2D& grid, int x_begin, int y_begin, int side) {
+  BlockCount count;
+  const int x_end = std::min(x_begin + side, static_cast<int>(grid.getSizeX()));
+  const int y_end = std::min(y_begin + side, static_cast<int>(grid.getSizeY()));
+  for (int y = std::max(y_begin, 0); y < y_end; ++y) {
+    const auto* row = grid.getRow(y);
+    for (int x = std::max(x_begin, 0); x < x_end; ++x) {
+      count.occupied += is_occupied(row[x]) ? 1 : 0;
+      count.free += is_free(row[x]) ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+/// Returns the colour of the pixel that shows a block of side x side cells. A wall of one cell that crosses
+/// the block is as dark as a thick wall.
+Pixel block_colour(const BlockCount& count, int side, const Pixel& unknown) {
+  const int open = side * side - count.occupied;
+  const Pixel ground =
+      open == 0 ? kFreeInk : mixed(unknown, kFreeInk, static_cast<double>(count.free) / open);
+  return mixed(ground, kWallInk, std::min(1.0, static_cast<double>(count.occupied) / side));
+}
 
 /// The part of a grid that a picture shows, before it is enlarged.
 struct ShownPart : PicturePlace {
@@ -79,24 +89,16 @@ ShownPart shown_part(const COccupancyGridMap2D& grid, const MapPictureOptions& o
 void draw(const COccupancyGridMap2D& grid, const ShownPart& part, const Pixel& unknown, cv::Mat& image) {
   const int channels = image.channels();
   const int side = part.cells_a_pixel;
-  const BlockColours colours(side, unknown);
+  BlockCount last;  // neighbours are mostly equal, so their colour is computed once
+  Pixel colour = block_colour(last, side, unknown);
   for (int row = 0; row < image.rows; ++row) {
     std::uint8_t* pixel = image.ptr(row);
-    const int y_begin = part.y_end - (row + 1) * side;
-    const int y_end = std::min(y_begin + side, static_cast<int>(grid.getSizeY()));
     for (int column = 0; column < image.cols; ++column, pixel += channels) {
-      const int x_begin = part.x_begin + column * side;
-      const int x_end = std::min(x_begin + side, static_cast<int>(grid.getSizeX()));
-      int occupied = 0;
-      int free = 0;
-      for (int y = std::max(y_begin, 0); y < y_end; ++y) {
-        const auto* cells = grid.getRow(y);
-        for (int x = std::max(x_begin, 0); x < x_end; ++x) {
-          occupied += is_occupied(cells[x]) ? 1 : 0;
-          free += is_free(cells[x]) ? 1 : 0;
-        }
-      }
-      std::copy_n(colours.colour(occupied, free).val, channels, pixel);
+      const BlockCount count =
+          count_block(grid, part.x_begin + column * side, part.y_end - (row + 1) * side, side);
+      if (!(count == last)) colour = block_colour(count, side, unknown);
+      last = count;
+      std::copy_n(colour.val, channels, pixel);
     }
   }
 }

@@ -12,17 +12,20 @@
 
 namespace psi_slam {
 
-/// Returns the first cell whose probability to be free is at least `probability`, or above it. Cells of free
-/// space are the larger ones.
+/// Returns the first cell whose probability to be free is at least `probability`. Larger cells are more
+/// likely free.
 mrpt::maps::COccupancyGridMap2D::cellType first_cell_from(float probability);
+/// Returns the first cell whose probability to be free is above `probability`.
 mrpt::maps::COccupancyGridMap2D::cellType first_cell_above(float probability);
 
-/// The thresholds of ROS's map_server, as cells: a comparison of probabilities would call MRPT for each cell.
-inline const auto kFirstUnknownCell = first_cell_from(0.35F);
+/// First cell that is not occupied, by the threshold of ROS's map_server. A comparison of probabilities would
+/// call MRPT for each cell. MRPT is a shared library, so it is initialised before this constant.
+inline const auto kFirstNotOccupiedCell = first_cell_from(0.35F);
+/// First cell that is free, by the threshold of ROS's map_server.
 inline const auto kFirstFreeCell = first_cell_above(0.804F);
 
 inline bool is_occupied(mrpt::maps::COccupancyGridMap2D::cellType cell) {
-  return cell < kFirstUnknownCell;
+  return cell < kFirstNotOccupiedCell;
 }
 inline bool is_free(mrpt::maps::COccupancyGridMap2D::cellType cell) {
   return cell >= kFirstFreeCell;

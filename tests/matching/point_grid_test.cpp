@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <set>
 #include <vector>
 
 #include "base/random_draws.h"
@@ -30,21 +29,20 @@ float square_m2(const Point& a, const Point& b) {
   return dx * dx + dy * dy;
 }
 
-/// Squares of the distances of the nearest points, in ascending order.
-std::vector<float> slow_nearest(const std::vector<Point>& points, const Point& at, std::size_t count,
-                                float max_distance_m) {
-  std::vector<float> squares;
-  for (const Point& point : points)
-    if (square_m2(point, at) <= max_distance_m * max_distance_m) squares.push_back(square_m2(point, at));
-  std::sort(squares.begin(), squares.end());
-  squares.resize(std::min(squares.size(), count));
-  return squares;
-}
-
 std::vector<std::uint32_t> slow_within(const std::vector<Point>& points, const Point& at, float radius_m) {
   std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < points.size(); ++i)
     if (square_m2(points[i], at) <= radius_m * radius_m) found.push_back(i);
+  return found;
+}
+
+std::vector<std::uint32_t> slow_nearest(const std::vector<Point>& points, const Point& at, std::size_t count,
+                                        float max_distance_m) {
+  std::vector<std::uint32_t> found = slow_within(points, at, max_distance_m);
+  std::stable_sort(found.begin(), found.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return square_m2(points[a], at) < square_m2(points[b], at);
+  });
+  found.resize(std::min(found.size(), count));
   return found;
 }
 
@@ -60,11 +58,8 @@ TEST(PointGrid, equals_a_search_through_all_points) {
         for (const float reach : {0.05F, 0.4F, 2.2F, 20.0F})
           for (const std::size_t count : {1U, 6U, 900U}) {
             grid.nearest(query, count, reach, near);
-            std::vector<float> squares;
-            for (const std::uint32_t i : near) squares.push_back(square_m2(points[i], query));
-            EXPECT_EQ(squares, slow_nearest(points, query, count, reach))
+            EXPECT_EQ(near, slow_nearest(points, query, count, reach))
                 << count << " within " << reach << " of " << extent_m << ", cells of " << cell_m;
-            EXPECT_EQ(std::set<std::uint32_t>(near.begin(), near.end()).size(), near.size());
           }
         for (const float reach : {0.05F, 0.4F, 2.2F, 20.0F})
           EXPECT_EQ(grid.within(query, reach), slow_within(points, query, reach))
@@ -83,20 +78,27 @@ TEST(PointGrid, finds_nothing_without_points) {
 }
 
 TEST(PointGrid, includes_points_at_the_largest_distance) {
-  const PointGrid grid({{0, 0}, {0.5F, 0}, {0, -0.5F}, {0.5625F, 0}}, 0.1);
-  std::vector<std::uint32_t> near;
-  grid.nearest({0, 0}, 4, 0.5F, near);
-  std::sort(near.begin(), near.end());
-  EXPECT_EQ(near, (std::vector<std::uint32_t>{0, 1, 2}));
-  EXPECT_EQ(grid.within({0, 0}, 0.5F), near);
+  const std::vector<Point> points = {{0, 0}, {0.5F, 0}, {0, -0.5F}, {0.5625F, 0}, {2, 0.5F}};
+  for (const double cell_m : {0.1, 0.25, 1.0}) {
+    const PointGrid grid(points, cell_m);
+    std::vector<std::uint32_t> near;
+    grid.nearest({0, 0}, 4, 0.5F, near);
+    EXPECT_EQ(near, (std::vector<std::uint32_t>{0, 1, 2}));
+    EXPECT_EQ(grid.within({0, 0}, 0.5F), near);
+    grid.nearest({0.5F, 0.5F}, 9, 1.5F, near);
+    EXPECT_EQ(near, slow_nearest(points, {0.5F, 0.5F}, 9, 1.5F));
+    EXPECT_EQ(grid.within({0.5F, 0.5F}, 1.5F), slow_within(points, {0.5F, 0.5F}, 1.5F));
+  }
 }
 
-// Equal distances keep the order of the points, so the result is the same on every machine.
-TEST(PointGrid, keeps_the_order_of_equal_points) {
-  const PointGrid grid({{1, 1}, {1, 1}, {1, 1}, {1, 1}}, 0.1);
-  std::vector<std::uint32_t> near;
-  grid.nearest({1, 1.01F}, 3, 0.1F, near);
-  EXPECT_EQ(near, (std::vector<std::uint32_t>{0, 1, 2}));
+// So the size of the cells changes no result.
+TEST(PointGrid, orders_equally_near_points_by_their_indices) {
+  for (const double cell_m : {0.0625, 0.3, 1.0}) {
+    const PointGrid grid({{0.125F, 0}, {-0.125F, 0}, {0, 0.125F}, {0, -0.125F}, {0.125F, 0}}, cell_m);
+    std::vector<std::uint32_t> near;
+    grid.nearest({0, 0}, 3, 1, near);
+    EXPECT_EQ(near, (std::vector<std::uint32_t>{0, 1, 2}));
+  }
 }
 
 }  // namespace

@@ -61,10 +61,10 @@ SquareSearch random_search(std::mt19937_64& random) {
   search.layout.log_phases = 1 + up_to(3);
   search.layout.phases = 1 << search.layout.log_phases;
   search.stride = 2 * search.layout.phases;
-  search.columns = 1 + up_to(5);
-  search.rows = 1 + up_to(5);
-  search.layout.columns = search.columns;
-  search.layout.rows = search.rows;
+  search.window_columns = 1 + up_to(5);
+  search.window_rows = 1 + up_to(5);
+  search.layout.columns = search.window_columns;
+  search.layout.rows = search.window_rows;
   search.layout.plane_columns = 10 + up_to(30);
   search.layout.plane_rows = 10 + up_to(30);
   search.layout.row_bytes = 64;
@@ -73,8 +73,24 @@ SquareSearch random_search(std::mt19937_64& random) {
   return search;
 }
 
-// The squares must hold each cell that the point can reach: its exact position, at all headings.
-TEST(PointKernels, find_the_same_squares_that_hold_the_points) {
+// BoundLayout::offset() with numbers that cannot overflow.
+std::int32_t slow_offset(const SquareSearch& search, int x, int y, int half_cells) {
+  const BoundLayout& layout = search.layout;
+  const auto divided = [&](int half_cell) {
+    return static_cast<std::int64_t>(std::floor(static_cast<double>(half_cell) / layout.phases));
+  };
+  const std::int64_t column = divided(x);
+  const std::int64_t row = divided(y);
+  if (column + search.window_columns <= 0 || column >= layout.plane_columns) return -1;
+  if (row + search.window_rows <= 0 || row >= layout.plane_rows) return -1;
+  const std::int64_t plane = (y - row * layout.phases) * layout.phases + x - column * layout.phases;
+  return static_cast<std::int32_t>(std::int64_t{half_cells - layout.phases} * layout.table_bytes +
+                                   plane * layout.plane_bytes + (layout.rows + row) * layout.row_bytes +
+                                   layout.columns + column);
+}
+
+// Whether the squares hold the points is tested with BoundLevel.
+TEST(PointKernels, find_the_squares_of_plain_code) {
   std::mt19937_64 random(4);
   int inside = 0;
   for (const std::size_t count : kCounts) {
@@ -93,8 +109,7 @@ TEST(PointKernels, find_the_same_squares_that_hold_the_points) {
       };
       const auto [column, width] = half_cells(search.middle.x0 + u - dx, search.middle.x0 + u + dx);
       const auto [row, height] = half_cells(search.middle.y0 + v - dy, search.middle.y0 + v + dy);
-      expected.push_back(
-          search.layout.offset(column, row, std::max(width, height) + 1, search.columns, search.rows));
+      expected.push_back(slow_offset(search, column, row, std::max(width, height) + 1));
       inside += expected.back() >= 0 ? 1 : 0;
     }
     for (const PointKernels* kernels : kernels_of_this_machine()) {

@@ -77,8 +77,12 @@ std::vector<fs::path> files_listed(const fs::path& metadata) {
     if (has_yaml_directive(metadata)) throw MalformedBytes("a directive");
     const auto yaml = mrpt::containers::yaml::FromFile(metadata.string());
     const auto paths = yaml["rosbag2_bagfile_information"]["relative_file_paths"];
-    for (const auto& file : paths.asSequence())
-      files.push_back(listed_file(metadata.parent_path(), file.as<std::string>()));
+    for (const auto& listed : paths.asSequence()) {
+      const auto name = listed.as<std::string>();
+      if (name.find('\0') != std::string::npos) throw MalformedBytes("a name with a byte 0");
+      files.push_back(listed_file(metadata.parent_path(), name));
+      if (fs::is_directory(files.back())) throw MalformedBytes("a folder");  // it could list itself
+    }
   } catch (const std::exception&) {
     throw UserError(
         metadata.string() +

@@ -110,5 +110,16 @@ TEST_F(LogFormatTest, reports_missing_files_and_folders_without_a_bag) {
           "delete it to read the bag files by their names");
 }
 
+// The folder would list itself again and again.
+TEST_F(LogFormatTest, refuses_a_bag_folder_that_lists_a_folder) {
+  for (const std::string& name : std::vector<std::string>{".", "..", "run/", "\"run/\\0.mcap\""}) {
+    write_file(folder_.path() / "metadata.yaml",
+               "rosbag2_bagfile_information:\n  version: 4\n  relative_file_paths:\n    - " + name + "\n");
+    EXPECT_NE(sentence_of([&] { detect_log_format(folder_.path()); }).find("metadata.yaml is damaged"),
+              std::string::npos)
+        << name;
+  }
+}
+
 }  // namespace
 }  // namespace psi_slam

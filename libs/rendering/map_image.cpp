@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -103,24 +102,7 @@ void draw(const COccupancyGridMap2D& grid, const ShownPart& part, const Pixel& u
   }
 }
 
-template <class Condition>
-COccupancyGridMap2D::cellType first_cell(const Condition& holds) {
-  auto cell = std::numeric_limits<COccupancyGridMap2D::cellType>::min();
-  while (cell < std::numeric_limits<COccupancyGridMap2D::cellType>::max() &&
-         !holds(COccupancyGridMap2D::l2p(cell)))
-    ++cell;
-  return cell;
-}
-
 }  // namespace
-
-COccupancyGridMap2D::cellType first_cell_from(float probability) {
-  return first_cell([&](float free) { return free >= probability; });
-}
-
-COccupancyGridMap2D::cellType first_cell_above(float probability) {
-  return first_cell([&](float free) { return free > probability; });
-}
 
 double scale_bar_m(double width_m, double resolution_m) {
   const double longest_m = std::max(width_m / 5, resolution_m);

@@ -12,21 +12,18 @@
 
 namespace psi_slam {
 
-/// Returns the first cell whose probability to be free is at least `probability`. Larger cells are more
-/// likely free.
-mrpt::maps::COccupancyGridMap2D::cellType first_cell_from(float probability);
-/// Returns the first cell whose probability to be free is above `probability`.
-mrpt::maps::COccupancyGridMap2D::cellType first_cell_above(float probability);
+/// Cells of MRPT's grid, whose probability to be free grows with the cell. The thresholds are those of ROS's
+/// map_server: below 0.35, a cell is occupied, and above 0.804, it is free. As cells, because a comparison of
+/// probabilities would call MRPT for each cell.
+inline constexpr mrpt::maps::COccupancyGridMap2D::cellType kFirstNotOccupiedCell = -9;
+inline constexpr mrpt::maps::COccupancyGridMap2D::cellType kFirstFreeCell = 23;
+static_assert(sizeof(mrpt::maps::COccupancyGridMap2D::cellType) == 1);
 
-/// First cell that is not occupied, by the threshold of ROS's map_server. A comparison of probabilities would
-/// call MRPT for each cell. MRPT is a shared library, so it is initialised before this constant.
-inline const auto kFirstNotOccupiedCell = first_cell_from(0.35F);
-/// First cell that is free, by the threshold of ROS's map_server.
-inline const auto kFirstFreeCell = first_cell_above(0.804F);
-
+/// Whether a cell is occupied.
 inline bool is_occupied(mrpt::maps::COccupancyGridMap2D::cellType cell) {
   return cell < kFirstNotOccupiedCell;
 }
+/// Whether a cell is free.
 inline bool is_free(mrpt::maps::COccupancyGridMap2D::cellType cell) {
   return cell >= kFirstFreeCell;
 }

@@ -60,8 +60,10 @@ folder=$(cd "$folder" && pwd)
 # Memory over the limit counts as found: the process may take 1 GiB, which sanitizers double, one allocation 512 MiB.
 run() {
   mkdir -p "$folder/corpus/$1"
-  ASAN_OPTIONS=detect_leaks=0 "build/fuzz/tests/fuzz/$1_fuzz" -max_total_time="$seconds" -timeout=10 -detect_leaks=0 -rss_limit_mb=1024 -malloc_limit_mb=512 \
-    -max_len=65536 -print_final_stats=1 -artifact_prefix="$folder/found/$1-" \
+  # The variable switches off the search for leaks at the end, the option that after each input.
+  ASAN_OPTIONS=detect_leaks=0 \
+    "build/fuzz/tests/fuzz/$1_fuzz" -max_total_time="$seconds" -timeout=10 -detect_leaks=0 -rss_limit_mb=1024 \
+    -malloc_limit_mb=512 -max_len=65536 -print_final_stats=1 -artifact_prefix="$folder/found/$1-" \
     "$folder/corpus/$1" "tests/fuzz/corpus/$1" > "$folder/$1.log" 2>&1
 }
 

@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <numeric>
 #include <utility>
+
+#include "matching/point_kernels.h"
 
 namespace psi_slam {
 namespace {
@@ -32,41 +36,21 @@ std::size_t cell_at(std::int64_t row, std::int64_t column) {
   return static_cast<std::size_t>((row & (kSide - 1)) * kSide + (column & (kSide - 1)));
 }
 
-/// The nearest points found so far, the nearest first. Of equally near ones, the one with the smaller index.
-class Nearest {
- public:
-  /// `indices` and `squares` have room for `count` points, at least one.
-  Nearest(float max_square_m2, std::size_t count, std::uint32_t* indices, float* squares)
-      : worst_(max_square_m2), count_(count), indices_(indices), squares_(squares) {}
+/// Returns the key of a point, see NeighbourKeys.
+std::int64_t key_of(float square_m2, std::uint32_t index) {
+  std::int32_t bits = 0;
+  static_assert(sizeof bits == sizeof square_m2);
+  std::memcpy(&bits, &square_m2, sizeof bits);
+  return (static_cast<std::int64_t>(bits) << 32) | index;
+}
 
-  std::size_t size() const { return size_; }
-  bool is_full() const { return size_ == count_; }
-  /// Points with a larger square of the distance are not kept.
-  float worst() const { return worst_; }
-
-  /// `square` is at most worst().
-  void add(float square, std::uint32_t index) {
-    const auto is_nearer = [&](std::size_t place) {
-      return square < squares_[place] || (square == squares_[place] && index < indices_[place]);
-    };
-    if (is_full() && !is_nearer(count_ - 1)) return;
-    std::size_t place = is_full() ? count_ - 1 : size_++;
-    for (; place > 0 && is_nearer(place - 1); --place) {
-      squares_[place] = squares_[place - 1];
-      indices_[place] = indices_[place - 1];
-    }
-    squares_[place] = square;
-    indices_[place] = index;
-    if (is_full()) worst_ = squares_[count_ - 1];
-  }
-
- private:
-  float worst_;
-  std::size_t count_;
-  std::size_t size_ = 0;
-  std::uint32_t* indices_;
-  float* squares_;
-};
+/// Returns the square of the distance in a key, in m^2.
+float square_of(std::int64_t key) {
+  const auto bits = static_cast<std::int32_t>(key >> 32);
+  float square_m2 = 0;
+  std::memcpy(&square_m2, &bits, sizeof square_m2);
+  return square_m2;
+}
 
 /// Returns how many rings of cells around a cell hold all points at most `distance_m` from any of its points,
 /// or a number of rings that holds all cells, which repeat.
@@ -100,48 +84,50 @@ std::size_t PointGrid::cell_of(const Point& point) const {
 }
 
 template <class Visit>
-void PointGrid::visit_cells(std::int64_t row, std::int64_t first_column, std::int64_t last_column,
-                            const Point& at, const Visit& visit) const {
-  for (std::int64_t column = first_column; column <= last_column; ++column) {
-    const std::size_t cell = cell_at(row, column);
-    for (std::uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
-      const float dx = x_[i] - at.x;
-      const float dy = y_[i] - at.y;
-      visit(dx * dx + dy * dy, index_[i]);
-    }
-  }
+void PointGrid::visit_runs(std::int64_t row, std::int64_t first_column, std::int64_t last_column,
+                           const Visit& visit) const {
+  const std::size_t first = cell_at(row, first_column);
+  const std::size_t last = cell_at(row, last_column);
+  if (first <= last) return visit(begin_[first], begin_[last + 1]);
+  visit(begin_[first], begin_[cell_at(row, kSide - 1) + 1]);
+  visit(begin_[cell_at(row, 0)], begin_[last + 1]);
 }
 
 void PointGrid::nearest(const Point& at, std::size_t count, float max_distance_m,
                         std::vector<std::uint32_t>& found) const {
-  found.resize(std::min(count, points_.size()));
-  if (found.empty()) return;
-  thread_local std::vector<float> squares;
-  squares.resize(found.size());
-  Nearest nearest(max_distance_m * max_distance_m, found.size(), found.data(), squares.data());
-  const auto search_cells = [&](std::int64_t row, std::int64_t first_column, std::int64_t last_column) {
-    visit_cells(row, first_column, last_column, at, [&](float square, std::uint32_t index) {
-      if (square <= nearest.worst()) nearest.add(square, index);
-    });
+  found.clear();
+  count = std::min(count, points_.size());
+  if (count == 0) return;
+  thread_local std::vector<std::int64_t> keys;
+  const std::int64_t no_point = key_of(max_distance_m * max_distance_m, UINT32_MAX);
+  const std::size_t blocks = (count + NeighbourKeys::kBlock - 1) / NeighbourKeys::kBlock;
+  keys.assign(NeighbourKeys::kBlock * blocks, no_point);
+  const NeighbourKeys nearest{keys.data(), blocks};
+  const PointKernels& kernels = point_kernels();
+  const auto merge = [&](std::uint32_t begin, std::uint32_t end) {
+    kernels.merge_nearest(
+        at.x, at.y, {x_.data() + begin, y_.data() + begin, index_.data() + begin, end - begin}, nearest);
   };
   const InCells x(at.x, cells_per_m_);
   const InCells y(at.y, cells_per_m_);
   const double to_border = std::min(x.to_border(), y.to_border());
   const std::int64_t rings = rings_within(max_distance_m, cells_per_m_);
   if (2 * rings >= kSide)
-    for (std::int64_t row = 0; row < kSide; ++row) search_cells(row, 0, kSide - 1);
+    merge(0, static_cast<std::uint32_t>(points_.size()));
   else
-    for (std::int64_t ring = 0; ring <= rings; ++ring) {
+    for (std::int64_t ring = std::min<std::int64_t>(rings, 1); ring <= rings; ++ring) {
       const double searched_m = (static_cast<double>(ring) - 1 + to_border) / cells_per_m_;
-      if (ring > 0 && nearest.is_full() && static_cast<double>(nearest.worst()) < searched_m * searched_m)
-        break;
-      for (std::int64_t row = y.cell - ring; row <= y.cell + ring; ++row) {
-        const bool is_edge = std::abs(row - y.cell) == ring;
-        search_cells(row, x.cell - ring, is_edge ? x.cell + ring : x.cell - ring);
-        if (!is_edge) search_cells(row, x.cell + ring, x.cell + ring);
+      if (ring > 1 && static_cast<double>(square_of(keys[count - 1])) < searched_m * searched_m) break;
+      // The first ring includes the cell within.
+      for (std::int64_t i = 0; i <= 2 * ring; ++i) {
+        const std::int64_t row = y.cell + (i % 2 == 0 ? i / 2 : -i / 2 - 1);  // from the middle outwards
+        const bool is_whole = ring == 1 || std::abs(row - y.cell) == ring;
+        visit_runs(row, x.cell - ring, is_whole ? x.cell + ring : x.cell - ring, merge);
+        if (!is_whole) visit_runs(row, x.cell + ring, x.cell + ring, merge);
       }
     }
-  found.resize(nearest.size());
+  for (std::size_t i = 0; i < count && keys[i] != no_point; ++i)
+    found.push_back(static_cast<std::uint32_t>(keys[i]));
 }
 
 std::vector<std::uint32_t> PointGrid::within(const Point& at, float radius_m) const {
@@ -151,8 +137,12 @@ std::vector<std::uint32_t> PointGrid::within(const Point& at, float radius_m) co
   const std::int64_t rings = rings_within(radius_m, cells_per_m_);
   const std::int64_t width = std::min(2 * rings + 1, kSide);  // each cell once, although the cells repeat
   for (std::int64_t row = y.cell - rings; row < y.cell - rings + width; ++row)
-    visit_cells(row, x.cell - rings, x.cell - rings + width - 1, at, [&](float square, std::uint32_t index) {
-      if (square <= radius_m * radius_m) found.push_back(index);
+    visit_runs(row, x.cell - rings, x.cell - rings + width - 1, [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = begin; i < end; ++i) {
+        const float dx = x_[i] - at.x;
+        const float dy = y_[i] - at.y;
+        if (dx * dx + dy * dy <= radius_m * radius_m) found.push_back(index_[i]);
+      }
     });
   std::sort(found.begin(), found.end());
   return found;

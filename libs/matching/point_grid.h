@@ -33,10 +33,11 @@ class PointGrid {
 
  private:
   std::size_t cell_of(const mrpt::math::TPoint2Df& point) const;
-  /// Calls `visit` with the square of the distance and the index of each point in some cells of a row.
+  /// Calls `visit` with the first entry and the end of the entries of the points in some cells of a row, once
+  /// or twice. The columns are at most as many as a row has.
   template <class Visit>
-  void visit_cells(std::int64_t row, std::int64_t first_column, std::int64_t last_column,
-                   const mrpt::math::TPoint2Df& at, const Visit& visit) const;
+  void visit_runs(std::int64_t row, std::int64_t first_column, std::int64_t last_column,
+                  const Visit& visit) const;
 
   std::vector<mrpt::math::TPoint2Df> points_;
   double cells_per_m_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loops over all points of a scan that prepare the sums of their scores. Each kernel is compiled once for
-// each instruction set, and the widest of the machine is chosen at run time. All operations are rounded alike
-// in each, and none are fused, so all kernels give the same result.
+// Loops over the points of a scan that prepare the sums of their scores, or find those near a place. Each
+// kernel is compiled once for each instruction set, and the widest of the machine is chosen at run time. All
+// operations are rounded alike in each, and none are fused, so all kernels give the same result.
 #pragma once
 
 #include <cstddef>
@@ -44,6 +44,22 @@ struct UnclippedCells {
   std::int32_t row_bytes = 0;
 };
 
+/// Points in arrays, metres, with an index each.
+struct IndexedPoints {
+  const float* x_m = nullptr;
+  const float* y_m = nullptr;
+  const std::uint32_t* index = nullptr;
+  std::size_t count = 0;
+};
+
+/// Neighbours of a place, as keys that order them by distance and then by index: the bits of the square of
+/// the distance, in m^2, above those of the index.
+struct NeighbourKeys {
+  static constexpr std::size_t kBlock = 8;
+  std::int64_t* keys = nullptr;  ///< `blocks` times kBlock keys, ascending
+  std::size_t blocks = 0;
+};
+
 /// The kernels for one instruction set.
 struct PointKernels {
   /// Offset of a cell that needs a bounds check.
@@ -57,6 +73,8 @@ struct PointKernels {
   /// Sets offsets[i] to the offset of cells[i] from cell (0, 0) in bytes, or to kClipped.
   void (*find_offsets)(const UnclippedCells& unclipped, const Cell* cells, std::size_t count,
                        std::int32_t* offsets);
+  /// Merges the keys of points, as seen from a place, into `nearest`, and drops the largest keys.
+  void (*merge_nearest)(float x_m, float y_m, const IndexedPoints& points, const NeighbourKeys& nearest);
 };
 
 /// Returns the fastest kernels that this machine can use.

@@ -53,7 +53,61 @@ void find_offsets_of_cells(const UnclippedCells& unclipped, const Cell* cells, s
   }
 }
 
-constexpr PointKernels kKernels{&place_points, &find_squares_of_points, &find_offsets_of_cells};
+#ifdef __AVX512F__
+
+// Merges keys into sorted blocks of one vector each. Without branches, because most are hard to predict.
+void merge_keys(std::int64_t* keys, std::size_t count, const NeighbourKeys& nearest) {
+  using Block = std::int64_t __attribute__((vector_size(NeighbourKeys::kBlock * sizeof(std::int64_t))));
+  constexpr Block kSmallest = {INT64_MIN};
+  for (std::size_t block = 0; block < nearest.blocks; ++block) {
+    Block kept;
+    __builtin_memcpy(&kept, nearest.keys + NeighbourKeys::kBlock * block, sizeof kept);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int64_t last = kept[NeighbourKeys::kBlock - 1];
+      const Block added = keys[i] - Block{};
+      const Block before = __builtin_shufflevector(kept, kSmallest, 8, 0, 1, 2, 3, 4, 5, 6);
+      const Block smaller = kept < added ? kept : added;
+      kept = before > smaller ? before : smaller;
+      keys[i] = last > keys[i] ? last : keys[i];  // the key that this block drops
+    }
+    __builtin_memcpy(nearest.keys + NeighbourKeys::kBlock * block, &kept, sizeof kept);
+  }
+}
+
+#else
+
+void merge_keys(const std::int64_t* keys, std::size_t count, const NeighbourKeys& nearest) {
+  std::int64_t* const last = nearest.keys + NeighbourKeys::kBlock * nearest.blocks - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int64_t key = keys[i];
+    if (key >= *last) continue;
+    std::int64_t* place = last;
+    for (; place != nearest.keys && place[-1] > key; --place) *place = place[-1];
+    *place = key;
+  }
+}
+
+#endif
+
+void merge_nearest_points(float x_m, float y_m, const IndexedPoints& points, const NeighbourKeys& nearest) {
+  constexpr std::size_t kChunk = 64;
+  for (std::size_t begin = 0; begin < points.count; begin += kChunk) {
+    const std::size_t count = points.count - begin < kChunk ? points.count - begin : kChunk;
+    std::int64_t keys[kChunk];
+    for (std::size_t i = 0; i < count; ++i) {
+      const float dx = points.x_m[begin + i] - x_m;
+      const float dy = points.y_m[begin + i] - y_m;
+      const float square = dx * dx + dy * dy;
+      std::int32_t bits = 0;
+      __builtin_memcpy(&bits, &square, sizeof bits);
+      keys[i] = (static_cast<std::int64_t>(bits) << 32) | static_cast<std::int64_t>(points.index[begin + i]);
+    }
+    merge_keys(keys, count, nearest);
+  }
+}
+
+constexpr PointKernels kKernels{&place_points, &find_squares_of_points, &find_offsets_of_cells,
+                                &merge_nearest_points};
 
 }  // namespace
 }  // namespace psi_slam

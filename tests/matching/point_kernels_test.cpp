@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <random>
 #include <utility>
 #include <vector>
@@ -152,6 +153,43 @@ TEST(PointKernels, find_offsets_and_mark_cells_outside) {
   }
   EXPECT_GT(inside, 50);
   EXPECT_GT(clipped, 50);
+}
+
+TEST(PointKernels, merge_the_nearest_points_in_their_order) {
+  std::mt19937_64 random(6);
+  for (const std::size_t count : kCounts) {
+    std::vector<float> x = random_coordinates(random, count, 3);
+    std::vector<float> y = random_coordinates(random, count, 3);
+    for (std::size_t i = 0; i + 1 < count; i += 4) {  // equally near points
+      x[i + 1] = x[i];
+      y[i + 1] = y[i];
+    }
+    std::vector<std::uint32_t> index(count);
+    for (std::uint32_t i = 0; i < count; ++i) index[i] = (i * 7919U) % 1009U;
+    std::vector<std::int64_t> sorted;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float dx = x[i] - 0.5F;
+      const float dy = y[i] + 0.25F;
+      const float square = dx * dx + dy * dy;
+      std::int32_t bits = 0;
+      std::memcpy(&bits, &square, sizeof bits);
+      sorted.push_back((static_cast<std::int64_t>(bits) << 32) + index[i]);
+    }
+    for (const std::size_t blocks : {1U, 2U, 5U})
+      for (const PointKernels* kernels : kernels_of_this_machine()) {
+        std::vector<std::int64_t> expected = sorted;
+        expected.resize(count + 8 * blocks, INT64_MAX);  // at first, there are no neighbours
+        std::sort(expected.begin(), expected.end());
+        expected.resize(8 * blocks);
+        std::vector<std::int64_t> nearest(8 * blocks, INT64_MAX);
+        const std::size_t half = count / 2;
+        for (const auto& [begin, end] : {std::pair(half, count), std::pair(std::size_t{0}, half)})
+          kernels->merge_nearest(0.5F, -0.25F,
+                                 {x.data() + begin, y.data() + begin, index.data() + begin, end - begin},
+                                 {nearest.data(), blocks});
+        EXPECT_EQ(nearest, expected) << count << " points in " << blocks;
+      }
+  }
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMode = 0666;  // the umask applies
+constexpr int kFileMode = 0666;  // the umask applies
 
 SystemFailure cannot_create(const fs::path& path, int error_number) {
   const SystemFailure failure = cannot_write(path, error_number);
@@ -32,7 +32,7 @@ AtomicFile::AtomicFile(fs::path path)
     : path_(std::move(path)),
       temporary_path_(path_.parent_path() / new_partial_name(path_.filename().string())),
       descriptor_(
-          ::open(temporary_path_.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, kMode)) {
+          ::open(temporary_path_.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, kFileMode)) {
   if (!descriptor_.is_open()) throw cannot_create(path_, errno);
 }
 

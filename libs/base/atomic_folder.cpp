@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 class ScopedFolder {
  public:
   ScopedFolder(fs::path path, const fs::path& parent) : path_(std::move(path)) {
-    constexpr mode_t kMode = 0700;
-    if (::mkdir(path_.c_str(), kMode) != 0) throw cannot_write(parent, errno);
+    constexpr mode_t kFolderMode = 0700;
+    if (::mkdir(path_.c_str(), kFolderMode) != 0) throw cannot_write(parent, errno);
   }
   ~ScopedFolder() {
     std::error_code ignored;

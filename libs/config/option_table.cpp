@@ -34,7 +34,7 @@ std::string number_expectation(const Option& option) {
   return range.empty() ? text : text + (range_is_aside ? ", " : " ") + range;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   return '"' + std::string(text) + '"';
 }
 
@@ -93,12 +93,12 @@ std::pair<std::string_view, std::string_view> parts(std::string_view name) {
 std::string proposal(const std::vector<OptionSection>& sections, const OptionSection& here,
                      std::string_view key) {
   for (const OptionSection& section : sections)
-    if (find(section, key) != nullptr) return "; " + quoted(key) + " belongs in [" + section.name + ']';
+    if (find(section, key) != nullptr) return "; " + in_quotes(key) + " belongs in [" + section.name + ']';
   if (const auto near = nearest_name(key, names_of(here.options, &Option::key)))
-    return "; did you mean " + quoted(*near) + '?';
+    return "; did you mean " + in_quotes(*near) + '?';
   for (const OptionSection& section : sections) {
     if (const auto near = nearest_name(key, names_of(section.options, &Option::key)))
-      return "; did you mean " + quoted(*near) + " in [" + section.name + "]?";
+      return "; did you mean " + in_quotes(*near) + " in [" + section.name + "]?";
   }
   return "";
 }
@@ -266,13 +266,13 @@ void OptionTable::require_section(std::string_view name, std::string_view where)
 
 const Option& OptionTable::option(std::string_view name, std::string_view where) const {
   if (name.find('.') == std::string_view::npos)
-    throw UserError(std::string(where) + ": expected section.key, not " + quoted(name));
+    throw UserError(std::string(where) + ": expected section.key, not " + in_quotes(name));
   const std::string current = current_name(name);
   const auto [section_name, key] = parts(current);
   require_section(section_name, where);
   const OptionSection& section = *find(sections_, section_name);
   if (const Option* option = find(section, key)) return *option;
-  throw UserError(std::string(where) + ": unknown key " + quoted(key) + " in [" + section.name + ']' +
+  throw UserError(std::string(where) + ": unknown key " + in_quotes(key) + " in [" + section.name + ']' +
                   proposal(sections_, section, key));
 }
 

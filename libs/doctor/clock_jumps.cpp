@@ -13,8 +13,8 @@ namespace psi_slam {
 namespace {
 
 constexpr double kLeastStepBack_s = 1.0;
-constexpr double kLeastGap_s = 5.0;
-constexpr double kGapPeriods = 20;
+constexpr double kLeastJump_s = 5.0;
+constexpr double kJumpPeriods = 20;
 constexpr double kMoving_m = 0.02;  // least step of a moving robot
 constexpr double kMetresPerRadian = 0.5;
 constexpr double kMostChange = 2.0;  // of the speed of a moving robot from one step to the next
@@ -39,7 +39,7 @@ bool moves_steadily(const std::vector<FrameMark>& marks, std::size_t frame) {
 
 std::vector<ClockJump> clock_jumps(const std::vector<FrameMark>& marks, double median_period_s,
                                    bool has_odometry) {
-  const double least_gap_s = std::max(kLeastGap_s, kGapPeriods * median_period_s);
+  const double least_gap_s = std::max(kLeastJump_s, kJumpPeriods * median_period_s);
   std::vector<ClockJump> jumps;
   for (std::size_t i = 1; i < marks.size(); ++i) {
     const double passed_s = seconds(marks[i].time_us - marks[i - 1].time_us);

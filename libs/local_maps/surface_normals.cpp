@@ -14,13 +14,13 @@ using Point = mrpt::math::TPoint2Df;
 
 constexpr std::ptrdiff_t kReach = 3;        // largest number of neighbours on each side used to fit a line
 constexpr std::ptrdiff_t kLeastPoints = 4;  // least number of points on a surface, with the point itself
-constexpr float kMaxGap_m = 0.4F;           // largest gap between neighbours on one surface
+constexpr float kMaxSurfaceGap_m = 0.4F;    // largest gap between neighbours on one surface
 constexpr float kMaxGapPerMetre = 0.15F;    // the same limit per metre of range; the larger limit applies
 constexpr float kMaxResidual_m = 0.04F;     // largest root mean square distance of points from their line
 
 bool on_one_surface(const Point& a, const Point& b) {
   const float gap = portable::hypot(a.x - b.x, a.y - b.y);
-  return gap <= std::max(kMaxGap_m, kMaxGapPerMetre * portable::hypot(a.x, a.y));
+  return gap <= std::max(kMaxSurfaceGap_m, kMaxGapPerMetre * portable::hypot(a.x, a.y));
 }
 
 // Returns the unit vector along which points spread least, from the sums over their offsets (x, y) from the

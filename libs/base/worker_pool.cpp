@@ -41,6 +41,10 @@ void WorkerPool::run(std::size_t count, const std::function<void(std::size_t)>& 
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
+void WorkerPool::run(const Tasks& tasks) {
+  run(tasks.size(), [&](std::size_t index) { tasks[index](); });
+}
+
 void WorkerPool::work() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {

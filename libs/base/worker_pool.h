@@ -14,6 +14,9 @@
 
 namespace psi_slam {
 
+/// Pieces of work that do not depend on each other.
+using Tasks = std::vector<std::function<void()>>;
+
 class WorkerPool {
  public:
   /// `threads` includes the thread that calls run(), so 1 starts no other thread. Values below 1 count as 1.
@@ -29,6 +32,8 @@ class WorkerPool {
   /// throw, the remaining tasks still run; then run() throws the exception of the lowest index. Call run()
   /// from one thread at a time, and never from a task.
   void run(std::size_t count, const std::function<void(std::size_t)>& task);
+  /// Calls all `tasks` likewise. Threads take them in their order, so the longest should be first.
+  void run(const Tasks& tasks);
 
  private:
   void work();

@@ -7,7 +7,6 @@
 #include <mrpt/poses/CPosePDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include <functional>
 #include <memory>
 
 #include "base/atomic_file.h"
@@ -45,30 +44,30 @@ void write_mrpt_map(const std::filesystem::path& path, const mrpt::serialization
   write_text_atomically(path, gzipped(stream.getRawBufferData(), stream.getTotalBytesCount()));
 }
 
-void write_map_files(const std::filesystem::path& folder, const MappingResult& result,
+Tasks map_file_tasks(const std::filesystem::path& folder, const MappingResult& result,
                      const COccupancyGridMap2D& grid, const std::vector<MapEdit>& edits,
                      const MapFileOptions& options) {
-  using Write = std::function<void(const std::filesystem::path&)>;
-  const auto file = [&](bool wanted, const char* name, const Write& write) {
-    if (wanted) write(folder / name);
-  };
-  const auto text_file = [&](bool wanted, const char* name, const std::function<std::string()>& text) {
-    file(wanted, name, [&](const auto& path) { write_text_atomically(path, text()); });
-  };
-  file(options.png, "map.png", [&](const auto& path) { write_map_image(path, grid); });
-  file(options.ros, "map.yaml", [&](const auto& path) { write_map_server_pair(path, grid); });
-  file(options.mrpt, "map.gridmap.gz", [&](const auto& path) { write_mrpt_map(path, grid); });
-  file(options.mrpt, "map.simplemap.gz", [&](const auto& path) { write_mrpt_map(path, simple_map(result)); });
-  MapDrawing drawing;
+  Tasks tasks;
+  if (options.png) tasks.emplace_back([&grid, folder] { write_map_image(folder / "map.png", grid); });
+  if (options.print)
+    tasks.emplace_back([&grid, &options, folder] {
+      write_text_atomically(folder / "map_print.png", print_map(grid, options));
+    });
+  if (options.mrpt) tasks.emplace_back([&grid, folder] { write_mrpt_map(folder / "map.gridmap.gz", grid); });
   if (options.svg || options.dxf || options.gpkg)
-    drawing = draw_map_lines(grid, paths_of_runs(result), options.lines);
-  text_file(options.svg, "map.svg", [&] { return map_svg(drawing, options.print_scale); });
-  text_file(options.dxf, "map.dxf", [&] { return map_dxf(drawing); });
-  text_file(options.print, "map_print.png", [&] { return print_map(grid, options); });
-  file(options.geotiff, "map.tif", [&](const auto& path) { write_geo_tiff(path, grid, options.earth); });
-  file(options.gpkg, "map.gpkg", [&](const auto& path) {
-    write_geo_package(path, drawing.walls, trajectories_of_runs(result), edits, options.earth);
-  });
+    tasks.emplace_back([&, folder] {
+      const MapDrawing drawing = draw_map_lines(grid, paths_of_runs(result), options.lines);
+      if (options.svg) write_text_atomically(folder / "map.svg", map_svg(drawing, options.print_scale));
+      if (options.dxf) write_text_atomically(folder / "map.dxf", map_dxf(drawing));
+      if (options.gpkg)
+        write_geo_package(folder / "map.gpkg", drawing.walls, trajectories_of_runs(result), edits,
+                          options.earth);
+    });
+  if (options.ros) tasks.emplace_back([&grid, folder] { write_map_server_pair(folder / "map.yaml", grid); });
+  if (options.geotiff)
+    tasks.emplace_back(
+        [&grid, &options, folder] { write_geo_tiff(folder / "map.tif", grid, options.earth); });
+  return tasks;
 }
 
 }  // namespace psi_slam

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes the files of a map: for people, robots, MRPT's programs, CAD programs and geographic information
-// systems. All files are written atomically. Each function throws SystemFailure if a file cannot be written.
+// systems. All files are written atomically. Each function or task throws SystemFailure if a file cannot be
+// written.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/worker_pool.h"
 #include "psi_slam/mapping_result.h"
 #include "rendering/map_drawing.h"
 #include "rendering/map_edits.h"
@@ -41,11 +43,12 @@ struct MapFileOptions {
   GeoReference earth;
 };
 
-/// Writes the selected files. `grid` is the grid map of `result` by draw_grid_map(). `edits` are those of the
-/// grid, with their points in its frame; map.gpkg shows the zones among them.
-void write_map_files(const std::filesystem::path& folder, const MappingResult& result,
+/// Returns tasks that write the selected files, except for map.simplemap.gz. `grid` is the grid map of
+/// `result` by draw_grid_map(). `edits` are those of the grid, with their points in its frame; map.gpkg shows
+/// the zones among them. The tasks refer to all arguments but the folder.
+Tasks map_file_tasks(const std::filesystem::path& folder, const MappingResult& result,
                      const mrpt::maps::COccupancyGridMap2D& grid, const std::vector<MapEdit>& edits,
-                     const MapFileOptions& options = {});
+                     const MapFileOptions& options);
 
 /// Returns MRPT's simple map: the nodes of the graph with their scans. Each pose has the covariance (1 mm)^2,
 /// (1 mrad)^2 as a placeholder that MRPT can invert, because the marginals of the graph are not computed.

@@ -39,8 +39,9 @@ TPose2D motion_of_first_scan(const Frame& frame, const TPose2D& motion, double d
 
 }  // namespace
 
-FrontEnd::FrontEnd(const FrontEndOptions& options)
+FrontEnd::FrontEnd(const FrontEndOptions& options, bool draws_beside)
     : options_(options),
+      younger_drawing_(std::make_unique<TaskThread>(draws_beside)),
       matcher_(matcher_options(options)),
       constant_velocity_(options.constant_velocity),
       doubtful_corrections_(options.doubtful_corrections) {}
@@ -251,8 +252,14 @@ void FrontEnd::end_local_maps(FrontEndStep& step, std::size_t count) {
   active_.erase(active_.begin(), end);
 }
 
+const std::vector<PlacedLocalMap>& FrontEnd::active() const {
+  younger_drawing_->wait();
+  return active_;
+}
+
 void FrontEnd::draw(FrontEndStep& step, const Frame& frame) {
   if (!step.node) return;
+  younger_drawing_->wait();
   const std::size_t node = *step.node;
   const double moved_m = node == 0 ? 0 : length_m(between(last_node_local_T_robot_, step.local_T_robot));
   last_node_local_T_robot_ = step.local_T_robot;
@@ -280,24 +287,32 @@ void FrontEnd::draw(FrontEndStep& step, const Frame& frame) {
     begin_local_map(node, step.local_T_robot);
   const DrawingOptions drawing = {options_.scan.min_range_m, options_.local_map.max_insert_range_m,
                                   options_.local_map.smoothing_sigma_m};
-  for (PlacedLocalMap& active : active_)
-    active.map->insert(drawing_beams(frame, between(active.local_T_map, step.local_T_robot), drawing));
+  const auto insertion = [&](const PlacedLocalMap& active) {
+    return [map = active.map, frame, map_T_robot = between(active.local_T_map, step.local_T_robot), drawing] {
+      map->insert(drawing_beams(frame, map_T_robot, drawing));
+    };
+  };
+  if (active_.size() > 1) younger_drawing_->start(insertion(active_.back()));
+  insertion(active_.front())();
   if (share(active_.front()) >= 1.0 && active_.size() > 1) {
+    younger_drawing_->wait();
     end_local_maps(step, 1);
     begin_local_map(node, step.local_T_robot);
-    active_.back().map->insert(drawing_beams(frame, TPose2D(0, 0, 0), drawing));
+    insertion(active_.back())();
   }
   active_.front().map->scores();  // updated now, so that the match of the next scan need not wait for it
 }
 
 void FrontEnd::begin_run() {
   FrontEnd next(options_);
+  next.younger_drawing_ = std::move(younger_drawing_);
   next.next_local_map_ = next_local_map_;
   next.next_node_ = next_node_;
   *this = std::move(next);
 }
 
 std::vector<PlacedLocalMap> FrontEnd::finish() {
+  younger_drawing_->wait();
   FrontEndStep step;
   end_local_maps(step, active_.size());
   return step.finished;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/degrees.h"
+#include "base/task_thread.h"
 #include "local_maps/constant_velocity_model.h"
 #include "local_maps/doubtful_corrections.h"
 #include "local_maps/local_map.h"
@@ -143,7 +144,9 @@ struct FrontEndStep {
 
 class FrontEnd {
  public:
-  explicit FrontEnd(const FrontEndOptions& options);
+  /// With `draws_beside`, the younger local map is drawn in a thread of its own while later scans are
+  /// matched, which needs only the older one. Has no effect on the results.
+  explicit FrontEnd(const FrontEndOptions& options, bool draws_beside = false);
 
   /// Tracks the robot to one scan and draws the scan: track() and draw().
   FrontEndStep add(const Frame& frame);
@@ -167,7 +170,9 @@ class FrontEnd {
   void begin_run();
 
   /// Local maps that scans are inserted into, older first, at most two.
-  const std::vector<PlacedLocalMap>& active() const { return active_; }
+  const std::vector<PlacedLocalMap>& active() const;
+  /// Whether there is an active local map. Unlike active(), does not wait for drawing.
+  bool has_active() const { return !active_.empty(); }
 
  private:
   /// Predicted motion since the last scan.
@@ -234,6 +239,8 @@ class FrontEnd {
   void begin_local_map(std::size_t node, const mrpt::math::TPose2D& local_T_robot);
 
   FrontEndOptions options_;
+  /// Draws the younger local map. Owned by pointer, so that begin_run() can keep it.
+  std::unique_ptr<TaskThread> younger_drawing_;
   CorrelativeMatcher matcher_;
   std::vector<PlacedLocalMap> active_;  ///< active local maps, older first, at most two
   std::size_t next_local_map_ = 0;

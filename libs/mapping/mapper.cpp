@@ -26,7 +26,7 @@ static_assert(kKeptBeforeMotion >= Standstill::kRecentScans);
 
 Mapper::Implementation::Implementation(const MapperOptions& options)
     : options_(options),
-      front_end_(options.front_end),
+      front_end_(options.front_end, options.back_end_thread),
       builder_(options),
       back_end_(builder_, options.back_end_thread, options.back_end.priority) {
   result_.psi = {options.back_end.psi.psi_1, options.back_end.psi.psi_2};
@@ -37,7 +37,7 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   FrameRecord record;
   record.time_us = frame.time_us;
 
-  bool has_map = !front_end_.active().empty();
+  bool has_map = front_end_.has_active();
   FrontEndStep step;
   record.front_end_ms = tracking_clock_.time([&] { step = front_end_.track(frame, options_.close_loops); });
   if (step.lost) {
@@ -412,6 +412,9 @@ const std::vector<TPose2D>& Mapper::node_poses() const {
 }
 std::optional<Eigen::Matrix3d> Mapper::newest_covariance() const {
   return implementation_->newest_covariance();
+}
+void Mapper::set_latency(std::size_t nodes) {
+  implementation_->set_latency(nodes);
 }
 std::size_t Mapper::missed_deadlines() const {
   return implementation_->missed_deadlines();

@@ -20,6 +20,7 @@ class Mapper::Implementation {
   explicit Implementation(const MapperOptions& options);
 
   void set_pose_observer(PoseObserver observer) { pose_observer_ = std::move(observer); }
+  void set_latency(std::size_t nodes) { options_.latency_nodes = nodes; }
   const FrameRecord& add(Frame frame);
   void begin_run(const RunStart& start);
   LoopEditOutcome edit(const LoopEdit& edit);

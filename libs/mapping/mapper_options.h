@@ -21,7 +21,8 @@ struct MapperOptions {
   /// Loops found for a node correct the poses while mapping this many nodes later. The finished map does not
   /// depend on it.
   std::size_t latency_nodes = 5;
-  /// Whether loops are closed in a thread of their own, beside the front end. Has no effect on the results.
+  /// Whether loops are closed in a thread of their own, beside the front end, and the younger local map is
+  /// drawn in another. Has no effect on the results.
   bool back_end_thread = false;
   /// Whether Mapper::newest_covariance() is estimated. Has no effect on other results.
   bool estimates_covariance = false;

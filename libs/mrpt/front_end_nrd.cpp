@@ -79,7 +79,7 @@ bool CPsiFrontEndNRD::updateState(mrpt::obs::CActionCollection::Ptr action,
 }
 
 bool CPsiFrontEndNRD::add(const Frame& frame) {
-  const bool has_map = !state_->front_end->active().empty();
+  const bool has_map = state_->front_end->has_active();
   state_->step = state_->front_end->add(frame);
   FrameRecord record;
   record.time_us = frame.time_us;

@@ -13,6 +13,7 @@
 #include "base/partial_files.h"
 #include "exports/corrected_log.h"
 #include "exports/csv_tables.h"
+#include "pose_graph/g2o_file.h"
 #include "psi_slam/user_error.h"
 #include "report/report_html.h"
 #include "trajectory/trajectory_file.h"
@@ -102,16 +103,24 @@ void OutputFolder::replace_results(const std::function<void(const OutputFolder&)
       path_, [&](const fs::path& temporary) { write(OutputFolder(temporary)); }, is_optional_result);
 }
 
-void export_results(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
-                    const OutputFolder& folder, const std::vector<MapEdit>& edits,
-                    const MapFileOptions& map_files) {
+Tasks path_file_tasks(const MappingResult& result, const OutputFolder& folder,
+                      const MapFileOptions& map_files) {
   const auto file = [&](const char* name) { return folder.path() / name; };
-  write_tum(file("trajectory.tum"), trajectory_of(result.frames));
-  write_runs(folder.path(), result);
-  write_text_atomically(file("frames.csv"), frames_csv(result.frames));
-  write_text_atomically(file("trajectory.csv"), trajectory_csv(result));
-  write_text_atomically(file("loops.csv"), loops_csv(result.loops));
-  write_map_files(folder.path(), result, grid, edits, map_files);
+  Tasks tasks;
+  if (map_files.mrpt)
+    tasks.emplace_back(
+        [&result, path = file("map.simplemap.gz")] { write_mrpt_map(path, simple_map(result)); });
+  tasks.emplace_back([&result, path = folder.path()] { write_runs(path, result); });
+  tasks.emplace_back([&result, path = file("graph.g2o")] { write_g2o(result.graph, path); });
+  tasks.emplace_back(
+      [&result, path = file("loops.csv")] { write_text_atomically(path, loops_csv(result.loops)); });
+  tasks.emplace_back(
+      [&result, path = file("frames.csv")] { write_text_atomically(path, frames_csv(result.frames)); });
+  tasks.emplace_back(
+      [&result, path = file("trajectory.csv")] { write_text_atomically(path, trajectory_csv(result)); });
+  tasks.emplace_back(
+      [&result, path = file("trajectory.tum")] { write_tum(path, trajectory_of(result.frames)); });
+  return tasks;
 }
 
 void export_account(const MappingResult& result, const RunInfo& info, const RunSummary& summary,

@@ -6,9 +6,10 @@
 //     trajectory.csv                        the robot's path with the covariance of each pose
 //     trajectory.carmen                     the corrected log of a single run
 //     trajectory-1.tum  trajectory-1.carmen path and corrected log of each run, if several were merged
+//     graph.g2o                             the pose graph
 //     frames.csv  loops.csv  summary.json  report.html
 //
-// MappingSession adds graph.g2o, and loops.edits if loops were edited.
+// MappingSession adds loops.edits if loops were edited, and the files of zones.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -52,14 +53,14 @@ class OutputFolder {
   std::filesystem::path path_;
 };
 
-/// Writes the maps, trajectories and tables, each file atomically. `grid` is the map of `result`, drawn by
-/// draw_grid_map(), with its `edits`. Throws SystemFailure naming the file that cannot be written.
-void export_results(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
-                    const OutputFolder& folder, const std::vector<MapEdit>& edits = {},
-                    const MapFileOptions& map_files = {});
+/// Returns tasks that write the files for which no grid map is needed, each file atomically: trajectories,
+/// the pose graph, tables, and map.simplemap.gz if `map_files` selects it. A task throws SystemFailure naming
+/// the file that cannot be written. The tasks refer to `result`.
+Tasks path_file_tasks(const MappingResult& result, const OutputFolder& folder,
+                      const MapFileOptions& map_files);
 
-/// Writes summary.json and report.html. Call it after export_results(), so that the times in both files
-/// include the export. Throws SystemFailure naming the file that cannot be written.
+/// Writes summary.json and report.html. Call it after all other files are written, so that the times in both
+/// files include the export. Throws SystemFailure naming the file that cannot be written.
 void export_account(const MappingResult& result, const RunInfo& info, const RunSummary& summary,
                     const mrpt::maps::COccupancyGridMap2D& grid, const OutputFolder& folder);
 

@@ -28,6 +28,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Only the finished map counts, so the front end need not wait for the loops of recent nodes. The bound
+// limits the memory of the nodes that wait for the back end.
+constexpr std::size_t kLatencyOfRun_nodes = 500;
+
 bool has_return(const Frame& frame) {
   bool any = false;
   for_each_scan(frame, {}, [&](const LaserScan& scan, const mrpt::math::TPose2D&) {
@@ -41,6 +45,7 @@ bool has_return(const Frame& frame) {
 /// goes first.
 MapperOptions options_for(const SessionInput& input, const Settings& settings) {
   MapperOptions options = mapper_options(settings);
+  options.back_end.priority = ThreadPriority::kLow;
   if (!input.is_stream()) return options;
   options.back_end_thread = true;
   options.back_end.priority = ThreadPriority::kLow;
@@ -232,6 +237,7 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
 }
 
 void MappingSession::run(const std::atomic<bool>& stop) {
+  if (m_->mapper) m_->mapper->set_latency(kLatencyOfRun_nodes);
   while (step() && !stop) {
   }
   finish(stop);

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a mapping session leaves behind: the exported map and the session file.
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "base/file_checksum.h"
+#include "base/worker_pool.h"
+#include "exports/map_files.h"
 #include "exports/mapped_trajectory.h"
 #include "exports/zone_files.h"
 #include "frames/discarded_ranges.h"
-#include "pose_graph/g2o_file.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
@@ -53,6 +55,25 @@ void keep_first(std::size_t scans, SessionFacts& facts) {
   facts.runs.erase(lost, facts.runs.end());
 }
 
+/// Measures the time of tasks that several threads run.
+class FileClock {
+ public:
+  /// Appends `files` to `tasks`. The tasks add their times to timing(), and refer to this clock.
+  void append(const Tasks& files, Tasks& tasks) {
+    for (const auto& file : files)
+      tasks.emplace_back([this, file] {
+        const double ms = StageClock("write one file").time(file);
+        const std::lock_guard<std::mutex> lock(mutex_);
+        clock_.add(ms);
+      });
+  }
+  StageTiming timing() const { return clock_.timing(); }
+
+ private:
+  std::mutex mutex_;  // guards clock_
+  StageClock clock_{"write results"};
+};
+
 }  // namespace
 
 DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
@@ -62,7 +83,7 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   m.result.stages.resize(m.stages_of_mapping);
   StageClock drawing_clock("draw map");
   StageClock judging_clock("judge map");
-  StageClock writing_clock("write results");
+  FileClock writing_clock;
   const mrpt::math::TPose2D export_T_mapper = export_T_map(m.result, m.settings.map_frame);
   const mrpt::math::TPose2D map_T_start = export_T_start(m.result, m.settings.map_frame);
   const EditJournal edits = m.edits.with_frames(map_T_start);
@@ -71,7 +92,7 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   });
   const ExportedPoses exported(m.result, export_T_mapper);
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
-  drawing_clock.time([&] {
+  const auto draw_map = [&] {
     grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map);
     m.result.contradictions.resize(m.contradictions_of_mapping);
     if (m.prior)
@@ -79,21 +100,27 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
         m.result.contradictions.push_back(std::move(sentence));
     if (m.prior && m.settings.prior.extend) grid = m.prior->extended(*grid);
     m.map_edit_complaints = apply_map_edits(placed.edits, *grid);
-  });
+  };
+  Tasks before_grid = {[&] { drawing_clock.time(draw_map); },
+                       [&] { judging_clock.time([&] { m.verdict = judge_map(m.result); }); }};
+  if (folder) {
+    writing_clock.append(path_file_tasks(m.result, *folder, m.settings.map_files), before_grid);
+    if (!edits.empty()) before_grid.emplace_back([&] { edits.write(folder->path() / "loops.edits"); });
+  }
+  WorkerPool pool(worker_threads(m.settings.run));
+  pool.run(before_grid);
   for (const MapEdit& edit : placed.without_place)
     m.map_edit_complaints.push_back(text_of(edit) + ": its scan " + std::to_string(edit.scan) +
                                     " is not mapped, the last scan is " +
                                     std::to_string(m.result.frames.size() - 1));
   m.result.stages.push_back(drawing_clock.timing());
-  judging_clock.time([&] { m.verdict = judge_map(m.result); });
   m.result.stages.push_back(judging_clock.timing());
   if (folder) {
-    writing_clock.time([&] {
-      write_g2o(m.result.graph, folder->path() / "graph.g2o");
-      if (!edits.empty()) edits.write(folder->path() / "loops.edits");
-      export_results(m.result, *grid, *folder, placed.edits, m.settings.map_files);
-      write_zone_files(folder->path(), *grid, placed.edits);
-    });
+    Tasks after_grid;
+    writing_clock.append(map_file_tasks(folder->path(), m.result, *grid, placed.edits, m.settings.map_files),
+                         after_grid);
+    after_grid.emplace_back([&] { write_zone_files(folder->path(), *grid, placed.edits); });
+    pool.run(after_grid);
     m.result.stages.push_back(writing_clock.timing());
   }
   clock.stop();

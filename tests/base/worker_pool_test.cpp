@@ -24,6 +24,14 @@ TEST(WorkerPool, calls_every_task_once) {
   }
 }
 
+TEST(WorkerPool, calls_tasks_of_a_list) {
+  WorkerPool pool(2);
+  std::atomic<int> sum{0};
+  pool.run(Tasks{[&] { sum += 1; }, [&] { sum += 20; }, [&] { sum += 300; }});
+  EXPECT_EQ(sum, 321);
+  EXPECT_NO_THROW(pool.run(Tasks{}));
+}
+
 TEST(WorkerPool, has_ended_all_tasks_when_it_returns) {
   WorkerPool pool(3);
   for (int round = 0; round < 200; ++round) {

@@ -33,7 +33,7 @@ class MapFiles : public testing::Test {
   }
 
   std::filesystem::path write(const std::string& name) {
-    write_map_files(folder_.path(), result_, *grid_, {}, options_);
+    WorkerPool(1).run(map_file_tasks(folder_.path(), result_, *grid_, {}, options_));
     return folder_.path() / name;
   }
 
@@ -144,7 +144,8 @@ TEST_F(MapFiles, reports_a_missing_folder) {
                                        &MapFileOptions::geotiff, &MapFileOptions::gpkg}) {
     MapFileOptions options = options_;
     options.*wanted = true;
-    EXPECT_THROW(write_map_files(folder_.path() / "missing", result_, *grid_, {}, options), SystemFailure);
+    EXPECT_THROW(WorkerPool(1).run(map_file_tasks(folder_.path() / "missing", result_, *grid_, {}, options)),
+                 SystemFailure);
   }
 }
 

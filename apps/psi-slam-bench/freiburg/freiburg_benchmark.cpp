@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <atomic>
+
 #include "base/file_checksum.h"
 #include "batch/kept_run.h"
 #include "common/benchmark_logs.h"
@@ -131,10 +133,8 @@ std::string settings_text(const Settings& settings) {
 FreiburgFigures map_and_evaluate(const FreiburgRun& run) {
   const std::vector<Relation> relations = read_relations(run.relations);
   MappingSession session(run.log, settings_of(run));
-  while (session.step()) {
-  }
+  session.run(std::atomic<bool>(false));
   if (session.broken_off()) throw UserError(*session.broken_off());
-  session.finish();
 
   const MappingResult& result = session.result();
   FreiburgFigures figures;

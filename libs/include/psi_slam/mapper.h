@@ -76,6 +76,9 @@ class Mapper {
   /// active_local_maps(), newest_covariance() and missed_deadlines().
   void set_pose_observer(PoseObserver observer);
 
+  /// Replaces MapperOptions::latency_nodes from the next frame on. The finished map does not depend on it.
+  void set_latency(std::size_t nodes);
+
   /// Maps one frame and returns its record. Call it for all frames in the order of the log. finish()
   /// completes the record. The reference is valid until the next call of a non-const function.
   ///

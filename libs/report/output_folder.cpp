@@ -107,9 +107,6 @@ Tasks path_file_tasks(const MappingResult& result, const OutputFolder& folder,
                       const MapFileOptions& map_files) {
   const auto file = [&](const char* name) { return folder.path() / name; };
   Tasks tasks;
-  if (map_files.mrpt)
-    tasks.emplace_back(
-        [&result, path = file("map.simplemap.gz")] { write_mrpt_map(path, simple_map(result)); });
   tasks.emplace_back([&result, path = folder.path()] { write_runs(path, result); });
   tasks.emplace_back([&result, path = file("graph.g2o")] { write_g2o(result.graph, path); });
   tasks.emplace_back(
@@ -120,6 +117,9 @@ Tasks path_file_tasks(const MappingResult& result, const OutputFolder& folder,
       [&result, path = file("trajectory.csv")] { write_text_atomically(path, trajectory_csv(result)); });
   tasks.emplace_back(
       [&result, path = file("trajectory.tum")] { write_tum(path, trajectory_of(result.frames)); });
+  if (map_files.mrpt)
+    tasks.emplace_back(
+        [&result, path = file("map.simplemap.gz")] { write_mrpt_map(path, simple_map(result)); });
   return tasks;
 }
 

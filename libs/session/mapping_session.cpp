@@ -28,9 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Only the finished map counts, so the front end need not wait for the loops of recent nodes. The bound
-// limits the memory of the nodes that wait for the back end.
-constexpr std::size_t kLatencyOfRun_nodes = 500;
+// With several threads, the front end need not wait for the loops of so many nodes if only the finished map
+// counts. The bound limits the memory of nodes and corrections that wait.
+constexpr std::size_t kLatencyOfRun_nodes = 100;
 
 bool has_return(const Frame& frame) {
   bool any = false;
@@ -237,7 +237,7 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
 }
 
 void MappingSession::run(const std::atomic<bool>& stop) {
-  if (m_->mapper) m_->mapper->set_latency(kLatencyOfRun_nodes);
+  if (m_->mapper && worker_threads(m_->settings.run) > 1) m_->mapper->set_latency(kLatencyOfRun_nodes);
   while (step() && !stop) {
   }
   finish(stop);

@@ -25,8 +25,8 @@ struct Outcome {
   std::vector<PlacedLocalMap> maps;  // all local maps, in the order in which they were finished
 };
 
-Outcome follow(const SimulatedDrive& drive, const FrontEndOptions& options = {}) {
-  FrontEnd front_end(options);
+Outcome follow(const SimulatedDrive& drive, const FrontEndOptions& options = {}, bool draws_beside = false) {
+  FrontEnd front_end(options, draws_beside);
   Outcome result;
   for (const Frame& frame : drive.frames) {
     result.steps.push_back(front_end.add(frame));
@@ -553,13 +553,13 @@ bool same_bytes(const Value& a, const Value& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-TEST(FrontEnd, the_same_frames_give_the_same_bytes) {
+TEST(FrontEnd, the_same_frames_give_the_same_bytes_with_and_without_a_thread) {
   OdometryErrors errors;
   errors.length_share = 0.1;
   errors.turn_share = 0.2;
   const SimulatedDrive drive = drive_along(office_floor(), round_the_office(), errors, 16);
   const Outcome a = follow(drive);
-  const Outcome b = follow(drive);
+  const Outcome b = follow(drive, {}, true);
   ASSERT_EQ(a.steps.size(), b.steps.size());
   for (std::size_t i = 0; i < a.steps.size(); ++i) {
     EXPECT_TRUE(same_bytes(a.steps[i].local_T_robot.x, b.steps[i].local_T_robot.x));

@@ -11,4 +11,12 @@ constexpr bool kHasAddressSanitizer = true;
 constexpr bool kHasAddressSanitizer = false;
 #endif
 
+/// Whether the sanitizer of threads is on. It keeps a history of the memory in use, which needs several times
+/// as much.
+#ifdef __SANITIZE_THREAD__
+constexpr bool kHasThreadSanitizer = true;
+#else
+constexpr bool kHasThreadSanitizer = false;
+#endif
+
 }  // namespace psi_slam

@@ -159,7 +159,7 @@ class MappingSession {
   void finish();
 
   /// Maps at least one scan, continues to the end of the log or until `stop` is true, then calls finish().
-  /// Meanwhile, loops correct the poses of mapper() up to 500 nodes later.
+  /// Meanwhile, loops correct the poses of mapper() up to 100 nodes later if there are several threads.
   void run(const std::atomic<bool>& stop);
 
   /// Continues the finished map with another run through the same building, which begins at `start` (see

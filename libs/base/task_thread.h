@@ -14,14 +14,15 @@ class TaskThread {
  public:
   /// Without `own_thread`, or if the system provides no further thread, start() runs the task itself.
   explicit TaskThread(bool own_thread);
-  /// Waits for the task that runs, and drops what it throws.
+  /// Waits for the running task and ignores its exception.
   ~TaskThread();
   TaskThread(const TaskThread&) = delete;
   TaskThread& operator=(const TaskThread&) = delete;
 
-  /// Starts a task. Waits for the task before, and throws what it threw.
+  /// Starts a task. Waits for the previous task. If that threw, rethrows the exception and does not start
+  /// `task`.
   void start(std::function<void()> task);
-  /// Waits until no task runs. Throws what the last task threw, once.
+  /// Waits until no task runs. Rethrows the exception of the last task, once.
   void wait();
 
  private:
@@ -29,7 +30,7 @@ class TaskThread {
 
   std::mutex mutex_;  // guards all following members except thread_
   std::condition_variable changed_;
-  std::function<void()> task_;  ///< the task that runs or waits for the thread; empty if there is none
+  std::function<void()> task_;  ///< the running task, or the next one; otherwise empty
   std::exception_ptr failure_;
   bool stop_ = false;
 

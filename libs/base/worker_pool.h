@@ -32,7 +32,8 @@ class WorkerPool {
   /// throw, the remaining tasks still run; then run() throws the exception of the lowest index. Call run()
   /// from one thread at a time, and never from a task.
   void run(std::size_t count, const std::function<void(std::size_t)>& task);
-  /// Calls all `tasks` likewise. Threads take them in their order, so the longest should be first.
+  /// Calls all `tasks` in parallel, as run(count, task) does. Threads take them in their order, so the
+  /// longest should be first.
   void run(const Tasks& tasks);
 
  private:

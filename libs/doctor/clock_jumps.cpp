@@ -39,11 +39,11 @@ bool moves_steadily(const std::vector<FrameMark>& marks, std::size_t frame) {
 
 std::vector<ClockJump> clock_jumps(const std::vector<FrameMark>& marks, double median_period_s,
                                    bool has_odometry) {
-  const double least_gap_s = std::max(kLeastJump_s, kJumpPeriods * median_period_s);
+  const double least_jump_s = std::max(kLeastJump_s, kJumpPeriods * median_period_s);
   std::vector<ClockJump> jumps;
   for (std::size_t i = 1; i < marks.size(); ++i) {
     const double passed_s = seconds(marks[i].time_us - marks[i - 1].time_us);
-    const bool jumps_ahead = has_odometry && passed_s > least_gap_s && moves_steadily(marks, i);
+    const bool jumps_ahead = has_odometry && passed_s > least_jump_s && moves_steadily(marks, i);
     if (passed_s < -kLeastStepBack_s || jumps_ahead) jumps.push_back({i, passed_s});
   }
   return jumps;

@@ -45,7 +45,7 @@ struct MapFileOptions {
 
 /// Returns tasks that write the selected files, except for map.simplemap.gz. `grid` is the grid map of
 /// `result` by draw_grid_map(). `edits` are those of the grid, with their points in its frame; map.gpkg shows
-/// the zones among them. The tasks refer to all arguments but the folder.
+/// the zones among them. All arguments but the folder must outlive the tasks.
 Tasks map_file_tasks(const std::filesystem::path& folder, const MappingResult& result,
                      const mrpt::maps::COccupancyGridMap2D& grid, const std::vector<MapEdit>& edits,
                      const MapFileOptions& options);

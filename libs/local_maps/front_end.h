@@ -169,7 +169,8 @@ class FrontEnd {
   /// origin of the frame "local". The numbering of nodes and local maps continues. Call finish() first.
   void begin_run();
 
-  /// Local maps that scans are inserted into, older first, at most two.
+  /// Local maps that scans are inserted into, older first, at most two. Waits for the drawing of the younger
+  /// one.
   const std::vector<PlacedLocalMap>& active() const;
   /// Whether there is an active local map. Unlike active(), does not wait for drawing.
   bool has_active() const { return !active_.empty(); }

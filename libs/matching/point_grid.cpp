@@ -118,7 +118,7 @@ void PointGrid::nearest(const Point& at, std::size_t count, float max_distance_m
     for (std::int64_t ring = std::min<std::int64_t>(rings, 1); ring <= rings; ++ring) {
       const double searched_m = (static_cast<double>(ring) - 1 + to_border) / cells_per_m_;
       if (ring > 1 && static_cast<double>(square_of(keys[count - 1])) < searched_m * searched_m) break;
-      // The first ring includes the cell within.
+      // Ring 1 is searched together with the cell of `at`, in whole rows.
       for (std::int64_t i = 0; i <= 2 * ring; ++i) {
         const std::int64_t row = y.cell + (i % 2 == 0 ? i / 2 : -i / 2 - 1);  // from the middle outwards
         const bool is_whole = ring == 1 || std::abs(row - y.cell) == ring;

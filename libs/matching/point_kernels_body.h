@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bodies of the point kernels, as loops that the compiler turns into vector instructions. All functions
-// have internal linkage or are always inlined, and none calls the standard library, because the linker must
-// not merge code for different instruction sets.
+// The bodies of the point kernels, most of them loops that the compiler turns into vector instructions. All
+// functions have internal linkage or are always inlined, and none calls the standard library, because the
+// linker must not merge code for different instruction sets.
 #pragma once
 
 #include "matching/point_kernels.h"
@@ -55,7 +55,8 @@ void find_offsets_of_cells(const UnclippedCells& unclipped, const Cell* cells, s
 
 #ifdef __AVX512F__
 
-// Merges keys into sorted blocks of one vector each. Without branches, because most are hard to predict.
+// Merges keys into sorted blocks of one vector each. Has no branches that are hard to predict. Smaller
+// instruction sets lack comparisons of eight such keys, and merge them one by one.
 void merge_keys(std::int64_t* keys, std::size_t count, const NeighbourKeys& nearest) {
   using Block = std::int64_t __attribute__((vector_size(NeighbourKeys::kBlock * sizeof(std::int64_t))));
   constexpr Block kSmallest = {INT64_MIN};
@@ -64,7 +65,7 @@ void merge_keys(std::int64_t* keys, std::size_t count, const NeighbourKeys& near
     __builtin_memcpy(&kept, nearest.keys + NeighbourKeys::kBlock * block, sizeof kept);
     for (std::size_t i = 0; i < count; ++i) {
       const std::int64_t last = kept[NeighbourKeys::kBlock - 1];
-      const Block added = keys[i] - Block{};
+      const Block added = keys[i] - Block{};  // the key in all places
       const Block before = __builtin_shufflevector(kept, kSmallest, 8, 0, 1, 2, 3, 4, 5, 6);
       const Block smaller = kept < added ? kept : added;
       kept = before > smaller ? before : smaller;

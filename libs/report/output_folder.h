@@ -55,7 +55,7 @@ class OutputFolder {
 
 /// Returns tasks that write the files for which no grid map is needed, each file atomically: trajectories,
 /// the pose graph, tables, and map.simplemap.gz if `map_files` selects it. A task throws SystemFailure naming
-/// the file that cannot be written. The tasks refer to `result`.
+/// the file that cannot be written. `result` must outlive the tasks.
 Tasks path_file_tasks(const MappingResult& result, const OutputFolder& folder,
                       const MapFileOptions& map_files);
 

@@ -28,8 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// With several threads, the front end need not wait for the loops of so many nodes if only the finished map
-// counts. The bound limits the memory of nodes and corrections that wait.
+// Least latency of run() with several threads, because nobody reads its poses meanwhile. It bounds the memory
+// of nodes and corrections that wait.
 constexpr std::size_t kLatencyOfRun_nodes = 100;
 
 bool has_return(const Frame& frame) {
@@ -41,14 +41,12 @@ bool has_return(const Frame& frame) {
   return any;
 }
 
-/// Returns the options of the mapper. In a live run, loops are closed in a thread beside the front end, which
-/// goes first.
+/// Returns the options of the mapper. The front end goes first, because several threads cannot share its
+/// work. A live run has the threads beside it even with run.threads = 1.
 MapperOptions options_for(const SessionInput& input, const Settings& settings) {
   MapperOptions options = mapper_options(settings);
   options.back_end.priority = ThreadPriority::kLow;
-  if (!input.is_stream()) return options;
-  options.back_end_thread = true;
-  options.back_end.priority = ThreadPriority::kLow;
+  options.back_end_thread = options.back_end_thread || input.is_stream();
   return options;
 }
 
@@ -237,9 +235,12 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
 }
 
 void MappingSession::run(const std::atomic<bool>& stop) {
-  if (m_->mapper && worker_threads(m_->settings.run) > 1) m_->mapper->set_latency(kLatencyOfRun_nodes);
+  const std::size_t latency_nodes = m_->settings.mapper.latency_nodes;
+  const bool runs_ahead = m_->mapper && worker_threads(m_->settings.run) > 1;
+  if (runs_ahead) m_->mapper->set_latency(std::max(latency_nodes, kLatencyOfRun_nodes));
   while (step() && !stop) {
   }
+  if (runs_ahead) m_->mapper->set_latency(latency_nodes);
   finish(stop);
 }
 

@@ -55,8 +55,8 @@ void keep_first(std::size_t scans, SessionFacts& facts) {
   facts.runs.erase(lost, facts.runs.end());
 }
 
-/// Measures the time of tasks that several threads run.
-class FileClock {
+/// Measures the time of one stage whose tasks several threads share.
+class SharedStageClock {
  public:
   /// Appends `files` to `tasks`. The tasks add their times to timing(), and refer to this clock.
   void append(const Tasks& files, Tasks& tasks) {
@@ -83,7 +83,7 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   m.result.stages.resize(m.stages_of_mapping);
   StageClock drawing_clock("draw map");
   StageClock judging_clock("judge map");
-  FileClock writing_clock;
+  SharedStageClock writing_clock;
   const mrpt::math::TPose2D export_T_mapper = export_T_map(m.result, m.settings.map_frame);
   const mrpt::math::TPose2D map_T_start = export_T_start(m.result, m.settings.map_frame);
   const EditJournal edits = m.edits.with_frames(map_T_start);
@@ -92,12 +92,10 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   });
   const ExportedPoses exported(m.result, export_T_mapper);
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
+  std::vector<std::string> contradictions;
   const auto draw_map = [&] {
     grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map);
-    m.result.contradictions.resize(m.contradictions_of_mapping);
-    if (m.prior)
-      for (std::string& sentence : m.prior->compare(*grid))
-        m.result.contradictions.push_back(std::move(sentence));
+    if (m.prior) contradictions = m.prior->compare(*grid);
     if (m.prior && m.settings.prior.extend) grid = m.prior->extended(*grid);
     m.map_edit_complaints = apply_map_edits(placed.edits, *grid);
   };
@@ -105,10 +103,13 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
                        [&] { judging_clock.time([&] { m.verdict = judge_map(m.result); }); }};
   if (folder) {
     writing_clock.append(path_file_tasks(m.result, *folder, m.settings.map_files), before_grid);
-    if (!edits.empty()) before_grid.emplace_back([&] { edits.write(folder->path() / "loops.edits"); });
+    if (!edits.empty())
+      writing_clock.append({[&] { edits.write(folder->path() / "loops.edits"); }}, before_grid);
   }
   WorkerPool pool(worker_threads(m.settings.run));
   pool.run(before_grid);
+  m.result.contradictions.resize(m.contradictions_of_mapping);
+  for (std::string& sentence : contradictions) m.result.contradictions.push_back(std::move(sentence));
   for (const MapEdit& edit : placed.without_place)
     m.map_edit_complaints.push_back(text_of(edit) + ": its scan " + std::to_string(edit.scan) +
                                     " is not mapped, the last scan is " +
@@ -119,7 +120,7 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
     Tasks after_grid;
     writing_clock.append(map_file_tasks(folder->path(), m.result, *grid, placed.edits, m.settings.map_files),
                          after_grid);
-    after_grid.emplace_back([&] { write_zone_files(folder->path(), *grid, placed.edits); });
+    writing_clock.append({[&] { write_zone_files(folder->path(), *grid, placed.edits); }}, after_grid);
     pool.run(after_grid);
     m.result.stages.push_back(writing_clock.timing());
   }

@@ -85,7 +85,7 @@ function(psi_slam_add_app name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${ARG_COMPONENT})
 endfunction()
 
-# Sets the compiler options of code that only reads options, prints tables, shows windows or tests libraries. Little
+# Sets the compiler options of code that only reads options, writes reports, starts runs, shows windows or tests libraries. Little
 # optimisation is enough for it, and it compiles faster. But it makes false warnings of uninitialised values.
 function(psi_slam_configure_light_target target)
   psi_slam_configure_target(${target})

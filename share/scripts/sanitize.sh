@@ -17,7 +17,7 @@ fail() {
   exit "$2"
 }
 
-readonly threaded=(base batch exports gui live loop_closure mapping mrpt replay session)
+readonly threaded=(base batch exports gui live local_maps loop_closure mapping mrpt replay report session)
 targets=()
 case "${1:-}" in
   asan) selection=(--exclude-regex '^(scripts|package)\.') ;;

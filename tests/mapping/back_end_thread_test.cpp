@@ -79,6 +79,20 @@ TEST(BackEndThread, the_poses_while_mapping_do_not_depend_on_the_thread) {
   EXPECT_EQ(without.missed_deadlines, 0U);
 }
 
+TEST(BackEndThread, the_finished_map_does_not_depend_on_changes_of_the_latency) {
+  MapperOptions options;
+  options.back_end_thread = true;
+  options.back_end.final_search.passes = 1;
+  options.back_end.joint_refinement.rounds = 0;
+  Mapper mapper(options);
+  const std::vector<Frame>& frames = rounds();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (i % 100 == 0) mapper.set_latency(i % 300 == 0 ? 50 : i % 300 == 100 ? 0 : 3);
+    mapper.add(frames[i]);
+  }
+  expect_same_map(at_once().result, mapper.finish());
+}
+
 // Pose of the front end's frame in the map when the frame was added.
 TPose2D map_T_local(const LiveRun& live, std::size_t frame) {
   const TPose2D& local_T_robot = live.result.frames[frame].front_end_T_robot;

@@ -91,6 +91,15 @@ TEST(PointGrid, includes_points_at_the_largest_distance) {
   }
 }
 
+TEST(PointGrid, finds_only_points_at_the_place_itself_within_no_distance) {
+  const PointGrid grid({{0.5F, 0}, {0.5F, 0}, {0.5F, 0.001F}}, 0.1);
+  std::vector<std::uint32_t> near;
+  grid.nearest({0.5F, 0}, 4, 0, near);
+  EXPECT_EQ(near, (std::vector<std::uint32_t>{0, 1}));
+  grid.nearest({0.5F, 0.002F}, 4, 0, near);
+  EXPECT_TRUE(near.empty());
+}
+
 // So the size of the cells changes no result.
 TEST(PointGrid, orders_equally_near_points_by_their_indices) {
   for (const double cell_m : {0.0625, 0.3, 1.0}) {

@@ -155,6 +155,13 @@ TEST(PointKernels, find_offsets_and_mark_cells_outside) {
   EXPECT_GT(clipped, 50);
 }
 
+std::vector<std::pair<std::size_t, const PointKernels*>> blocks_and_kernels() {
+  std::vector<std::pair<std::size_t, const PointKernels*>> pairs;
+  for (const std::size_t blocks : {1U, 2U, 5U})
+    for (const PointKernels* kernels : kernels_of_this_machine()) pairs.emplace_back(blocks, kernels);
+  return pairs;
+}
+
 TEST(PointKernels, merge_the_nearest_points_in_their_order) {
   std::mt19937_64 random(6);
   for (const std::size_t count : kCounts) {
@@ -175,13 +182,14 @@ TEST(PointKernels, merge_the_nearest_points_in_their_order) {
       std::memcpy(&bits, &square, sizeof bits);
       sorted.push_back((static_cast<std::int64_t>(bits) << 32) + index[i]);
     }
-    for (const std::size_t blocks : {1U, 2U, 5U})
-      for (const PointKernels* kernels : kernels_of_this_machine()) {
+    // At first, all keys are that of the largest distance; the second one excludes some points.
+    for (const std::int64_t no_point : {INT64_MAX, count > 0 ? sorted[count / 2] : std::int64_t{0}})
+      for (const auto& [blocks, kernels] : blocks_and_kernels()) {
         std::vector<std::int64_t> expected = sorted;
-        expected.resize(count + 8 * blocks, INT64_MAX);  // at first, there are no neighbours
+        expected.resize(count + 8 * blocks, no_point);
         std::sort(expected.begin(), expected.end());
         expected.resize(8 * blocks);
-        std::vector<std::int64_t> nearest(8 * blocks, INT64_MAX);
+        std::vector<std::int64_t> nearest(8 * blocks, no_point);
         const std::size_t half = count / 2;
         for (const auto& [begin, end] : {std::pair(half, count), std::pair(std::size_t{0}, half)})
           kernels->merge_nearest(0.5F, -0.25F,

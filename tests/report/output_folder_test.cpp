@@ -49,7 +49,8 @@ std::string complaint(const fs::path& path, bool force = false, const std::strin
 void export_room(const OutputFolder& folder) {
   const MappingResult result = walk_around_the_room();
   const auto grid = draw_grid_map(result.log, mapped_poses(result));
-  const MapFileOptions options;
+  MapFileOptions options;
+  options.geotiff = options.gpkg = options.print = true;
   WorkerPool pool(2);
   pool.run(path_file_tasks(result, folder, options));
   pool.run(map_file_tasks(folder.path(), result, *grid, {}, options));
@@ -89,11 +90,11 @@ TEST(OutputFolder, reports_paths_that_cannot_be_a_folder) {
 TEST(OutputFolder, has_all_files_under_fixed_names) {
   const TemporaryFolder temporary;
   export_room(OutputFolder::prepare(temporary.path() / "run", false));
-  EXPECT_EQ(
-      names_in(temporary.path() / "run"),
-      (std::set<std::string>{"frames.csv", "graph.g2o", "loops.csv", "map.dxf", "map.gridmap.gz", "map.pgm",
-                             "map.png", "map.simplemap.gz", "map.svg", "map.yaml", "report.html",
-                             "summary.json", "trajectory.carmen", "trajectory.csv", "trajectory.tum"}));
+  EXPECT_EQ(names_in(temporary.path() / "run"),
+            (std::set<std::string>{"frames.csv", "graph.g2o", "loops.csv", "map.dxf", "map.gpkg",
+                                   "map.gridmap.gz", "map.pgm", "map.png", "map.simplemap.gz", "map.svg",
+                                   "map.tif", "map.yaml", "map_print.png", "report.html", "summary.json",
+                                   "trajectory.carmen", "trajectory.csv", "trajectory.tum"}));
 }
 
 TEST(OutputFolder, force_replaces_results_and_keeps_other_files) {

@@ -258,6 +258,8 @@ class Tests:
     def writes(self, command, old_command):
         _, before = self.results(f"{command.name}-before", old_command.words)
         if command.name in MAPPING:
+            # With one thread, the calls come in the same order in each run, and the first one that fails ends the run.
+            command = command._replace(words=[*command.words, "--set", "run.threads=1"])
             before = {**before, "out/trajectory-3.tum": b"1 0 0 0 0 0 0 1\n"}  # of older results with more logs
         good, after = self.results(f"{command.name}-after", command.words, before)
         counted = [call for call in good.calls if call.name != "read"]

@@ -72,9 +72,14 @@ TEST_F(MappingSessionTest, neither_steps_nor_threads_change_the_result) {
   while (stepwise.step()) ASSERT_EQ(stepwise.mapper().frames().size(), ++steps);
   EXPECT_FALSE(stepwise.step()) << "step() stays false after the end of the log";
   stepwise.finish();
+  MappingSession ahead(path, settings_);
+  ahead.run(go_on_);
   ASSERT_EQ(at_once.result().frames.size(), steps);
-  for (std::size_t i = 0; i < steps; ++i)
+  ASSERT_EQ(ahead.result().frames.size(), steps);
+  for (std::size_t i = 0; i < steps; ++i) {
     ASSERT_EQ(at_once.result().frames[i].map_T_robot, stepwise.result().frames[i].map_T_robot) << i;
+    ASSERT_EQ(at_once.result().frames[i].map_T_robot, ahead.result().frames[i].map_T_robot) << i;
+  }
 }
 
 TEST_F(MappingSessionTest, an_early_finish_maps_what_was_read_and_is_marked) {

@@ -16,7 +16,8 @@
 
 namespace psi_slam {
 
-/// Runs `action` and expects that the program needs less than 512 MiB more than before at its peak.
+/// Runs `action` and expects that the program needs less than 512 MiB more than before at its peak,
+/// or 2 GiB with the sanitizer of threads.
 inline void expect_little_memory(const std::function<void()>& action) {
   const auto peak_kb = [] {
     rusage usage{};

@@ -99,7 +99,7 @@ struct StageTiming {
   double std_ms = 0;      ///< standard deviation of the time of a call
   double min_ms = 0;      ///< time of the shortest call
   double max_ms = 0;      ///< time of the longest call
-  double total_s = 0;     ///< sum of the times of all calls
+  double total_s = 0;     ///< sum of the times of all calls; several threads may overlap
 };
 
 /// Thresholds of the factor Psi, see PsiOptions.

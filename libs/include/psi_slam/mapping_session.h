@@ -159,7 +159,8 @@ class MappingSession {
   void finish();
 
   /// Maps at least one scan, continues to the end of the log or until `stop` is true, then calls finish().
-  /// Meanwhile, loops correct the poses of mapper() up to 100 nodes later if there are several threads.
+  /// Meanwhile, with several threads, loops correct the poses of mapper() and of the pose observer at least
+  /// 100 nodes later.
   void run(const std::atomic<bool>& stop);
 
   /// Continues the finished map with another run through the same building, which begins at `start` (see

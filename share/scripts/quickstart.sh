@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Makes a first map on a fresh Debian 12 or 13. Installs what build and run need, builds psi-slam, and maps the Telecom Faculty
-# log from MRPT's data package. Prints the path of the map. Takes about 4 minutes on two cores.
+# log from MRPT's data package. Prints the path of the map. Takes about 5 minutes on two cores.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 

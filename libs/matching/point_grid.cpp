@@ -36,18 +36,11 @@ std::size_t cell_at(std::int64_t row, std::int64_t column) {
   return static_cast<std::size_t>((row & (kSide - 1)) * kSide + (column & (kSide - 1)));
 }
 
-/// Returns the key of a point, see NeighbourKeys.
-std::int64_t key_of(float square_m2, std::uint32_t index) {
-  std::int32_t bits = 0;
-  static_assert(sizeof bits == sizeof square_m2);
-  std::memcpy(&bits, &square_m2, sizeof bits);
-  return (static_cast<std::int64_t>(bits) << 32) | index;
-}
-
 /// Returns the square of the distance in a key, in m^2.
 float square_of(std::int64_t key) {
   const auto bits = static_cast<std::int32_t>(key >> 32);
   float square_m2 = 0;
+  static_assert(sizeof bits == sizeof square_m2);
   std::memcpy(&square_m2, &bits, sizeof square_m2);
   return square_m2;
 }
@@ -99,7 +92,7 @@ void PointGrid::nearest(const Point& at, std::size_t count, float max_distance_m
   count = std::min(count, points_.size());
   if (count == 0) return;
   thread_local std::vector<std::int64_t> keys;
-  const std::int64_t no_point = key_of(max_distance_m * max_distance_m, UINT32_MAX);
+  const std::int64_t no_point = neighbour_key(max_distance_m * max_distance_m, UINT32_MAX);
   const std::size_t blocks = (count + NeighbourKeys::kBlock - 1) / NeighbourKeys::kBlock;
   keys.assign(NeighbourKeys::kBlock * blocks, no_point);
   const NeighbourKeys nearest{keys.data(), blocks};

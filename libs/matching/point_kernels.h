@@ -52,8 +52,15 @@ struct IndexedPoints {
   std::size_t count = 0;
 };
 
-/// Neighbours of a place, as keys that order them by distance and then by index: the bits of the square of
-/// the distance, in m^2, above those of the index.
+/// Returns the key of a neighbour. Keys order neighbours by distance and then by index: they have the bits of
+/// the square of the distance, in m^2, above those of the index.
+__attribute__((always_inline)) inline std::int64_t neighbour_key(float square_m2, std::uint32_t index) {
+  std::int32_t bits = 0;
+  __builtin_memcpy(&bits, &square_m2, sizeof bits);
+  return (static_cast<std::int64_t>(bits) << 32) | static_cast<std::int64_t>(index);
+}
+
+/// Neighbours of a place, as keys.
 struct NeighbourKeys {
   static constexpr std::size_t kBlock = 8;
   std::int64_t* keys = nullptr;  ///< `blocks` times kBlock keys, ascending

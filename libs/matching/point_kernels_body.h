@@ -98,10 +98,7 @@ void merge_nearest_points(float x_m, float y_m, const IndexedPoints& points, con
     for (std::size_t i = 0; i < count; ++i) {
       const float dx = points.x_m[begin + i] - x_m;
       const float dy = points.y_m[begin + i] - y_m;
-      const float square = dx * dx + dy * dy;
-      std::int32_t bits = 0;
-      __builtin_memcpy(&bits, &square, sizeof bits);
-      keys[i] = (static_cast<std::int64_t>(bits) << 32) | static_cast<std::int64_t>(points.index[begin + i]);
+      keys[i] = neighbour_key(dx * dx + dy * dy, points.index[begin + i]);
     }
     merge_keys(keys, count, nearest);
   }

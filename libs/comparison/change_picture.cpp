@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rendering/picture_ink.h"
+#include "rendering/png_bytes.h"
 
 namespace psi_slam {
 namespace {

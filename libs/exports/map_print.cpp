@@ -11,6 +11,7 @@
 #include "exports/map_files.h"
 #include "rendering/map_image.h"
 #include "rendering/picture_ink.h"
+#include "rendering/png_bytes.h"
 
 namespace psi_slam {
 namespace {

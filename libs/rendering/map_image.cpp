@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "base/portable_math.h"
-#include "psi_slam/user_error.h"
 #include "rendering/picture_ink.h"
+#include "rendering/png_bytes.h"
 
 namespace psi_slam {
 namespace {
@@ -124,14 +123,6 @@ void draw_scale_bar(cv::Mat& image, const ScaleBarPlace& place, double bar_m, do
   const std::string label = fixed_text(bar_m, bar_m < 1 ? 2 : 0) + " m";
   cv::putText(image, label + note, {place.left + bar_px + unit, place.middle + unit / 2},
               cv::FONT_HERSHEY_DUPLEX, unit / 15.0, ink, std::max(1, unit / 10), cv::LINE_AA);
-}
-
-std::string png_bytes(const cv::Mat& image) {
-  constexpr int kCompression = 6;  // 9 takes much longer
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, kCompression}))
-    throw SystemFailure("cannot encode the map as a PNG image. Use larger cells with map.resolution_m");
-  return {bytes.begin(), bytes.end()};
 }
 
 SeenCells seen_cells(const COccupancyGridMap2D& grid) {

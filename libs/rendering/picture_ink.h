@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours, scale bar and PNG encoding, shared by all images of the map.
+// Colours and scale bar, shared by all images of the map.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -28,9 +28,5 @@ double scale_bar_m(double width_m, double resolution_m);
 /// Draws a scale bar of `bar_m` metres with its length as text, followed by `note`.
 void draw_scale_bar(cv::Mat& image, const ScaleBarPlace& place, double bar_m, double resolution_m,
                     const std::string& note = {});
-
-/// Returns `image` (one, three or four channels) as the contents of a PNG file. Throws SystemFailure if it
-/// cannot be encoded.
-std::string png_bytes(const cv::Mat& image);
 
 }  // namespace psi_slam

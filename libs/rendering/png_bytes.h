@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PNG encoding of all images of the map.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+
+namespace psi_slam {
+
+/// Returns an image (three or four channels of 8 bits, in the order of OpenCV) as the contents of a PNG
+/// file. Images of at most 256 colours, as most of maps are, become images with a palette, which take a third
+/// of the time. Throws SystemFailure if the image cannot be encoded.
+std::string png_bytes(const cv::Mat& image);
+
+}  // namespace psi_slam

@@ -66,12 +66,13 @@ struct Match {
 
 /// Returns the nearest point of the reference within a radius. Returns null if there is no such point or if
 /// it has no normal. A point at range r is at least r sin(d) away from beams at an angle d, which limits the
-/// beams to search: first by the radius, then by the distance of the nearest point found.
-const Point* nearest_wall(const AlignableScan& reference, const Eigen::Vector2d& p, double radius_m) {
+/// beams to search: first by the radius, then by the distance of the nearest point found. `bearing`: that of
+/// p.
+const Point* nearest_wall(const AlignableScan& reference, const Eigen::Vector2d& p, double bearing,
+                          double radius_m) {
   const std::vector<Point>& walls = reference.points();
   const auto size = static_cast<std::ptrdiff_t>(walls.size());
   const double range = p.norm();
-  const double bearing = reference.bearing_rad(p);
   const auto reach = [&](double distance_m) {
     return distance_m < range ? portable::asin(distance_m / range) : M_PI;
   };
@@ -120,7 +121,7 @@ Matching match_points(const AlignableScan& reference, const AlignableScan& scan,
                             (bearing >= walls.front().bearing_rad && bearing <= walls.back().bearing_rad);
     if (!is_visible) continue;
     ++matching.visible;
-    const Point* wall = nearest_wall(reference, p, radius_m);
+    const Point* wall = nearest_wall(reference, p, bearing, radius_m);
     if (wall != nullptr) matching.matches.push_back({p, wall->normal.dot(p - wall->position_m), wall});
   }
   return matching;

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 #include <vector>
 
 #include "base/portable_math.h"
+#include "frames/beam_directions.h"
 #include "frames/pose_operations.h"
 #include "frames/scan_neighbours.h"
 #include "local_maps/seen_surfaces.h"
@@ -18,28 +18,6 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// Directions of a laser's beams in the robot's frame. A log of one laser shares its bearings among all
-/// scans, which then have the directions of the scan before.
-class BeamDirections {
- public:
-  const std::vector<mrpt::math::TPoint2D>& of(const LaserScan& scan, double laser_yaw_rad) {
-    if (bearings_rad_ == scan.bearings_rad && laser_yaw_rad_ == laser_yaw_rad) return directions_;
-    bearings_rad_ = scan.bearings_rad;
-    laser_yaw_rad_ = laser_yaw_rad;
-    directions_.clear();
-    for (const float bearing_rad : *scan.bearings_rad) {
-      const double bearing = static_cast<double>(bearing_rad) + laser_yaw_rad;
-      directions_.emplace_back(portable::cos(bearing), portable::sin(bearing));
-    }
-    return directions_;
-  }
-
- private:
-  std::shared_ptr<const std::vector<float>> bearings_rad_;
-  double laser_yaw_rad_ = 0;
-  std::vector<mrpt::math::TPoint2D> directions_;
-};
-
 ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
                             const ScanFilterOptions& options) {
   ScanPoints result;
@@ -49,14 +27,16 @@ ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
   double last_x = 0;
   double last_y = 0;
   double farthest_squared = 0;
-  thread_local BeamDirections beams;
-  const std::vector<mrpt::math::TPoint2D>& directions = beams.of(scan, robot_T_laser.phi);
+  const double c = portable::cos(robot_T_laser.phi);
+  const double s = portable::sin(robot_T_laser.phi);
+  const BeamDirections directions = beam_directions(scan.bearings_rad);
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
     // Also skips beams without a return, whose range is infinite or NaN.
     if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;
-    const double x = robot_T_laser.x + range * directions[i].x;
-    const double y = robot_T_laser.y + range * directions[i].y;
+    const mrpt::math::TPoint2D& direction = (*directions)[i];
+    const double x = robot_T_laser.x + range * (c * direction.x - s * direction.y);
+    const double y = robot_T_laser.y + range * (s * direction.x + c * direction.y);
     const double gap_squared = (x - last_x) * (x - last_x) + (y - last_y) * (y - last_y);
     if (!result.points.empty() && gap_squared < spacing_squared) continue;
     last_x = x;
@@ -96,6 +76,10 @@ Beams drawing_beams(const LaserScan& scan, const TPose2D& map_T_robot, const Dra
   Beams beams;
   const TPose2D map_T_laser = compose(map_T_robot, scan.robot_T_laser);
   beams.origin = {map_T_laser.x, map_T_laser.y};
+  beams.ends.reserve(scan.ranges_m.size());
+  const double c = portable::cos(map_T_laser.phi);
+  const double s = portable::sin(map_T_laser.phi);
+  const BeamDirections directions = beam_directions(scan.bearings_rad);
   const std::vector<bool> joined =
       ends_on_one_surface(scan, options.max_range_m, options.min_surface_spacing_m);
   const auto is_drawn = [&](float range_m) {
@@ -107,9 +91,9 @@ Beams drawing_beams(const LaserScan& scan, const TPose2D& map_T_robot, const Dra
     const bool drew_before = std::exchange(drew_last, is_drawn(scan.ranges_m[i]));
     if (!drew_last) continue;
     const double drawn = std::min(range, options.max_range_m);
-    const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + map_T_laser.phi;
-    beams.ends.emplace_back(map_T_laser.x + drawn * portable::cos(bearing),
-                            map_T_laser.y + drawn * portable::sin(bearing));
+    const mrpt::math::TPoint2D& direction = (*directions)[i];
+    beams.ends.emplace_back(map_T_laser.x + drawn * (c * direction.x - s * direction.y),
+                            map_T_laser.y + drawn * (s * direction.x + c * direction.y));
     beams.hits.push_back(range <= options.max_range_m);
     beams.joined.push_back(drew_before && joined[i]);
   }

@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "base/portable_math.h"
+#include "frames/beam_directions.h"
 #include "frames/scan_neighbours.h"
 
 namespace psi_slam {
@@ -40,8 +41,8 @@ std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m,
   const auto bearing = [&](std::size_t i) { return static_cast<double>((*scan.bearings_rad)[i]); };
   std::vector<TPoint2D> ends;
   ends.reserve(beams);
-  for (std::size_t i = 0; i < beams; ++i)
-    ends.emplace_back(range(i) * portable::cos(bearing(i)), range(i) * portable::sin(bearing(i)));
+  const BeamDirections directions = beam_directions(scan.bearings_rad);
+  for (std::size_t i = 0; i < beams; ++i) ends.push_back((*directions)[i] * range(i));
 
   // Indices of the neighbours of a beam; `beams` for a missing one.
   const bool is_ring = beams > 0 && is_full_circle(*scan.bearings_rad);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/portable_math.h"
+#include "frames/beam_directions.h"
 #include "frames/pose_operations.h"
 
 namespace psi_slam {
@@ -49,18 +50,12 @@ const std::vector<const Fan*>& RayMaker::fans(const Frame& frame, const TPose2D&
 }
 
 void RayMaker::cast(const LaserScan& scan, const TPose2D& map_T_robot, Fan& fan) const {
-  if (scan.bearings_rad != fan.bearings) {
-    fan.bearings = scan.bearings_rad;
-    fan.directions.clear();
-    for (std::size_t i = 0; fan.bearings && i < fan.bearings->size(); ++i) {
-      const double angle = static_cast<double>((*fan.bearings)[i]);
-      fan.directions.emplace_back(portable::cos(angle), portable::sin(angle));
-    }
-  }
+  fan.bearings = scan.bearings_rad;
+  const BeamDirections directions = beam_directions(scan.bearings_rad);
   const std::size_t beams = scan.ranges_m.size();
-  if (fan.directions.size() != beams)
+  if (directions->size() != beams)
     throw std::invalid_argument("draw_grid_map: " + std::to_string(beams) + " ranges but " +
-                                std::to_string(fan.directions.size()) + " bearings, expected equal numbers");
+                                std::to_string(directions->size()) + " bearings, expected equal numbers");
   const TPose2D map_T_laser = compose(map_T_robot, scan.robot_T_laser);
   if (!std::isfinite(map_T_laser.x) || !std::isfinite(map_T_laser.y) || !std::isfinite(map_T_laser.phi))
     throw std::invalid_argument("draw_grid_map: the pose of a laser is not finite");
@@ -79,7 +74,7 @@ void RayMaker::cast(const LaserScan& scan, const TPose2D& map_T_robot, Fan& fan)
     const double range_m = static_cast<double>(scan.ranges_m[i]);
     if (std::isnan(range_m)) continue;
     const double length = fan.lengths_m[i];
-    const TPoint2D& direction = fan.directions[i];
+    const TPoint2D& direction = (*directions)[i];
     fan.rays.push_back({{fan.start.x + length * (c * direction.x - s * direction.y),
                          fan.start.y + length * (s * direction.x + c * direction.y)},
                         range_m <= options_.max_range_m,

@@ -27,12 +27,11 @@ struct Ray {
 struct Fan {
   mrpt::math::TPoint2D start;
   std::vector<Ray> rays;
-  BeamBearings bearings;                         // beam bearings of the laser's last scan
-  std::vector<mrpt::math::TPoint2D> directions;  // unit vectors of the beams in the laser's frame
-  std::vector<double> lengths_m;                 // of the beams as drawn; 0 for an invalid reading
+  BeamBearings bearings;          // beam bearings of the laser's last scan
+  std::vector<double> lengths_m;  // of the beams as drawn; 0 for an invalid reading
 };
 
-/// Turns scans into rays in the map's frame. Keeps the directions of each laser's beams from scan to scan.
+/// Turns scans into rays in the map's frame.
 class RayMaker {
  public:
   explicit RayMaker(const GridMapOptions& options) : options_(options) {}

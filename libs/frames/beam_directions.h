@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Directions of the beams of a laser.
+#pragma once
+
+#include <mrpt/math/TPoint2D.h>
+
+#include <memory>
+#include <vector>
+
+#include "psi_slam/frame.h"
+
+namespace psi_slam {
+
+/// Unit vectors, one for each beam.
+using BeamDirections = std::shared_ptr<const std::vector<mrpt::math::TPoint2D>>;
+
+/// Returns the directions of the beams with these bearings, in the laser's frame; none without bearings. Each
+/// thread keeps those of its last few lasers, whose scans share their bearings, because sines take long.
+BeamDirections beam_directions(const BeamBearings& bearings_rad);
+
+}  // namespace psi_slam

@@ -7,7 +7,7 @@
 
 namespace psi_slam {
 
-/// Bytes in memory, compressed without loss at the fastest level of zlib.
+/// Bytes in memory, compressed without loss at a fast level of zstd.
 class PackedBytes {
  public:
   PackedBytes() = default;

@@ -73,8 +73,10 @@ const Point* nearest_wall(const AlignableScan& reference, const Eigen::Vector2d&
   const std::vector<Point>& walls = reference.points();
   const auto size = static_cast<std::ptrdiff_t>(walls.size());
   const double range = p.norm();
+  // At least the arc sine, which takes longer.
   const auto reach = [&](double distance_m) {
-    return distance_m < range ? portable::asin(distance_m / range) : M_PI;
+    const double sine = distance_m / range;
+    return sine < 1 ? sine + (M_PI / 2 - 1) * sine * sine * sine : M_PI;
   };
   const auto comes_before = [](const Point& point, double value) { return point.bearing_rad < value; };
   const auto start = std::lower_bound(walls.begin(), walls.end(), bearing, comes_before) - walls.begin();

@@ -121,32 +121,21 @@ void LocalMap::draw_surface(int x0, int y0, int x1, int y1) {
   }
 }
 
-// Draws free space along Bresenham's line, without its last cell.
-void LocalMap::draw_way(int x0, int y0, int x1, int y1) {
+// Draws free space along a line.
+void LocalMap::draw_way(const DigitalLine& way) {
   const Grid::cellType miss = Grid::p2l(static_cast<float>(1 - options_.miss_probability));
   const auto threshold = static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MAX - miss);
-  const auto size_x = static_cast<std::ptrdiff_t>(grid_->getSizeX());
-  Grid::cellType* cells = grid_->getRow(0);
-  std::uint16_t* scans = last_scan_.data();
-  const int dx = std::abs(x1 - x0);
-  const int dy = std::abs(y1 - y0);
-  const std::ptrdiff_t step_x = x1 > x0 ? 1 : -1;
-  const std::ptrdiff_t step_y = y1 > y0 ? size_x : -size_x;
-  std::ptrdiff_t cell = x0 + y0 * size_x;
-  int error = dx - dy;
-  for (int left = dx + dy; left > 0;) {
-    if (scans[cell] != scan_) {
-      scans[cell] = scan_;
-      const Grid::cellType before = cells[cell];
-      Grid::updateCell_fast_free(cells + cell, miss, threshold);
-      // Free cells have no evidence.
-      if (before < 0 && painter_->evidence(before) != painter_->evidence(cells[cell]))
-        mark_dirty(static_cast<std::size_t>(cell));
-    }
-    const int twice = 2 * error;
-    if (twice > -dy) error -= dy, cell += step_x, --left;
-    if (twice < dx) error += dx, cell += step_y, --left;
-  }
+  Grid::cellType* const cells = grid_->getRow(0);
+  std::uint16_t* const scans = last_scan_.data();
+  ways_.walk(way, [&, scan = scan_](std::int64_t cell) {
+    if (scans[cell] == scan) return;
+    scans[cell] = scan;
+    const Grid::cellType before = cells[cell];
+    Grid::updateCell_fast_free(cells + cell, miss, threshold);
+    // Free cells have no evidence.
+    if (before < 0 && painter_->evidence(before) != painter_->evidence(cells[cell]))
+      mark_dirty(static_cast<std::size_t>(cell));
+  });
 }
 
 void LocalMap::insert(const std::vector<Beams>& scans) {
@@ -155,21 +144,22 @@ void LocalMap::insert(const std::vector<Beams>& scans) {
     std::fill(last_scan_.begin(), last_scan_.end(), std::uint16_t{0});
     scan_ = 1;
   }
-  std::vector<Way> ways;
+  std::vector<DigitalLine> ways;
   for (const Beams* beams : held) draw_hits(*beams, ways);
-  for (const Way& way : ways) draw_way(way.from_x, way.from_y, way.to_x, way.to_y);
+  ways_.clear();
+  for (const DigitalLine& way : ways) draw_way(way);
 }
 
-// Draws the hits of one scan and the surfaces between them. Appends all its beams to `ways`, which insert()
-// draws after the hits of all scans.
-void LocalMap::draw_hits(const Beams& beams, std::vector<Way>& ways) {
+// Draws the hits of one scan and the surfaces between them. Appends all its beams, without their last
+// cells, to `ways`, which insert() draws after the hits of all scans.
+void LocalMap::draw_hits(const Beams& beams, std::vector<DigitalLine>& ways) {
   const int origin_x = grid_->x2idx(beams.origin.x);
   const int origin_y = grid_->y2idx(beams.origin.y);
   ways.reserve(ways.size() + beams.ends.size());
   for (std::size_t i = 0; i < beams.ends.size(); ++i) {
     const int x = grid_->x2idx(beams.ends[i].x);
     const int y = grid_->y2idx(beams.ends[i].y);
-    ways.push_back({origin_x, origin_y, x, y});
+    ways.push_back(bresenham_line(origin_x, origin_y, x, y, grid_->getSizeX()));
     if (beams.hits[i]) draw_hit(x, y);
     if (i < beams.joined.size() && beams.joined[i]) {
       const mrpt::math::TPoint2D& before = i > 0 ? beams.ends[i - 1] : beams.ends.back();
@@ -272,6 +262,7 @@ void LocalMap::finish() {
   painter_.reset();
   dirty_tiles_ = std::vector<std::uint8_t>();
   last_scan_ = std::vector<std::uint16_t>();  // an assignment of {} would keep the memory
+  ways_ = LineFan();
   grid_.reset();
 }
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "compression/packed_bytes.h"
+#include "frames/digital_line.h"
 #include "local_maps/score_painter.h"
 #include "matching/scan_points.h"
 #include "matching/score_grid.h"
@@ -97,12 +98,6 @@ class LocalMap {
     int x_end = 0;
     int y_end = 0;
   };
-  struct Way {  // a beam from its first cell to its last
-    int from_x = 0;
-    int from_y = 0;
-    int to_x = 0;
-    int to_y = 0;
-  };
   struct Limits {  // of the grid, metres
     double x_min = 0;
     double x_max = 0;
@@ -119,16 +114,17 @@ class LocalMap {
   void begin_scores();
   void paint_dirty_tiles();
   Region observed_region() const;
-  void draw_hits(const Beams& beams, std::vector<Way>& ways);
+  void draw_hits(const Beams& beams, std::vector<DigitalLine>& ways);
   void draw_hit(int x, int y);
   void draw_surface(int x0, int y0, int x1, int y1);
-  void draw_way(int x0, int y0, int x1, int y1);
+  void draw_way(const DigitalLine& way);
 
   LocalMapOptions options_;
   /// Empty for a finished map: the grid is destroyed, because MRPT's grid keeps its memory when it shrinks.
   std::optional<mrpt::maps::COccupancyGridMap2D> grid_;
   std::vector<std::uint16_t> last_scan_;  ///< for each cell, the number of the last scan that changed it
   std::uint16_t scan_ = 0;
+  LineFan ways_;                         ///< of the scans that are inserted
   std::optional<ScorePainter> painter_;  ///< empty for a finished map
   /// For each tile of kTileSide x kTileSide cells of the occupancy grid, row by row, 1 if the evidence of a
   /// cell has changed since the scores were painted.

@@ -16,6 +16,8 @@ const FrameCells& FrameCellFinder::find(const Frame& frame, const TPose2D& map_T
   for (const Fan* fan : fans)
     for (const Ray& ray : fan->rays)
       if (ray.hit) mark_end(box_.in_cells(ray.end));
+  passed_.clear();
+  cleared_.clear();
   for (const Fan* fan : fans)
     for (const Ray& ray : fan->rays)
       mark_line(box_.in_cells(fan->start), box_.in_cells(ray.end), ray.returned ? kPassed : kCleared);
@@ -66,7 +68,8 @@ void FrameCellFinder::mark_line(const TPoint2D& start, const TPoint2D& end, std:
     num_touched += marks[index] == 0 ? 1 : 0;
     marks[index] |= mark;
   };
-  walk_line(start, end, std::int64_t{1} << stride_bits_, visit);
+  (mark == kPassed ? passed_ : cleared_)
+      .walk(digital_line(start, end, std::int64_t{1} << stride_bits_), visit);
   num_touched_ = num_touched;
 }
 

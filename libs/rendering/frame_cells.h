@@ -11,9 +11,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "frames/digital_line.h"
 #include "psi_slam/frame.h"
 #include "psi_slam/grid_map.h"
-#include "rendering/digital_line.h"
+#include "rendering/cell_box.h"
 #include "rendering/scan_rays.h"
 
 namespace psi_slam {
@@ -62,6 +63,8 @@ class FrameCellFinder {
   std::vector<std::uint8_t> marks_;   ///< of the cells of the box; all 0 between calls
   std::vector<std::size_t> touched_;  ///< indices of the marked cells, then room for more
   std::size_t num_touched_ = 0;
+  LineFan passed_;   ///< lines of the beams with a return
+  LineFan cleared_;  ///< and of the others
   FrameCells found_;
 };
 

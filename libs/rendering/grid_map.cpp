@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "rendering/digital_line.h"
+#include "rendering/cell_box.h"
 #include "rendering/grid_layout.h"
 #include "rendering/moving_things.h"
 #include "rendering/scan_rays.h"
@@ -64,9 +64,11 @@ class Evidence {
         const TPoint2D end = box.in_cells(ray.end);
         const std::int64_t row = static_cast<std::int64_t>(end.y) * layout_.width;
         if (ray.hit)
-          count(corner + row + static_cast<std::int64_t>(end.x), kHitEvidence,
-                ray.alone_from < 1 ? 1 : kSupportedBeams);
+          add_hit(cell_at(corner + row + static_cast<std::int64_t>(end.x)),
+                  ray.alone_from < 1 ? 1 : kSupportedBeams);
       }
+    passed_.clear();
+    no_returns_.clear();
     for (const Fan* fan : fans)
       for (const Ray& ray : fan->rays)
         pass(corner, box.in_cells(fan->start), box.in_cells(alone_point(*fan, ray)), ray.returned,
@@ -83,7 +85,7 @@ class Evidence {
       auto* row = grid->getRow(static_cast<int>(y));
       for (std::int64_t x = 0; x < layout_.width; ++x) {
         const auto index = static_cast<std::size_t>(y * layout_.width + x);
-        const bool is_cleared = cells_[index].last_scan == 0 && cleared_[index];
+        const bool is_cleared = cells_[index].last_scan() == 0 && cleared_[index];
         row[x] = cell_value(is_cleared ? kPassEvidence : enough_beams(x, y) ? cells_[index].evidence : 0);
       }
     }
@@ -93,17 +95,24 @@ class Evidence {
  private:
   struct Cell {
     std::int16_t evidence = 0;
-    std::uint16_t last_scan : 12;  ///< number of the last frame that counted in this cell; 0 if none did
-    std::uint16_t beams : 2;       ///< number of beams that ended in the cell or crossed it, at most 3
-    std::uint16_t hit_beams : 2;   ///< number of beams that ended in the cell, at most 3
+    /// Number of the last frame that counted in this cell, 0 if none did: kScanBits. Then the number of beams
+    /// that ended in the cell or crossed it, and of those that ended in it, both at most 3: kBeamBits each.
+    std::uint16_t marks = 0;
 
-    Cell() : last_scan(0), beams(0), hit_beams(0) {}
+    unsigned last_scan() const { return marks & kLastScan; }
+    unsigned beams() const { return marks >> kScanBits & kMostBeams; }
+    unsigned hit_beams() const { return marks >> (kScanBits + kBeamBits) & kMostBeams; }
+    void mark(unsigned scan, unsigned beams, unsigned hit_beams) {
+      marks = static_cast<std::uint16_t>(scan | beams << kScanBits | hit_beams << (kScanBits + kBeamBits));
+    }
   };
-  static constexpr std::uint16_t kLastScan = (1U << 12U) - 1;
+  static constexpr unsigned kScanBits = 12;
+  static constexpr unsigned kBeamBits = 2;
+  static constexpr unsigned kLastScan = (1U << kScanBits) - 1;
 
   void next_scan() {
     if (scan_ == kLastScan) {
-      for (Cell& cell : cells_) cell.last_scan = cell.last_scan == 0 ? 0 : 1;
+      for (Cell& cell : cells_) cell.mark(cell.last_scan() == 0 ? 0 : 1, cell.beams(), cell.hit_beams());
       scan_ = 1;
     }
     ++scan_;
@@ -116,22 +125,29 @@ class Evidence {
 
   /// Counts a beam in all cells from `start` to `end`, except the cell of `end`.
   void pass(std::int64_t corner, const TPoint2D& start, const TPoint2D& end, bool returned, unsigned beams) {
-    walk_line(start, end, layout_.width, [&](std::int64_t index) {
-      if (returned)
-        count(corner + index, kPassEvidence, beams);
-      else
-        cleared_[static_cast<std::size_t>(corner + index)] = true;
-    });
+    const DigitalLine line = digital_line(start, end, layout_.width);
+    // Local copies, because a write of a cell could change any member as far as the compiler knows.
+    if (returned)
+      passed_.walk(line, [cells = &cells_[static_cast<std::size_t>(corner)], scan = scan_,
+                          beams](std::int64_t index) { add_pass(cells[index], scan, beams); });
+    else
+      no_returns_.walk(
+          line, [&](std::int64_t index) { cleared_[static_cast<std::size_t>(corner + index)] = true; });
   }
 
-  void count(std::int64_t index, int evidence, unsigned beams) {
-    Cell& cell = cells_[static_cast<std::size_t>(index)];
-    if (cell.last_scan == scan_) return;
-    cell.last_scan = scan_ & kLastScan;
-    cell.beams = std::min(kMostBeams, cell.beams + beams) & kMostBeams;
-    if (evidence > 0) cell.hit_beams = std::min(kMostBeams, cell.hit_beams + beams) & kMostBeams;
-    cell.evidence =
-        static_cast<std::int16_t>(std::clamp(cell.evidence + evidence, -kMaxEvidence, kMaxEvidence));
+  Cell& cell_at(std::int64_t index) { return cells_[static_cast<std::size_t>(index)]; }
+
+  void add_hit(Cell& cell, unsigned beams) const {
+    if (cell.last_scan() == scan_) return;
+    cell.mark(scan_, std::min(kMostBeams, cell.beams() + beams),
+              std::min(kMostBeams, cell.hit_beams() + beams));
+    cell.evidence = static_cast<std::int16_t>(std::min(cell.evidence + kHitEvidence, kMaxEvidence));
+  }
+
+  static void add_pass(Cell& cell, unsigned scan, unsigned beams) {
+    if (cell.last_scan() == scan) return;
+    cell.mark(scan, std::min(kMostBeams, cell.beams() + beams), cell.hit_beams());
+    cell.evidence = static_cast<std::int16_t>(std::max(cell.evidence + kPassEvidence, -kMaxEvidence));
   }
 
   /// Whether enough beams saw what a cell shows. An obstacle counts the beams that ended in the eight cells
@@ -139,11 +155,11 @@ class Evidence {
   bool enough_beams(std::int64_t x, std::int64_t y) const {
     const std::int64_t index = y * layout_.width + x;
     const Cell& cell = cells_[static_cast<std::size_t>(index)];
-    if (cell.evidence <= 0) return cell.beams >= min_beams_;
+    if (cell.evidence <= 0) return cell.beams() >= min_beams_;
     unsigned beams = 0;
     for (const std::int64_t row : {index - layout_.width, index, index + layout_.width})
       for (const std::int64_t around : {row - 1, row, row + 1})
-        beams += cells_[static_cast<std::size_t>(around)].hit_beams;
+        beams += cells_[static_cast<std::size_t>(around)].hit_beams();
     return beams >= min_beams_;
   }
 
@@ -152,7 +168,9 @@ class Evidence {
   RayMaker maker_;
   std::vector<Cell> cells_;
   std::vector<bool> cleared_;  // whether a beam without return passed the cell
-  std::uint16_t scan_ = 0;
+  unsigned scan_ = 0;
+  LineFan passed_;      // of this frame: lines of the beams with a return
+  LineFan no_returns_;  // and of the others
 };
 
 /// Calls `draw(frame, map_T_robot)` for each frame to draw, with at most 64 for a long standstill.

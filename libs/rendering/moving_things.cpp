@@ -242,7 +242,7 @@ void MovingThings::mark_passes(const Fan& fan, const CellBox& map) {
     if (!ray.returned || free_m <= 0) continue;
     const TPoint2D along = (ray.end - fan.start) * (1 / length_m);
     const TPoint2D end = map.in_cells(fan.start + along * free_m);
-    leap_line(start, end, layout_.width, [&](std::int64_t index) {
+    leap_line(digital_line(start, end, layout_.width), [&](std::int64_t index) {
       const std::int32_t found = obstacles_.find(static_cast<std::size_t>(index));
       if (found < 0) return std::int64_t{-found};
       const Sightings& cell = cells_[static_cast<std::size_t>(found)];

@@ -36,7 +36,7 @@
 
 #include "psi_slam/frame.h"
 #include "psi_slam/grid_map.h"
-#include "rendering/digital_line.h"
+#include "rendering/cell_box.h"
 #include "rendering/grid_layout.h"
 #include "rendering/obstacle_field.h"
 #include "rendering/scan_rays.h"

@@ -158,8 +158,9 @@ void MappingSession::Members::keep_bent(const Frame& frame) {
   most_bent = 1000 + 2 * bent.size();
 }
 
-/// Checks each log of the result, unless the same scans were checked before.
+/// Checks each log of a finished map, unless the same scans were checked before.
 void MappingSession::Members::check_log() {
+  if (state != State::kFinished) return;
   if (std::exchange(scans_checked, result.log.size()) == result.log.size()) return;
   faults.clear();
   for (const FrameSpan& of_log : logs_of(result)) {
@@ -217,7 +218,6 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   if (m.prior && m.prior->changed_text()) m.result.contradictions.push_back(*m.prior->changed_text());
   if (refusal) m.result.contradictions.push_back(*std::move(refusal));
   m.contradictions_of_mapping = m.result.contradictions.size();
-  m.check_log();
   m.enter(Members::State::kFinished);
   if (m.after_finish == Mapper::AfterFinish::kNothing) {
     m.mapper.reset();

@@ -100,7 +100,8 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
     m.map_edit_complaints = apply_map_edits(placed.edits, *grid);
   };
   Tasks before_grid = {[&] { drawing_clock.time(draw_map); },
-                       [&] { judging_clock.time([&] { m.verdict = judge_map(m.result); }); }};
+                       [&] { judging_clock.time([&] { m.verdict = judge_map(m.result); }); },
+                       [&] { m.check_log(); }};
   if (folder) {
     writing_clock.append(path_file_tasks(m.result, *folder, m.settings.map_files), before_grid);
     if (!edits.empty())

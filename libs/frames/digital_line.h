@@ -39,15 +39,6 @@ void leap_line(const DigitalLine& line, const Visit& visit) {
   }
 }
 
-/// Calls `visit` with the index of each cell of a line.
-template <class Visit>
-void walk_line(const DigitalLine& line, const Visit& visit) {
-  leap_line(line, [&](std::int64_t index) {
-    visit(index);
-    return std::int64_t{1};
-  });
-}
-
 /// Walks along lines that start at one point. Neighbouring lines cross the same cells near that point; these
 /// are skipped.
 class LineFan {

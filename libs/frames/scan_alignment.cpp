@@ -66,8 +66,8 @@ struct Match {
 
 /// Returns the nearest point of the reference within a radius. Returns null if there is no such point or if
 /// it has no normal. A point at range r is at least r sin(d) away from beams at an angle d, which limits the
-/// beams to search: first by the radius, then by the distance of the nearest point found. `bearing`: that of
-/// p.
+/// beams to search: first by the radius, then by the distance of the nearest point found. `bearing` is
+/// that of `p`.
 const Point* nearest_wall(const AlignableScan& reference, const Eigen::Vector2d& p, double bearing,
                           double radius_m) {
   const std::vector<Point>& walls = reference.points();

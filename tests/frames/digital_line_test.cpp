@@ -34,7 +34,10 @@ Cells bresenham_by_error(int x0, int y0, int x1, int y1) {
 
 Cells cells_of(const DigitalLine& line) {
   Cells cells;
-  walk_line(line, [&](std::int64_t cell) { cells.push_back(cell); });
+  leap_line(line, [&](std::int64_t cell) {
+    cells.push_back(cell);
+    return std::int64_t{1};
+  });
   return cells;
 }
 

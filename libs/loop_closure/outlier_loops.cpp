@@ -21,6 +21,9 @@ namespace {
 // Loops with at least this share of the worst residual are disabled in the same round.
 constexpr double kShareOfWorst = 0.5;
 
+// Factor on the standard deviations of the front end's constraints if its path may be bent.
+constexpr double kLoosening = 5;
+
 std::vector<double> optimized_chi(PoseGraph& graph, SparsePoseAdjustment& solver,
                                   const std::vector<std::size_t>& loops) {
   const std::vector<ConstraintFit> fits = solver.optimize(graph).fits;
@@ -123,6 +126,37 @@ bool prefer_agreeing(PoseGraph& graph, SparsePoseAdjustment& solver, const std::
   return true;
 }
 
+// Returns the graph with kLoosening times as large standard deviations of the front end's constraints.
+PoseGraph loosened(const PoseGraph& graph) {
+  PoseGraph loose;
+  for (const mrpt::math::TPose2D& pose : graph.poses()) loose.add_node(pose);
+  loose.set_root(graph.root());
+  for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
+    Constraint constraint = graph.constraint(i);
+    if (constraint.kind == Constraint::Kind::kOdometry || constraint.kind == Constraint::Kind::kLocalMap)
+      constraint.information /= kLoosening * kLoosening;
+    loose.set_enabled(loose.add_constraint(constraint), graph.enabled(i));
+  }
+  return loose;
+}
+
+// Selects consistent loops in the graph with a loosened path. Enables these instead if they are more than
+// before, by at least half of the disabled loops, and if the loops of enough nodes would be enabled again.
+void prefer_bent_path(PoseGraph& graph, SparsePoseAdjustment& solver, const std::vector<std::size_t>& loops,
+                      double max_chi, std::vector<double>& chi) {
+  const std::size_t on = enabled_loops(graph, loops);
+  const std::size_t off = loops.size() - on;
+  PoseGraph trial = loosened(graph);
+  select_inlier_loops(trial, solver, loops, max_chi);
+  std::set<std::size_t> nodes;
+  for (const std::size_t loop : loops)
+    if (trial.enabled(loop) && !graph.enabled(loop)) nodes.insert(graph.constraint(loop).to);
+  if (nodes.size() < kFewestAgreeingNodes || enabled_loops(trial, loops) < on + (off + 1) / 2) return;
+  for (const std::size_t loop : loops) graph.set_enabled(loop, trial.enabled(loop));
+  for (std::size_t node = 0; node < graph.num_nodes(); ++node) graph.set_pose(node, trial.pose(node));
+  chi = optimized_chi(graph, solver, loops);
+}
+
 }  // namespace
 
 std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
@@ -136,6 +170,9 @@ std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustm
   settle(graph, solver, loops, max_chi, chi);
   while (prefer_agreeing(graph, solver, loops, max_chi, chi)) {
   }
+  const std::size_t off = loops.size() - enabled_loops(graph, loops);
+  if (static_cast<double>(off) > doubtful_share * static_cast<double>(loops.size()))
+    prefer_bent_path(graph, solver, loops, max_chi, chi);
   return chi;
 }
 

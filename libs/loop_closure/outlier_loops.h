@@ -11,8 +11,11 @@
 // If many loops are contradicted, false loops may outnumber true ones, and the loop with the largest residual
 // need not be false. Then select_inlier_loops() selects consistent loops first.
 //
-// Finally, the disabled loops may be right and a few enabled ones false, if the loops of many nodes agree,
-// see agreeing_loops(). Then they are tried instead of those that contradict them.
+// Then the disabled loops may be right and a few enabled ones false, if the loops of many nodes agree, see
+// agreeing_loops(). They are tried instead of those that contradict them.
+//
+// Finally, if many loops are disabled, the front end's path may be bent and far less certain than it states.
+// Then the loops that agree with each other along a less certain path are tried.
 #pragma once
 
 #include <cstddef>
@@ -39,6 +42,12 @@ inline constexpr std::size_t kFewestAgreeingNodes = 20;
 /// path_chi() once, when no enabled loop is contradicted, of the loops that are then disabled. Loops that are
 /// disabled after that stay disabled. Then repeats this with the loops of agreeing_loops() enabled, if they
 /// are of enough nodes, and keeps the result if it enables more loops, by at least half of those that agree.
+///
+/// If more than `doubtful_share` of the loops are disabled in the end, calls select_inlier_loops() with five
+/// times as large standard deviations of the front end's constraints, and enables its loops if they are more,
+/// by at least half of the disabled ones, and disabled loops of enough nodes are among them. These loops may
+/// have residuals above `max_chi`.
+///
 /// Returns the residuals in the order of `loops`. If `doubtful_share` is 1, never calls
 /// select_inlier_loops().
 std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,

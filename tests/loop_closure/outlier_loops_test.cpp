@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace psi_slam {
@@ -145,6 +148,82 @@ TEST(OutlierLoops, does_not_prefer_loops_of_few_nodes) {
 TEST(OutlierLoops, keeps_what_nearly_as_many_loops_contradict) {
   const TwoSets sets(30, 20);
   for (std::size_t i = 0; i < 50; ++i) EXPECT_EQ(sets.graph.enabled(sets.loops[i]), i >= 30) << i;
+}
+
+// Three rounds along one way of 20 m, forth and back, with loops to the first round. The path of the later
+// rounds turns by half a degree in each of some steps, as certain as elsewhere. False loops lead anywhere.
+struct BentRounds {
+  BentRounds(std::size_t true_loops, std::size_t false_loops, bool is_bent) {
+    constexpr std::size_t kNodes = 120;
+    const auto truth = [](std::size_t node) {
+      const std::size_t step = node % 40;
+      return TPose2D(static_cast<double>(step < 20 ? step : 40 - step), 0, 0);
+    };
+    std::vector<TPose2D> motions;
+    for (std::size_t node = 0; node < kNodes; ++node) {
+      graph.add_node(truth(node));
+      if (node == 0) continue;
+      const TPose2D motion = truth(node) - truth(node - 1);
+      const bool bends = is_bent && node > 40 && node % 10 < 5;
+      graph.add_constraint(constraint(Constraint::Kind::kOdometry, node - 1, node,
+                                      {motion.x, motion.y, bends ? 0.5 * M_PI / 180 : 0}, 0.01, 1e-3));
+    }
+    // Along the bent path.
+    for (std::size_t node = 1; node < kNodes; ++node)
+      graph.set_pose(node, graph.pose(node - 1) + graph.constraint(node - 1).from_T_to);
+    for (std::size_t i = 0; i < true_loops; ++i) {
+      const std::size_t node = 41 + i * 79 / true_loops;
+      loops.push_back(
+          graph.add_constraint(constraint(Constraint::Kind::kLoop, node % 40, node, {0, 0, 0}, 0.02, 5e-3)));
+    }
+    for (std::size_t i = 0; i < false_loops; ++i) {
+      const auto a = static_cast<double>(i);
+      loops.push_back(graph.add_constraint(
+          constraint(Constraint::Kind::kLoop, i % 40, 41 + i * 37 % 79,
+                     {4 * std::sin(7 * a), 4 * std::sin(11 * a), std::sin(5 * a)}, 0.02, 5e-3)));
+    }
+    SparsePoseAdjustment solver = plain_solver();
+    chi = switch_off_outlier_loops(graph, solver, loops, kOutlierChi);
+    for (std::size_t i = 0; i < loops.size(); ++i)
+      (i < true_loops ? true_on : false_on) += graph.enabled(loops[i]) ? 1 : 0;
+    for (std::size_t node = 0; node < kNodes; ++node)
+      worst_m = std::max(worst_m, (graph.pose(node) - truth(node)).norm());
+  }
+
+  static Constraint constraint(Constraint::Kind kind, std::size_t from, std::size_t to,
+                               const TPose2D& from_T_to, double sigma_m, double sigma_rad) {
+    Constraint constraint;
+    constraint.kind = kind;
+    constraint.from = from;
+    constraint.to = to;
+    constraint.from_T_to = from_T_to;
+    constraint.information =
+        Eigen::Vector3d(1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m), 1 / (sigma_rad * sigma_rad))
+            .asDiagonal();
+    return constraint;
+  }
+
+  PoseGraph graph;
+  std::vector<std::size_t> loops;
+  std::vector<double> chi;
+  std::size_t true_on = 0;
+  std::size_t false_on = 0;
+  double worst_m = 0;
+};
+
+TEST(OutlierLoops, keeps_the_loops_along_a_bent_path) {
+  const BentRounds bent(70, 0, true);
+  EXPECT_GE(bent.true_on, 68U);
+  EXPECT_LT(bent.worst_m, 0.3);
+}
+
+TEST(OutlierLoops, does_not_bend_a_path_for_false_loops) {
+  for (const std::size_t false_loops : {30U, 70U, 300U}) {
+    const BentRounds straight(70, false_loops, false);
+    EXPECT_EQ(straight.true_on, 70U) << false_loops;
+    EXPECT_EQ(straight.false_on, 0U) << false_loops;
+    EXPECT_LT(straight.worst_m, 0.02) << false_loops;
+  }
 }
 
 TEST(OutlierLoops, keeps_a_loop_at_the_limit) {

@@ -10,7 +10,7 @@
 namespace psi_slam {
 namespace {
 
-constexpr std::size_t kLasers = 4;
+constexpr std::size_t kLasers = 8;
 
 struct Laser {
   BeamBearings bearings_rad;

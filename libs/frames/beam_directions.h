@@ -14,8 +14,9 @@ namespace psi_slam {
 /// Unit vectors, one for each beam.
 using BeamDirections = std::shared_ptr<const std::vector<mrpt::math::TPoint2D>>;
 
-/// Returns the directions of the beams with these bearings, in the laser's frame; none without bearings. Each
-/// thread keeps those of its last few lasers, whose scans share their bearings, because sines take long.
+/// Returns the directions of the beams with these bearings, in the laser's frame. Returns an empty vector if
+/// `bearings_rad` is null. Each thread keeps the directions of its last eight lasers, whose scans share their
+/// bearings.
 BeamDirections beam_directions(const BeamBearings& bearings_rad);
 
 }  // namespace psi_slam

@@ -22,7 +22,7 @@ struct DigitalLine {
   std::int64_t along_stride = 0;   ///< from one step to the next
   std::int64_t across_stride = 0;  ///< from one position across to the next
   std::int64_t across = 0;         ///< position across at the first cell
-  std::int64_t across_step = 0;    ///< and what each step adds
+  std::int64_t across_step = 0;    ///< increment of `across` by each step
   std::size_t direction = 0;       ///< 0 to 3: longer axis and sense of the line
 };
 
@@ -75,7 +75,7 @@ class LineFan {
 };
 
 /// Returns Bresenham's line from a cell to another one, without the latter, in a grid whose rows are `stride`
-/// cells apart. Exact for lines of up to 46,000 cells.
+/// cells apart. Exact for lines of up to 46,000 cells; longer ones may have the cell beside.
 inline DigitalLine bresenham_line(int x0, int y0, int x1, int y1, std::int64_t stride) {
   const std::int64_t dx = std::abs(x1 - x0);
   const std::int64_t dy = std::abs(y1 - y0);

@@ -66,20 +66,21 @@ struct Match {
 
 /// Returns the nearest point of the reference within a radius. Returns null if there is no such point or if
 /// it has no normal. A point at range r is at least r sin(d) away from beams at an angle d, which limits the
-/// beams to search: first by the radius, then by the distance of the nearest point found. `bearing` is
-/// that of `p`.
-const Point* nearest_wall(const AlignableScan& reference, const Eigen::Vector2d& p, double bearing,
+/// beams to search: first by the radius, then by the distance of the nearest point found. `bearing_rad`
+/// is that of `p`.
+const Point* nearest_wall(const AlignableScan& reference, const Eigen::Vector2d& p, double bearing_rad,
                           double radius_m) {
   const std::vector<Point>& walls = reference.points();
   const auto size = static_cast<std::ptrdiff_t>(walls.size());
   const double range = p.norm();
-  // At least the arc sine, which takes longer.
+  // An upper bound of the arc sine, which is cheaper to compute. All terms of its series are positive, and
+  // those after the first add up to pi/2 - 1 at 1.
   const auto reach = [&](double distance_m) {
     const double sine = distance_m / range;
     return sine < 1 ? sine + (M_PI / 2 - 1) * sine * sine * sine : M_PI;
   };
   const auto comes_before = [](const Point& point, double value) { return point.bearing_rad < value; };
-  const auto start = std::lower_bound(walls.begin(), walls.end(), bearing, comes_before) - walls.begin();
+  const auto start = std::lower_bound(walls.begin(), walls.end(), bearing_rad, comes_before) - walls.begin();
   const Point* nearest = nullptr;
   double nearest_squared = radius_m * radius_m;
   double limit_rad = reach(radius_m);
@@ -89,7 +90,7 @@ const Point* nearest_wall(const AlignableScan& reference, const Eigen::Vector2d&
     if (is_beyond_an_end && !reference.is_full_circle()) return false;
     const Point& wall = walls[index_on_ring(k, walls.size())];
     const double round = is_beyond_an_end ? (k < 0 ? -2 * M_PI : 2 * M_PI) : 0;
-    if (std::abs(wall.bearing_rad + round - bearing) > limit_rad) return false;
+    if (std::abs(wall.bearing_rad + round - bearing_rad) > limit_rad) return false;
     const double squared = (wall.position_m - p).squaredNorm();
     if (squared >= nearest_squared) return true;
     nearest = &wall;

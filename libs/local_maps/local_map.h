@@ -124,7 +124,7 @@ class LocalMap {
   std::optional<mrpt::maps::COccupancyGridMap2D> grid_;
   std::vector<std::uint16_t> last_scan_;  ///< for each cell, the number of the last scan that changed it
   std::uint16_t scan_ = 0;
-  LineFan ways_;                         ///< of the scans that are inserted
+  LineFan ways_;                         ///< scratch memory of insert()
   std::optional<ScorePainter> painter_;  ///< empty for a finished map
   /// For each tile of kTileSide x kTileSide cells of the occupancy grid, row by row, 1 if the evidence of a
   /// cell has changed since the scores were painted.

@@ -66,7 +66,7 @@ std::optional<double> LoopLedger::accept(std::size_t index, PoseGraph& graph) {
   return std::max(portable::hypot(off.x, off.y) / noise_.sigma_m, std::abs(off.phi) / noise_.sigma_rad);
 }
 
-void LoopLedger::settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi,
+bool LoopLedger::settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi,
                         double doubtful_share) {
   std::vector<std::size_t> constraints;
   std::vector<std::size_t> loops;
@@ -78,13 +78,16 @@ void LoopLedger::settle(PoseGraph& graph, SparsePoseAdjustment& solver, double m
   }
   const std::vector<double> chi =
       switch_off_outlier_loops(graph, solver, constraints, max_chi, doubtful_share);
+  std::size_t contradicted = 0;
   for (std::size_t i = 0; i < chi.size(); ++i) {
     LoopRecord& loop = loops_[loops[i]];
     const bool fits = graph.enabled(constraints[i]);
     loop.verdict = fits ? LoopVerdict::kAccepted : LoopVerdict::kSwitchedOff;
     loop.refusal.reset();
     if (!fits) loop.refusal = LoopRefusal{LoopRefusal::Reason::kContradicted, chi[i], max_chi};
+    if (fits && chi[i] > max_chi) ++contradicted;
   }
+  return contradicted >= kFewestAgreeingNodes;
 }
 
 void LoopLedger::refuse_pending() {

@@ -44,8 +44,9 @@ class LoopLedger {
   std::optional<double> accept(std::size_t loop, PoseGraph& graph);
 
   /// Optimises the graph and switches off outlier loops; `max_chi` and `doubtful_share` are as in
-  /// switch_off_outlier_loops(). Never switches off forced loops.
-  void settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi,
+  /// switch_off_outlier_loops(). Never switches off forced loops. Returns whether loops stay that the path of
+  /// the front end contradicts.
+  bool settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi,
               double doubtful_share = kDoubtfulShare);
 
   void refuse_pending();

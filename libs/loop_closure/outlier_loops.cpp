@@ -24,6 +24,10 @@ constexpr double kShareOfWorst = 0.5;
 // Factor on the standard deviations of the front end's constraints if its path may be bent.
 constexpr double kLoosening = 5;
 
+// Share of all loops that must agree along a bent path. So false loops cannot bend it unless nearly all of
+// them agree with the true ones.
+constexpr double kNearlyAll = 0.95;
+
 std::vector<double> optimized_chi(PoseGraph& graph, SparsePoseAdjustment& solver,
                                   const std::vector<std::size_t>& loops) {
   const std::vector<ConstraintFit> fits = solver.optimize(graph).fits;
@@ -140,20 +144,23 @@ PoseGraph loosened(const PoseGraph& graph) {
   return loose;
 }
 
-// Selects consistent loops in the graph with a loosened path. Enables these instead if they are more than
-// before, by at least half of the disabled loops, and if the loops of enough nodes would be enabled again.
+// Selects consistent loops in the graph with a loosened path. Enables these, and loops that then fit, if they
+// are nearly all loops and disabled loops of enough nodes are among them.
 void prefer_bent_path(PoseGraph& graph, SparsePoseAdjustment& solver, const std::vector<std::size_t>& loops,
                       double max_chi, std::vector<double>& chi) {
-  const std::size_t on = enabled_loops(graph, loops);
-  const std::size_t off = loops.size() - on;
-  PoseGraph trial = loosened(graph);
-  select_inlier_loops(trial, solver, loops, max_chi);
   std::set<std::size_t> nodes;
   for (const std::size_t loop : loops)
-    if (trial.enabled(loop) && !graph.enabled(loop)) nodes.insert(graph.constraint(loop).to);
-  if (nodes.size() < kFewestAgreeingNodes || enabled_loops(trial, loops) < on + (off + 1) / 2) return;
+    if (!graph.enabled(loop)) nodes.insert(graph.constraint(loop).to);
+  if (nodes.size() < kFewestAgreeingNodes) return;
+  PoseGraph trial = loosened(graph);
+  select_inlier_loops(trial, solver, loops, max_chi);
+  if (static_cast<double>(enabled_loops(trial, loops)) < kNearlyAll * static_cast<double>(loops.size()))
+    return;
   for (const std::size_t loop : loops) graph.set_enabled(loop, trial.enabled(loop));
   for (std::size_t node = 0; node < graph.num_nodes(); ++node) graph.set_pose(node, trial.pose(node));
+  chi = optimized_chi(graph, solver, loops);
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    if (chi[i] <= max_chi) graph.set_enabled(loops[i], true);
   chi = optimized_chi(graph, solver, loops);
 }
 

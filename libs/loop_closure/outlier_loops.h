@@ -33,8 +33,8 @@ inline constexpr double kDoubtfulShare = 0.2;
 /// 3.75 standard deviations, which 0.3 % of true loops exceed.
 inline constexpr double kPlausibleShare = 0.75;
 
-/// Smallest number of nodes whose disabled loops agree before they are tried. Fewer may all have been matched
-/// with one wrong place.
+/// Smallest number of nodes of disabled loops that are tried instead of others. Fewer may all have been
+/// matched with one wrong place.
 inline constexpr std::size_t kFewestAgreeingNodes = 20;
 
 /// Optimises the graph. Enables and disables the constraints `loops` until no enabled loop has a residual
@@ -43,13 +43,12 @@ inline constexpr std::size_t kFewestAgreeingNodes = 20;
 /// disabled after that stay disabled. Then repeats this with the loops of agreeing_loops() enabled, if they
 /// are of enough nodes, and keeps the result if it enables more loops, by at least half of those that agree.
 ///
-/// If more than `doubtful_share` of the loops are disabled in the end, calls select_inlier_loops() with five
-/// times as large standard deviations of the front end's constraints, and enables its loops if they are more,
-/// by at least half of the disabled ones, and disabled loops of enough nodes are among them. These loops may
-/// have residuals above `max_chi`.
+/// If more than `doubtful_share` of the loops are disabled in the end, and these are of enough nodes, calls
+/// select_inlier_loops() with five times as large standard deviations of the front end's constraints. Enables
+/// its loops if they are 95 % of all. These loops may have residuals above `max_chi`.
 ///
 /// Returns the residuals in the order of `loops`. If `doubtful_share` is 1, never calls
-/// select_inlier_loops().
+/// select_inlier_loops(), which may throw UserError.
 std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
                                              const std::vector<std::size_t>& loops, double max_chi,
                                              double doubtful_share = kDoubtfulShare);

@@ -79,11 +79,12 @@ double BackEnd::optimize(PoseGraph& graph, SparsePoseAdjustment& solver) {
 void BackEnd::settle(PoseGraph& graph, SparsePoseAdjustment& solver, KnownLandmarks* known) {
   graph_clock_.time([&] {
     if (known != nullptr) known->switch_off(graph);
-    ledger_.settle(graph, solver, options_.max_loop_chi);
+    const bool path_is_bent = ledger_.settle(graph, solver, options_.max_loop_chi);
     if (known == nullptr) return;
     known->select(graph, options_.max_loop_chi);
-    // The loops were selected without the landmarks, and no selection from scratch is needed.
-    ledger_.settle(graph, solver, options_.max_loop_chi, 1);
+    // The loops were selected without the landmarks. No selection from scratch is needed, unless the path
+    // would contradict the loops again.
+    ledger_.settle(graph, solver, options_.max_loop_chi, path_is_bent ? kDoubtfulShare : 1);
   });
 }
 

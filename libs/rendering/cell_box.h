@@ -45,7 +45,7 @@ inline CellBox cell_box(const mrpt::math::TBoundingBox& bounds, double resolutio
 /// at the middle of each step.
 inline DigitalLine digital_line(const mrpt::math::TPoint2D& start, const mrpt::math::TPoint2D& end,
                                 std::int64_t stride) {
-  constexpr double kOne = 4294967296.0;  // 2 to the power of DigitalLine::kFractionBits
+  constexpr auto kOne = static_cast<double>(std::int64_t{1} << DigitalLine::kFractionBits);
   const bool is_steep = std::abs(end.x - start.x) < std::abs(end.y - start.y);
   const auto [along0, across0, along1, across1] =
       is_steep ? std::array{start.y, start.x, end.y, end.x} : std::array{start.x, start.y, end.x, end.y};

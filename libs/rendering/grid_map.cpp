@@ -95,8 +95,9 @@ class Evidence {
  private:
   struct Cell {
     std::int16_t evidence = 0;
-    /// Number of the last frame that counted in this cell, 0 if none did: kScanBits. Then the number of beams
-    /// that ended in the cell or crossed it, and of those that ended in it, both at most 3: kBeamBits each.
+    /// Bits 0 to 11: number of the last frame that counted in this cell, 0 if none did. Bits 12 and 13:
+    /// number of beams that ended in the cell or crossed it, at most 3. Bits 14 and 15: of those that ended
+    /// in it.
     std::uint16_t marks = 0;
 
     unsigned last_scan() const { return marks & kLastScan; }
@@ -109,6 +110,7 @@ class Evidence {
   static constexpr unsigned kScanBits = 12;
   static constexpr unsigned kBeamBits = 2;
   static constexpr unsigned kLastScan = (1U << kScanBits) - 1;
+  static_assert(kMostBeams == (1U << kBeamBits) - 1);
 
   void next_scan() {
     if (scan_ == kLastScan) {

@@ -164,7 +164,7 @@ MapRaster map_raster(const COccupancyGridMap2D& grid, const MapPictureOptions& o
   return raster;
 }
 
-// Large maps take hundreds of megabytes, so no copy of the image is made.
+// Large maps take hundreds of megabytes, so the image is not copied before it is encoded.
 MapPicture map_picture(const COccupancyGridMap2D& grid, const MapPictureOptions& options) {
   const ShownPart part = shown_part(grid, options);
   const int longer = std::max(part.width_px, part.height_px);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
+#include <stdexcept>
 #include <unordered_map>
 #include <vector>
 
@@ -81,6 +82,8 @@ std::string encoded(const cv::Mat& image) {
 }  // namespace
 
 std::string png_bytes(const cv::Mat& image) {
+  if (image.type() != CV_8UC3 && image.type() != CV_8UC4)
+    throw std::invalid_argument("png_bytes: the image has other channels than three or four of 8 bits");
   const std::optional<IndexedImage> of_few_colours = indexed(image);
   std::string bytes = of_few_colours ? encoded(*of_few_colours, image) : encoded(image);
   if (bytes.empty())

@@ -160,15 +160,16 @@ void MappingSession::Members::keep_bent(const Frame& frame) {
 
 /// Checks each log of a finished map, unless the same scans were checked before.
 void MappingSession::Members::check_log() {
-  if (state != State::kFinished) return;
-  if (std::exchange(scans_checked, result.log.size()) == result.log.size()) return;
-  faults.clear();
+  if (state != State::kFinished || scans_checked == result.log.size()) return;
+  std::vector<std::string> all;
   for (const FrameSpan& of_log : logs_of(result)) {
     std::vector<std::string> found = quick_check(result.log, of_log.begin, of_log.end, log_options(settings));
     if (auto rejected = rejected_gyroscope(result, of_log)) found.push_back(*std::move(rejected));
     for (std::string& fault : found)
-      if (std::find(faults.begin(), faults.end(), fault) == faults.end()) faults.push_back(std::move(fault));
+      if (std::find(all.begin(), all.end(), fault) == all.end()) all.push_back(std::move(fault));
   }
+  faults = std::move(all);
+  scans_checked = result.log.size();
 }
 
 void MappingSession::finish() {

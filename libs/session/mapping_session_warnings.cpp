@@ -72,6 +72,7 @@ std::vector<std::string> MappingSession::assumptions() const {
 }
 
 const std::vector<std::string>& MappingSession::faults_of_log() const {
+  const WorkClock clock(m_->work_s);
   m_->check_log();
   return m_->faults;
 }

@@ -378,9 +378,11 @@ void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
               "Standard deviation of a loop's position, added to the covariance of its match.")
       .angle_deg("loop_sigma_theta_deg", mapper.back_end.loop_sigma_rad, above(0).at_most(180),
                  "Standard deviation of a loop's heading, added to the covariance of its match.")
-      .number("max_loop_chi", mapper.back_end.max_loop_chi, above(0), "sigma",
-              "A loop whose residual in the finished graph exceeds this many standard deviations is switched "
-              "off, unless the path without it explains three quarters of this many.");
+      .number(
+          "max_loop_chi", mapper.back_end.max_loop_chi, above(0), "sigma",
+          "A loop whose residual in the finished graph exceeds this many standard deviations is switched "
+          "off, unless the path without it explains three quarters of this many, or nearly all loops agree "
+          "along a path five times as uncertain.");
   describe_kernel(table, "local_map", "the constraints between nodes and their local maps",
                   solver.local_map_kernel);
   describe_kernel(table, "loop", "loops", solver.loop_kernel);

@@ -20,7 +20,7 @@ namespace {
 std::size_t cycles() {
   constexpr std::size_t kFew = 8;
   const char* const text = std::getenv("PSI_SLAM_SOAK_CYCLES");
-  return text == nullptr ? kFew : std::stoul(text);
+  return text == nullptr ? kFew : std::max<std::size_t>(2, std::stoul(text));
 }
 
 /// Returns the memory that the program has allocated and not freed.
@@ -31,6 +31,7 @@ double allocated_MiB() {
 
 TEST(WindowSoakTest, opening_and_replaying_a_log_again_and_again_keeps_the_memory) {
   if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run from Debian's package xvfb";
+  if (kHasAddressSanitizer) GTEST_SKIP() << "the sanitizer has its own memory allocation";
   GuiRun gui;
   const std::string log = write_lines(gui.folder() / "room.log", room_log_lines(60)).string();
   std::vector<double> memory_MiB;
@@ -47,13 +48,14 @@ TEST(WindowSoakTest, opening_and_replaying_a_log_again_and_again_keeps_the_memor
   }
   EXPECT_EQ(gui.run({log}), 0);
   ASSERT_EQ(memory_MiB.size(), cycles());
-  const std::size_t settled = std::min<std::size_t>(memory_MiB.size() / 2, 20);  // caches are full by then
+  // Caches fill in the first cycles.
+  const std::size_t settled = std::min<std::size_t>(memory_MiB.size() / 2, 20);
+  const auto later = static_cast<double>(memory_MiB.size() - 1 - settled);
   std::cout << "memory after cycle " << settled << ": " << memory_MiB[settled] << " MiB, after cycle "
             << memory_MiB.size() - 1 << ": " << memory_MiB.back() << " MiB\n";
-  constexpr double kOfCaches_MiB = 1;
-  constexpr double kOfEachCycle_MiB = 0.002;  // 10 kB would be one scan
-  EXPECT_LT(memory_MiB.back(),
-            memory_MiB[settled] + kOfCaches_MiB + kOfEachCycle_MiB * static_cast<double>(cycles()));
+  constexpr double kCacheGrowth_MiB = 0.8;
+  constexpr double kGrowthPerCycle_MiB = 0.002;  // a scan of the log takes 3 kB
+  EXPECT_LT(memory_MiB.back(), memory_MiB[settled] + kCacheGrowth_MiB + kGrowthPerCycle_MiB * later);
 }
 
 }  // namespace

@@ -153,7 +153,8 @@ TEST(OutlierLoops, keeps_what_nearly_as_many_loops_contradict) {
 // Three rounds along one way of 20 m, forth and back, with loops to the first round. The path of the later
 // rounds turns by half a degree in each of some steps, as certain as elsewhere. False loops lead anywhere.
 struct BentRounds {
-  BentRounds(std::size_t true_loops, std::size_t false_loops, bool is_bent) {
+  BentRounds(std::size_t true_loops, std::size_t false_loops, bool is_bent,
+             Constraint::Kind kind = Constraint::Kind::kOdometry) {
     constexpr std::size_t kNodes = 120;
     const auto truth = [](std::size_t node) {
       const std::size_t step = node % 40;
@@ -165,8 +166,8 @@ struct BentRounds {
       if (node == 0) continue;
       const TPose2D motion = truth(node) - truth(node - 1);
       const bool bends = is_bent && node > 40 && node % 10 < 5;
-      graph.add_constraint(constraint(Constraint::Kind::kOdometry, node - 1, node,
-                                      {motion.x, motion.y, bends ? 0.5 * M_PI / 180 : 0}, 0.01, 1e-3));
+      graph.add_constraint(
+          constraint(kind, node - 1, node, {motion.x, motion.y, bends ? 0.5 * M_PI / 180 : 0}, 0.01, 1e-3));
     }
     // Along the bent path.
     for (std::size_t node = 1; node < kNodes; ++node)
@@ -212,9 +213,30 @@ struct BentRounds {
 };
 
 TEST(OutlierLoops, keeps_the_loops_along_a_bent_path) {
-  const BentRounds bent(70, 0, true);
-  EXPECT_GE(bent.true_on, 68U);
-  EXPECT_LT(bent.worst_m, 0.3);
+  for (const Constraint::Kind kind : {Constraint::Kind::kOdometry, Constraint::Kind::kLocalMap}) {
+    BentRounds bent(70, 0, true, kind);
+    EXPECT_GE(bent.true_on, 68U);
+    EXPECT_LT(bent.worst_m, 0.3);
+    SparsePoseAdjustment solver = plain_solver();
+    const std::vector<ConstraintFit> fits = solver.optimize(bent.graph).fits;
+    for (std::size_t i = 0; i < bent.loops.size(); ++i)
+      EXPECT_NEAR(bent.chi[i], std::sqrt(fits[bent.loops[i]].chi2), 1e-3)
+          << "residual in the graph, loop " << i;
+    switch_off_outlier_loops(bent.graph, solver, bent.loops, kOutlierChi);
+    std::size_t on_again = 0;
+    for (const std::size_t loop : bent.loops) on_again += bent.graph.enabled(loop) ? 1 : 0;
+    EXPECT_EQ(on_again, bent.true_on) << "called again";
+  }
+}
+
+TEST(OutlierLoops, few_loops_do_not_bend_a_path) {
+  EXPECT_LT(BentRounds(kFewestAgreeingNodes - 1, 0, true).true_on, kFewestAgreeingNodes - 1);
+}
+
+TEST(OutlierLoops, a_path_is_bent_only_if_nearly_all_loops_agree) {
+  const BentRounds mixed(70, 20, true);
+  EXPECT_EQ(mixed.false_on, 0U);
+  EXPECT_LT(mixed.true_on, 60U);
 }
 
 TEST(OutlierLoops, does_not_bend_a_path_for_false_loops) {

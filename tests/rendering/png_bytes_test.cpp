@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,19 @@ TEST(PngBytes, of_a_part_of_an_image_are_those_of_its_copy) {
   const cv::Mat part = image_with(9, 3).colRange(3, 20);
   ASSERT_FALSE(part.isContinuous());
   EXPECT_EQ(png_bytes(part), png_bytes(part.clone()));
+}
+
+TEST(PngBytes, have_no_opacity_if_all_colours_are_opaque) {
+  const cv::Mat image(5, 4, CV_8UC4, cv::Scalar(10, 20, 30, 255));
+  const std::string png = png_bytes(image);
+  const cv::Mat read = cv::imdecode(std::vector<char>(png.begin(), png.end()), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(read.type(), CV_8UC3);
+  EXPECT_EQ(read.at<cv::Vec3b>(2, 3), cv::Vec3b(10, 20, 30));
+}
+
+TEST(PngBytes, of_other_channels_are_refused) {
+  EXPECT_THROW(png_bytes(cv::Mat(5, 4, CV_8UC1, cv::Scalar(0))), std::invalid_argument);
+  EXPECT_THROW(png_bytes(cv::Mat(5, 4, CV_16UC3, cv::Scalar(0))), std::invalid_argument);
 }
 
 TEST(PngBytes, of_an_image_without_pixels_are_refused) {

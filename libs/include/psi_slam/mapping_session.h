@@ -132,7 +132,8 @@ class MappingSession {
   std::vector<std::string> assumptions() const;
 
   /// Faults of odometry, laser and time stamps that a quick check of the log found, one sentence each with
-  /// its remedy. The check runs beside export_to(), or when they are asked for after finish().
+  /// its remedy. Empty before finish(). The first of export_to(), draw(), warnings() and this function after
+  /// finish() makes the check, so do not call it from two threads.
   const std::vector<std::string>& faults_of_log() const;
 
   /// All warnings about this run, one sentence each: renamed settings, damaged logs, skipped messages,

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "loop_closure/agreeing_loops.h"
+#include "pose_graph/changed_path.h"
 #include "pose_graph/constraint_error.h"
 #include "pose_graph/graduated_non_convexity.h"
 #include "pose_graph/path_covariance.h"
@@ -86,19 +87,26 @@ void place_without_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
   solver.optimize(graph);
 }
 
+// Enables the disabled loops that fit after all or that `plausible` marks, and optimises. Returns whether
+// there were any.
+bool enable_fitting(PoseGraph& graph, SparsePoseAdjustment& solver, const std::vector<std::size_t>& loops,
+                    double max_chi, const std::vector<bool>& plausible, std::vector<double>& chi) {
+  bool any_fits = false;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (graph.enabled(loops[i]) || (chi[i] > max_chi && !plausible[i])) continue;
+    graph.set_enabled(loops[i], true);
+    any_fits = true;
+  }
+  if (any_fits) chi = optimized_chi(graph, solver, loops);
+  return any_fits;
+}
+
 // Disables the worst loops first. Then enables those that fit after all.
 void settle(PoseGraph& graph, SparsePoseAdjustment& solver, const std::vector<std::size_t>& loops,
             double max_chi, std::vector<double>& chi) {
   switch_off_worst_first(graph, solver, loops, max_chi, std::vector<bool>(loops.size()), chi);
   const std::vector<bool> plausible = plausible_along_path(graph, loops, max_chi);
-  bool any_fits_after_all = false;
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (graph.enabled(loops[i]) || (chi[i] > max_chi && !plausible[i])) continue;
-    graph.set_enabled(loops[i], true);
-    any_fits_after_all = true;
-  }
-  if (!any_fits_after_all) return;
-  chi = optimized_chi(graph, solver, loops);
+  if (!enable_fitting(graph, solver, loops, max_chi, plausible, chi)) return;
   switch_off_worst_first(graph, solver, loops, max_chi, plausible, chi);
 }
 
@@ -132,16 +140,8 @@ bool prefer_agreeing(PoseGraph& graph, SparsePoseAdjustment& solver, const std::
 
 // Returns the graph with kLoosening times as large standard deviations of the front end's constraints.
 PoseGraph loosened(const PoseGraph& graph) {
-  PoseGraph loose;
-  for (const mrpt::math::TPose2D& pose : graph.poses()) loose.add_node(pose);
-  loose.set_root(graph.root());
-  for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
-    Constraint constraint = graph.constraint(i);
-    if (constraint.kind == Constraint::Kind::kOdometry || constraint.kind == Constraint::Kind::kLocalMap)
-      constraint.information /= kLoosening * kLoosening;
-    loose.set_enabled(loose.add_constraint(constraint), graph.enabled(i));
-  }
-  return loose;
+  return with_changed_path(graph,
+                           [](Constraint& constraint) { constraint.information /= kLoosening * kLoosening; });
 }
 
 // Selects consistent loops in the graph with a loosened path. Enables these, and loops that then fit, if they
@@ -159,9 +159,7 @@ void prefer_bent_path(PoseGraph& graph, SparsePoseAdjustment& solver, const std:
   for (const std::size_t loop : loops) graph.set_enabled(loop, trial.enabled(loop));
   for (std::size_t node = 0; node < graph.num_nodes(); ++node) graph.set_pose(node, trial.pose(node));
   chi = optimized_chi(graph, solver, loops);
-  for (std::size_t i = 0; i < loops.size(); ++i)
-    if (chi[i] <= max_chi) graph.set_enabled(loops[i], true);
-  chi = optimized_chi(graph, solver, loops);
+  enable_fitting(graph, solver, loops, max_chi, std::vector<bool>(loops.size()), chi);
 }
 
 }  // namespace

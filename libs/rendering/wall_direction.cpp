@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "base/portable_math.h"
+#include "frames/beam_directions.h"
 #include "frames/pose_operations.h"
 
 namespace psi_slam {
@@ -36,6 +37,7 @@ class DirectionHistogram {
  public:
   void add_scan(const LaserScan& scan, const TPose2D& map_T_robot) {
     const TPose2D map_T_laser = compose(map_T_robot, scan.robot_T_laser);
+    const BeamDirections directions = beam_directions(scan.bearings_rad);
     std::vector<TPoint2D> piece;
     for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
       const auto range_m = static_cast<double>(scan.ranges_m[i]);
@@ -43,9 +45,7 @@ class DirectionHistogram {
         piece.clear();
         continue;
       }
-      const auto bearing_rad = static_cast<double>((*scan.bearings_rad)[i]);
-      const TPoint2D point = transform(
-          map_T_laser, TPoint2D(range_m * portable::cos(bearing_rad), range_m * portable::sin(bearing_rad)));
+      const TPoint2D point = transform(map_T_laser, (*directions)[i] * range_m);
       if (!piece.empty() && (point - piece.back()).norm() > kStep_m) piece.clear();
       piece.push_back(point);
       if (piece.size() < 3 || (point - piece.front()).norm() < kPiece_m) continue;

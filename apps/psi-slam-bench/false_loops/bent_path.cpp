@@ -5,6 +5,7 @@
 
 #include "base/random_draws.h"
 #include "frames/pose_operations.h"
+#include "pose_graph/changed_path.h"
 
 namespace psi_slam {
 namespace {
@@ -38,10 +39,6 @@ Bend draw_bend(const BentPathOptions& options, std::size_t bent_before, RandomDr
   return {1, sign * options.turn_rad / static_cast<double>(options.stretch_nodes)};
 }
 
-bool is_of_front_end(const Constraint& constraint) {
-  return constraint.kind == Constraint::Kind::kOdometry || constraint.kind == Constraint::Kind::kLocalMap;
-}
-
 }  // namespace
 
 BentPath bent(const PoseGraph& graph, const std::vector<TPose2D>& unlooped, const BentPathOptions& options) {
@@ -63,20 +60,13 @@ BentPath bent(const PoseGraph& graph, const std::vector<TPose2D>& unlooped, cons
     result.unlooped.back().normalizePhi();
   }
 
-  for (const TPose2D& pose : graph.poses()) result.graph.add_node(pose);
-  result.graph.set_root(graph.root());
-  for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
-    Constraint constraint = graph.constraint(i);
-    if (is_of_front_end(constraint)) {
-      const auto motion = [&](const std::vector<TPose2D>& path) {
-        return between(path[constraint.from], path[constraint.to]);
-      };
-      constraint.from_T_to =
-          compose(constraint.from_T_to, between(motion(unlooped), motion(result.unlooped)));
-      constraint.from_T_to.normalizePhi();
-    }
-    result.graph.set_enabled(result.graph.add_constraint(constraint), graph.enabled(i));
-  }
+  result.graph = with_changed_path(graph, [&](Constraint& constraint) {
+    const auto motion = [&](const std::vector<TPose2D>& path) {
+      return between(path[constraint.from], path[constraint.to]);
+    };
+    constraint.from_T_to = compose(constraint.from_T_to, between(motion(unlooped), motion(result.unlooped)));
+    constraint.from_T_to.normalizePhi();
+  });
   return result;
 }
 

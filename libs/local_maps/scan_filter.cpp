@@ -46,9 +46,7 @@ ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
   }
   const bool is_ring = !scan.ranges_m.empty() && is_full_circle(*scan.bearings_rad);
   result.points.shrink_to_fit();  // nodes keep these points
-  result.normals.reserve(result.points.size());
-  for (std::size_t i = 0; i < result.points.size(); ++i)
-    result.normals.push_back(surface_normal(result.points, i, is_ring));
+  result.normals = surface_normals(result.points, is_ring);
   result.farthest_m = std::sqrt(farthest_squared);
   return result;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "base/portable_math.h"
 #include "frames/scan_neighbours.h"
@@ -18,9 +20,25 @@ constexpr float kMaxSurfaceGap_m = 0.4F;    // largest gap between neighbours on
 constexpr float kMaxGapPerMetre = 0.15F;    // the same limit per metre of range; the larger limit applies
 constexpr float kMaxResidual_m = 0.04F;     // largest root mean square distance of points from their line
 
-bool on_one_surface(const Point& a, const Point& b) {
-  const float gap = portable::hypot(a.x - b.x, a.y - b.y);
-  return gap <= std::max(kMaxSurfaceGap_m, kMaxGapPerMetre * portable::hypot(a.x, a.y));
+// Whether a surface goes on from each point to the point after it, and to the point before it.
+struct Joints {
+  std::vector<std::uint8_t> to_next;
+  std::vector<std::uint8_t> to_previous;
+};
+
+Joints joints(const std::vector<Point>& points) {
+  const auto max_gap = [](const Point& from) {
+    return std::max(kMaxSurfaceGap_m, kMaxGapPerMetre * portable::hypot(from.x, from.y));
+  };
+  const std::size_t size = points.size();
+  Joints found{std::vector<std::uint8_t>(size), std::vector<std::uint8_t>(size)};
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::size_t next = index_on_ring(static_cast<std::ptrdiff_t>(i) + 1, size);
+    const float gap = portable::hypot(points[i].x - points[next].x, points[i].y - points[next].y);
+    found.to_next[i] = gap <= max_gap(points[i]) ? 1 : 0;
+    found.to_previous[next] = gap <= max_gap(points[next]) ? 1 : 0;
+  }
+  return found;
 }
 
 // Returns the unit vector along which points spread least, from the sums over their offsets (x, y) from the
@@ -53,10 +71,13 @@ struct Spread {
 
 // Returns the unit normal of the line through the neighbours of a point, and through the point itself if
 // `with_point`.
-Point normal_of_line(const std::vector<Point>& points, std::size_t index, bool is_ring, bool with_point) {
-  const Neighbourhood near =
-      neighbourhood(index, points.size(), kReach, is_ring,
-                    [&](std::size_t a, std::size_t b) { return on_one_surface(points[a], points[b]); });
+Point normal_of_line(const std::vector<Point>& points, const Joints& joints, std::size_t index, bool is_ring,
+                     bool with_point) {
+  const auto goes_on = [&](std::size_t from, std::size_t to) {
+    const bool is_next = to == index_on_ring(static_cast<std::ptrdiff_t>(from) + 1, points.size());
+    return (is_next ? joints.to_next : joints.to_previous)[from] != 0;
+  };
+  const Neighbourhood near = neighbourhood(index, points.size(), kReach, is_ring, goes_on);
   if (near.count() < kLeastPoints) return {0, 0};
   const auto at = [&](std::ptrdiff_t k) -> const Point& { return points[index_on_ring(k, points.size())]; };
   const auto is_used = [&](std::ptrdiff_t k) {
@@ -83,14 +104,23 @@ Point normal_of_line(const std::vector<Point>& points, std::size_t index, bool i
                                    static_cast<double>(spread.xy));
 }
 
-}  // namespace
-
-Point surface_normal(const std::vector<Point>& points, std::size_t index, bool is_ring) {
-  return normal_of_line(points, index, is_ring, true);
+std::vector<Point> normals_of_lines(const std::vector<Point>& points, bool is_ring, bool with_point) {
+  const Joints joined = joints(points);
+  std::vector<Point> normals;
+  normals.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    normals.push_back(normal_of_line(points, joined, i, is_ring, with_point));
+  return normals;
 }
 
-Point normal_of_neighbours(const std::vector<Point>& points, std::size_t index) {
-  return normal_of_line(points, index, false, false);
+}  // namespace
+
+std::vector<Point> surface_normals(const std::vector<Point>& points, bool is_ring) {
+  return normals_of_lines(points, is_ring, true);
+}
+
+std::vector<Point> normals_of_neighbours(const std::vector<Point>& points) {
+  return normals_of_lines(points, false, false);
 }
 
 }  // namespace psi_slam

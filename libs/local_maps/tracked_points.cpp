@@ -30,19 +30,16 @@ std::optional<GrazedWall> wall_from(const Point* points) {
 std::vector<Point> normals_along_walls(const std::vector<Point>& points, const std::vector<Point>& normals) {
   std::vector<std::optional<GrazedWall>> walls;  // by their first point
   for (std::size_t i = 0; i + kWallEnds <= points.size(); ++i) walls.push_back(wall_from(&points[i]));
-  std::vector<Point> result;
+  std::vector<Point> result = normals_of_neighbours(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_set(normals[i])) {
-      result.push_back(normal_of_neighbours(points, i));
-      continue;
-    }
+    if (is_set(normals[i])) continue;
     const GrazedWall* straightest = nullptr;
     for (std::size_t k = i < kWallEnds ? 0 : i - (kWallEnds - 1); k <= i && k < walls.size(); ++k)
       if (walls[k] && (straightest == nullptr || walls[k]->offset_m < straightest->offset_m))
         straightest = &*walls[k];
-    result.push_back(straightest == nullptr ? Point(0, 0)
-                                            : Point(static_cast<float>(straightest->normal.x),
-                                                    static_cast<float>(straightest->normal.y)));
+    result[i] = straightest == nullptr ? Point(0, 0)
+                                       : Point(static_cast<float>(straightest->normal.x),
+                                               static_cast<float>(straightest->normal.y));
   }
   return result;
 }

@@ -2,7 +2,9 @@
 #include "rendering/map_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -83,8 +85,35 @@ ShownPart shown_part(const COccupancyGridMap2D& grid, const MapPictureOptions& o
   return part;
 }
 
-/// Draws into an image of this size with three or four channels.
-void draw(const COccupancyGridMap2D& grid, const ShownPart& part, const Pixel& unknown, cv::Mat& image) {
+/// Draws each cell as a pixel, into an image of the size of `part` with three or four channels.
+void draw_cells(const COccupancyGridMap2D& grid, const ShownPart& part, const Pixel& unknown,
+                cv::Mat& image) {
+  using Cell = COccupancyGridMap2D::cellType;
+  std::array<Pixel, 256> colours;  // index: cell as an unsigned number
+  for (int value = 0; value < 256; ++value) {
+    const auto cell = static_cast<Cell>(static_cast<std::uint8_t>(value));
+    colours[static_cast<std::size_t>(value)] =
+        block_colour({is_occupied(cell) ? 1 : 0, is_free(cell) ? 1 : 0}, 1, unknown);
+  }
+  const int channels = image.channels();
+  for (int row = 0; row < image.rows; ++row) {
+    const int y = part.y_end - 1 - row;
+    const bool is_within = y >= 0 && y < static_cast<int>(grid.getSizeY());
+    const Cell* cells = is_within ? grid.getRow(y) : nullptr;
+    std::uint8_t* pixel = image.ptr(row);
+    for (int column = 0; column < image.cols; ++column, pixel += channels) {
+      const int x = part.x_begin + column;
+      const Pixel& colour = is_within && x >= 0 && x < static_cast<int>(grid.getSizeX())
+                                ? colours[static_cast<std::uint8_t>(cells[x])]
+                                : unknown;
+      std::copy_n(colour.val, channels, pixel);
+    }
+  }
+}
+
+/// Draws each block of cells as a pixel, as draw_cells() does each cell.
+void draw_blocks(const COccupancyGridMap2D& grid, const ShownPart& part, const Pixel& unknown,
+                 cv::Mat& image) {
   const int channels = image.channels();
   const int side = part.cells_a_pixel;
   BlockCount last;  // neighbours are mostly equal, so their colour is computed once
@@ -99,6 +128,10 @@ void draw(const COccupancyGridMap2D& grid, const ShownPart& part, const Pixel& u
       std::copy_n(colour.val, channels, pixel);
     }
   }
+}
+
+void draw(const COccupancyGridMap2D& grid, const ShownPart& part, const Pixel& unknown, cv::Mat& image) {
+  (part.cells_a_pixel == 1 ? draw_cells : draw_blocks)(grid, part, unknown, image);
 }
 
 }  // namespace
@@ -180,7 +213,7 @@ MapPicture map_picture(const COccupancyGridMap2D& grid, const MapPictureOptions&
 
   const Pixel& unknown = options.transparent_unknown ? kTransparentInk : kUnknownInk;
   const int type = options.transparent_unknown ? CV_8UC4 : CV_8UC3;
-  cv::Mat image(picture.height_px, picture.width_px, type, cv::Scalar(unknown));
+  cv::Mat image(picture.height_px, picture.width_px, type);
   cv::Mat map = image.rowRange(0, height_px);
   if (pixels_a_cell > 1) {
     cv::Mat small(part.height_px, part.width_px, type);
@@ -190,6 +223,7 @@ MapPicture map_picture(const COccupancyGridMap2D& grid, const MapPictureOptions&
     draw(grid, part, unknown, map);
   }
   if (options.scale_bar) {
+    image.rowRange(height_px, image.rows).setTo(cv::Scalar(unknown));
     const double bar_m = scale_bar_m(picture.width_px * picture.resolution_m, picture.resolution_m);
     draw_scale_bar(image, {2 * unit, height_px + 5 * unit / 2, unit}, bar_m, picture.resolution_m);
   }

@@ -23,23 +23,25 @@ ObstacleField::ObstacleField(const mrpt::maps::COccupancyGridMap2D& grid) {
   measure_distances(static_cast<std::ptrdiff_t>(width), static_cast<std::ptrdiff_t>(height));
 }
 
-// Two sweeps over the map carry the distances from cell to cell.
+// Two sweeps over the map carry the distances from row to row, and along each row.
 void ObstacleField::measure_distances(std::ptrdiff_t width, std::ptrdiff_t height) {
-  const auto update = [&](std::ptrdiff_t x, std::ptrdiff_t y, std::ptrdiff_t step) {
-    std::uint8_t& cell = distances_[static_cast<std::size_t>(y * width + x)];
-    int nearest = cell;
-    const auto look = [&](std::ptrdiff_t at_x, std::ptrdiff_t at_y) {
-      if (at_x < 0 || at_x >= width || at_y < 0 || at_y >= height) return;
-      nearest = std::min(nearest, 1 + distances_[static_cast<std::size_t>(at_y * width + at_x)]);
-    };
-    look(x - step, y);
-    for (std::ptrdiff_t at_x = x - 1; at_x <= x + 1; ++at_x) look(at_x, y - step);
-    cell = static_cast<std::uint8_t>(nearest);
+  const auto row_at = [&](std::ptrdiff_t y) { return &distances_[static_cast<std::size_t>(y * width)]; };
+  const auto look = [](std::uint8_t& cell, std::uint8_t other) {
+    cell = static_cast<std::uint8_t>(std::min<int>(cell, other + 1));
   };
-  for (std::ptrdiff_t y = 0; y < height; ++y)
-    for (std::ptrdiff_t x = 0; x < width; ++x) update(x, y, 1);
-  for (std::ptrdiff_t y = height - 1; y >= 0; --y)
-    for (std::ptrdiff_t x = width - 1; x >= 0; --x) update(x, y, -1);
+  const auto look_across = [&](std::uint8_t* row, const std::uint8_t* beside) {
+    for (std::ptrdiff_t x = 0; x < width; ++x) look(row[x], beside[x]);
+    for (std::ptrdiff_t x = 1; x < width; ++x) look(row[x], beside[x - 1]);
+    for (std::ptrdiff_t x = 1; x < width; ++x) look(row[x - 1], beside[x]);
+  };
+  for (std::ptrdiff_t y = 0; y < height; ++y) {
+    if (y > 0) look_across(row_at(y), row_at(y - 1));
+    for (std::ptrdiff_t x = 1; x < width; ++x) look(row_at(y)[x], row_at(y)[x - 1]);
+  }
+  for (std::ptrdiff_t y = height - 1; y >= 0; --y) {
+    if (y + 1 < height) look_across(row_at(y), row_at(y + 1));
+    for (std::ptrdiff_t x = width - 1; x > 0; --x) look(row_at(y)[x - 1], row_at(y)[x]);
+  }
 }
 
 }  // namespace psi_slam

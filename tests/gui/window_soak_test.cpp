@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Opens and replays a log again and again in one window.
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "../session/room_log.h"
+#include "allocated_memory.h"
 #include "gui_run.h"
 
 namespace psi_slam {
@@ -21,12 +21,6 @@ std::size_t cycles() {
   constexpr std::size_t kFew = 8;
   const char* const text = std::getenv("PSI_SLAM_SOAK_CYCLES");
   return text == nullptr ? kFew : std::max<std::size_t>(2, std::stoul(text));
-}
-
-/// Returns the memory that the program has allocated and not freed.
-double allocated_MiB() {
-  const struct mallinfo2 heap = mallinfo2();
-  return static_cast<double>(heap.uordblks + heap.hblkhd) / (1024 * 1024);
 }
 
 TEST(WindowSoakTest, opening_and_replaying_a_log_again_and_again_keeps_the_memory) {

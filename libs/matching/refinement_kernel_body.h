@@ -89,7 +89,7 @@ inline Samples interpolate(const PlacedScan& scan, const Doubles& x, const Doubl
   for (int j = 0; j < 4; ++j) {
     Ints cells = {};  // four neighbouring cells of a row, for each point
     for (int lane = 0; lane < kLanes; ++lane) {
-      std::int32_t four;
+      std::int32_t four = 0;
       const std::ptrdiff_t offset = (row[lane] - 1 + j) * scan.row_bytes + column[lane] - 1;
       std::memcpy(&four, scan.cells + offset, sizeof four);
       cells[lane] = four;

@@ -3,24 +3,34 @@
 # Checks all sources of libraries and programs with cppcheck: warnings, performance and portability. Prints the findings, and
 # ends with exit code 1 if there are any. tests/cppcheck.supp lists the wrong findings, with a reason for each.
 #
-#     share/scripts/check-sources.sh
+#     share/scripts/check-sources.sh          # takes a minute
+#     share/scripts/check-sources.sh --tidy   # clang-tidy, too, with the checks of .clang-tidy: takes half an hour
 #
-# Needs cppcheck (sudo apt-get install cppcheck) and a build folder with build/release/include, which build.sh makes. Takes a
-# minute.
+# Needs cppcheck (sudo apt-get install cppcheck) and a build folder with build/release/include, which build.sh makes. clang-tidy
+# needs clang and clang-tidy (sudo apt-get install clang clang-tidy), and configures build/fuzz.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-command -v cppcheck >/dev/null || {
-  echo "check-sources.sh: cppcheck is missing. Install it with sudo apt-get install cppcheck" >&2
+fail() {
+  echo "check-sources.sh: $1" >&2
   exit 2
 }
 
-[ -d build/release/include ] || {
-  echo "check-sources.sh: build/release/include is missing. Make it with share/scripts/build.sh" >&2
-  exit 2
-}
+case "${1:-}" in
+  '') programs=(cppcheck) ;;
+  --tidy) programs=(cppcheck clang++ run-clang-tidy) ;;
+  *) fail "unknown option $1, expected --tidy or nothing" ;;
+esac
+for program in "${programs[@]}"; do
+  command -v "$program" >/dev/null || fail "$program is missing. Install it with sudo apt-get install cppcheck clang clang-tidy"
+done
+[ -d build/release/include ] || fail "build/release/include is missing. Make it with share/scripts/build.sh"
 
 # The macro of the JSON library defines two functions that cppcheck does not need.
 cppcheck --enable=warning,performance,portability --std=c++17 --language=c++ --quiet --error-exitcode=1 -j "$(nproc)" \
   --suppress=missingIncludeSystem --suppressions-list=<(grep -v '^#' tests/cppcheck.supp) \
   -D 'NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(...)=' -I libs -I libs/include -I build/release/include libs apps
+
+[ "${1:-}" = --tidy ] || exit 0
+cmake --preset fuzz >/dev/null
+run-clang-tidy -p build/fuzz -quiet -j "$(nproc)" '/(libs|apps)/'

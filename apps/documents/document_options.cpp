@@ -137,7 +137,7 @@ std::string roff_text(std::string_view text) {
 }
 
 std::string man_page(const CLI::App& app, const ProgramFacts& facts) {
-  const std::string name = app.get_name();
+  const std::string& name = app.get_name();
   std::string page = heading(name, 1, app.version());
   page += roff_section("NAME") + roff_text(name) + " \\- " + roff_text(in_a_line(app)) + '\n';
   page += roff_section("SYNOPSIS");

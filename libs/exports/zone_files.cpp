@@ -64,7 +64,7 @@ bool has(const std::vector<MapEdit>& edits, Kind kind) {
 std::vector<std::uint8_t> mask_values(const Grid& grid, const std::vector<MapEdit>& edits, Kind kind,
                                       const std::function<std::uint8_t(const MapEdit&)>& value_of,
                                       const std::function<bool(std::uint8_t, std::uint8_t)>& is_stricter) {
-  std::vector<std::uint8_t> values(grid.getSizeX() * grid.getSizeY(), 0);
+  std::vector<std::uint8_t> values(static_cast<std::size_t>(grid.getSizeX()) * grid.getSizeY(), 0);
   for (const MapEdit& edit : edits) {
     if (edit.kind != kind) continue;
     const std::uint8_t value = value_of(edit);

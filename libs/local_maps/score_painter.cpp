@@ -38,7 +38,7 @@ ScorePainter::ScorePainter(double sigma_m, double resolution_m)
   for (int y = -reach_; y <= reach_; ++y)
     for (int x = -reach_; x <= reach_; ++x)
       kernel_.push_back(static_cast<std::uint16_t>(std::lround(256 * gauss(x) * gauss(y) / line)));
-  // NOLINTNEXTLINE(bugprone-signed-char-misuse): cells are signed numbers
+  // NOLINTNEXTLINE(bugprone-signed-char-misuse): the value of a cell is a signed number, not a character
   for (int raw = Grid::OCCGRID_CELLTYPE_MIN; raw <= Grid::OCCGRID_CELLTYPE_MAX; ++raw) {
     const double occupied = 1 - static_cast<double>(Grid::l2p(static_cast<Grid::cellType>(raw)));
     const double evidence = std::clamp((occupied - 0.5) / (kCertain - 0.5), 0.0, 1.0);

@@ -26,19 +26,20 @@ struct Joints {
   std::vector<std::uint8_t> to_previous;
 };
 
-Joints joints(const std::vector<Point>& points) {
-  const auto max_gap = [](const Point& from) {
-    return std::max(kMaxSurfaceGap_m, kMaxGapPerMetre * portable::hypot(from.x, from.y));
-  };
+Joints joints_of(const std::vector<Point>& points) {
   const std::size_t size = points.size();
-  Joints found{std::vector<std::uint8_t>(size), std::vector<std::uint8_t>(size)};
+  std::vector<float> max_gaps(size);
+  std::transform(points.begin(), points.end(), max_gaps.begin(), [](const Point& point) {
+    return std::max(kMaxSurfaceGap_m, kMaxGapPerMetre * portable::hypot(point.x, point.y));
+  });
+  Joints joints{std::vector<std::uint8_t>(size), std::vector<std::uint8_t>(size)};
   for (std::size_t i = 0; i < size; ++i) {
     const std::size_t next = index_on_ring(static_cast<std::ptrdiff_t>(i) + 1, size);
     const float gap = portable::hypot(points[i].x - points[next].x, points[i].y - points[next].y);
-    found.to_next[i] = gap <= max_gap(points[i]) ? 1 : 0;
-    found.to_previous[next] = gap <= max_gap(points[next]) ? 1 : 0;
+    joints.to_next[i] = gap <= max_gaps[i] ? 1 : 0;
+    joints.to_previous[next] = gap <= max_gaps[next] ? 1 : 0;
   }
-  return found;
+  return joints;
 }
 
 // Returns the unit vector along which points spread least, from the sums over their offsets (x, y) from the
@@ -105,11 +106,11 @@ Point normal_of_line(const std::vector<Point>& points, const Joints& joints, std
 }
 
 std::vector<Point> normals_of_lines(const std::vector<Point>& points, bool is_ring, bool with_point) {
-  const Joints joined = joints(points);
+  const Joints joints = joints_of(points);
   std::vector<Point> normals;
   normals.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    normals.push_back(normal_of_line(points, joined, i, is_ring, with_point));
+    normals.push_back(normal_of_line(points, joints, i, is_ring, with_point));
   return normals;
 }
 

@@ -29,7 +29,7 @@ using mrpt::obs::CSensoryFrame;
 CActionCollection::Ptr no_movement(const CSensoryFrame& frame) {
   constexpr double kVariance = 1e-6;  // positive, because MRPT's deciders invert the covariance
   mrpt::obs::CActionRobotMovement3D action;
-  if (frame.size() > 0) action.timestamp = (*frame.begin())->timestamp;
+  if (!frame.empty()) action.timestamp = (*frame.begin())->timestamp;
   action.poseChange.cov.setDiagonal(kVariance);
   auto collection = CActionCollection::Create();
   collection->insert(action);

@@ -23,6 +23,8 @@ PyObject* add_exception(py::module_& module, const char* name, PyObject* base, c
   return made;
 }
 
+// pybind11 takes a function of this type.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);

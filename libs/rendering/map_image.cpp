@@ -111,7 +111,7 @@ void draw_cells(const COccupancyGridMap2D& grid, const ShownPart& part, const Pi
   }
 }
 
-/// Draws each block of cells as a pixel, as draw_cells() does each cell.
+/// Draws each block of cells as a pixel. The arguments are those of draw_cells().
 void draw_blocks(const COccupancyGridMap2D& grid, const ShownPart& part, const Pixel& unknown,
                  cv::Mat& image) {
   const int channels = image.channels();

@@ -25,22 +25,23 @@ ObstacleField::ObstacleField(const mrpt::maps::COccupancyGridMap2D& grid) {
 
 // Two sweeps over the map carry the distances from row to row, and along each row.
 void ObstacleField::measure_distances(std::ptrdiff_t width, std::ptrdiff_t height) {
-  const auto row_at = [&](std::ptrdiff_t y) { return &distances_[static_cast<std::size_t>(y * width)]; };
-  const auto look = [](std::uint8_t& cell, std::uint8_t other) {
+  const auto row_at = [&](std::ptrdiff_t y) { return distances_.data() + y * width; };
+  const auto lower = [](std::uint8_t& cell, std::uint8_t other) {
     cell = static_cast<std::uint8_t>(std::min<int>(cell, other + 1));
   };
-  const auto look_across = [&](std::uint8_t* row, const std::uint8_t* beside) {
-    for (std::ptrdiff_t x = 0; x < width; ++x) look(row[x], beside[x]);
-    for (std::ptrdiff_t x = 1; x < width; ++x) look(row[x], beside[x - 1]);
-    for (std::ptrdiff_t x = 1; x < width; ++x) look(row[x - 1], beside[x]);
+  // Lowers the distances of a row by those of the row beside it.
+  const auto lower_by_row = [&](std::uint8_t* row, const std::uint8_t* beside) {
+    for (std::ptrdiff_t x = 0; x < width; ++x) lower(row[x], beside[x]);
+    for (std::ptrdiff_t x = 1; x < width; ++x) lower(row[x], beside[x - 1]);
+    for (std::ptrdiff_t x = 1; x < width; ++x) lower(row[x - 1], beside[x]);
   };
   for (std::ptrdiff_t y = 0; y < height; ++y) {
-    if (y > 0) look_across(row_at(y), row_at(y - 1));
-    for (std::ptrdiff_t x = 1; x < width; ++x) look(row_at(y)[x], row_at(y)[x - 1]);
+    if (y > 0) lower_by_row(row_at(y), row_at(y - 1));
+    for (std::ptrdiff_t x = 1; x < width; ++x) lower(row_at(y)[x], row_at(y)[x - 1]);
   }
   for (std::ptrdiff_t y = height - 1; y >= 0; --y) {
-    if (y + 1 < height) look_across(row_at(y), row_at(y + 1));
-    for (std::ptrdiff_t x = width - 1; x > 0; --x) look(row_at(y)[x - 1], row_at(y)[x]);
+    if (y + 1 < height) lower_by_row(row_at(y), row_at(y + 1));
+    for (std::ptrdiff_t x = width - 1; x > 0; --x) lower(row_at(y)[x - 1], row_at(y)[x]);
   }
 }
 

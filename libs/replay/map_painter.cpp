@@ -130,6 +130,7 @@ void MapPainter::work() {
     if (!has_work()) continue;
     std::optional<MapSketch> to_draw;
     if (may_draw()) to_draw = std::exchange(wanted_, std::nullopt);
+    const bool draws = to_draw.has_value();
     const std::vector<MapEdit> edits = edits_;
     edits_changed_ = false;
     lock.unlock();
@@ -144,7 +145,7 @@ void MapPainter::work() {
     } catch (const std::exception&) {  // out of memory: keep the previous drawing
     }
     const auto end = Clock::now();
-    if (to_draw) rested_at = end + std::max<Clock::duration>(kLeastRest, kRestPerWork * (end - start));
+    if (draws) rested_at = end + std::max<Clock::duration>(kLeastRest, kRestPerWork * (end - start));
     lock.lock();
     if (drawn) drawn_ = std::move(drawn);
   }

@@ -111,7 +111,8 @@ std::string report_html(const MappingResult& result, const RunInfo& info, const 
                response_plot(result, summary.unmatched) + unmatched_table(summary.unmatched));
   html += card("The factor Ψ and the searches that ran", psi_key(result), psi_plot(result));
   html += card("Loop matching time per node", kKey, loop_matching_plot(result));
-  html += card("Time per stage", "stages of several threads overlap", stages_table(result.stages, result.wall_s));
+  html += card("Time per stage", "with several threads, stages overlap: shares may add up to over 100 %",
+               stages_table(result.stages, result.wall_s));
   html += card("Processing time per scan", kKey, work_plot(result));
   html += loops_card(result, summary.loops);
   html += "<div class=\"pair\">\n" + card("Input log", "", log_table(summary.log, info.log_name)) +

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Checks all sources of libraries and programs with cppcheck: warnings, performance and portability. Prints the findings, and
-# ends with exit code 1 if there are any. tests/cppcheck.supp lists the wrong findings, with a reason for each.
+# Checks all sources of libraries and programs with cppcheck and, with --tidy, also with clang-tidy. Prints the findings, and
+# ends with exit code 1 if there are any. clang-tidy runs only if cppcheck finds nothing. tests/cppcheck.supp and .clang-tidy list
+# what is left out, each with a reason.
 #
 #     share/scripts/check-sources.sh          # takes a minute
-#     share/scripts/check-sources.sh --tidy   # clang-tidy, too, with the checks of .clang-tidy: takes half an hour
+#     share/scripts/check-sources.sh --tidy   # takes half an hour
 #
-# Needs cppcheck (sudo apt-get install cppcheck) and a build folder with build/release/include, which build.sh makes. clang-tidy
-# needs clang and clang-tidy (sudo apt-get install clang clang-tidy), and configures build/fuzz.
+# Needs cppcheck and build/release/include, which build.sh makes. --tidy also needs clang and clang-tidy, and configures the build
+# folder build/fuzz.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -33,4 +34,4 @@ cppcheck --enable=warning,performance,portability --std=c++17 --language=c++ --q
 
 [ "${1:-}" = --tidy ] || exit 0
 cmake --preset fuzz >/dev/null
-run-clang-tidy -p build/fuzz -quiet -j "$(nproc)" '/(libs|apps)/'
+run-clang-tidy -p build/fuzz -quiet -j "$(nproc)" -header-filter "^$PWD/(libs|apps)/" "^$PWD/(build/fuzz/)?(libs|apps)/"

@@ -25,7 +25,8 @@ std::size_t cycles() {
 
 TEST(WindowSoakTest, opening_and_replaying_a_log_again_and_again_keeps_the_memory) {
   if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run from Debian's package xvfb";
-  if (kHasAddressSanitizer) GTEST_SKIP() << "the sanitizer has its own memory allocation";
+  if (kHasAddressSanitizer || kHasThreadSanitizer)
+    GTEST_SKIP() << "sanitizers have their own memory allocation";
   GuiRun gui;
   const std::string log = write_lines(gui.folder() / "room.log", room_log_lines(60)).string();
   std::vector<double> memory_MiB;

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <optional>
 #include <random>
 #include <vector>
@@ -106,15 +108,29 @@ TEST(SurfaceNormals, are_those_of_lines_through_the_neighbours_one_by_one) {
   EXPECT_GT(others, 1000);
 }
 
-TEST(SurfaceNormals, few_points_have_none) {
-  for (const bool is_ring : {false, true}) {
-    EXPECT_TRUE(surface_normals({}, is_ring).empty());
-    for (const std::size_t count : {1U, 2U, 3U}) {
-      std::vector<Point> points;
-      for (std::size_t i = 0; i < count; ++i) points.emplace_back(1, 0.1F * static_cast<float>(i));
-      EXPECT_EQ(surface_normals(points, is_ring), std::vector<Point>(count, Point(0, 0)));
-    }
+std::vector<Point> points_of_a_wall(std::size_t count) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < count; ++i) points.emplace_back(1, 0.1F * static_cast<float>(i));
+  return points;
+}
+
+TEST(SurfaceNormals, fewer_than_four_points_have_none) {
+  for (const std::size_t count : {0U, 1U, 2U, 3U}) {
+    const std::vector<Point> points = points_of_a_wall(count);
+    const std::vector<Point> none(count, Point(0, 0));
+    EXPECT_EQ(surface_normals(points, false), none);
+    EXPECT_EQ(surface_normals(points, true), none);
+    EXPECT_EQ(normals_of_neighbours(points), none);
   }
+}
+
+TEST(SurfaceNormals, a_small_ring_uses_each_point_once) {
+  for (const std::size_t count : {4U, 5U, 6U, 7U, 8U})
+    for (const bool is_ring : {false, true})
+      for (const Point& normal : surface_normals(points_of_a_wall(count), is_ring)) {
+        EXPECT_NEAR(std::abs(normal.x), 1, 1e-5) << count << " points";
+        EXPECT_NEAR(normal.y, 0, 1e-5) << count << " points";
+      }
 }
 
 }  // namespace

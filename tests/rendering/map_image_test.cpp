@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "rendering/picture_ink.h"
+
 namespace psi_slam {
 namespace {
 
@@ -91,6 +93,18 @@ TEST(MapImage, is_cropped_to_the_seen_part_and_its_margin) {
   EXPECT_EQ(framed.width_px, 12);
   EXPECT_NEAR(framed.x_min_m, -2, 1e-6);
   EXPECT_NEAR(framed.y_max_m, 5.5, 1e-6);
+}
+
+TEST(MapImage, shows_walls_free_and_unknown_space_in_their_colours) {
+  const auto opaque = [](const Pixel& ink) { return cv::Vec3b(ink[0], ink[1], ink[2]); };
+  MapPictureOptions options = plain();
+  options.margin_m = 0.5;  // two cells, which lie beyond the grid on the left and below
+  const cv::Mat image = decoded(map_picture(lopsided_map(), options).png);
+  EXPECT_EQ(image.at<cv::Vec3b>(4, 6), opaque(kWallInk));
+  EXPECT_EQ(image.at<cv::Vec3b>(4, 5), opaque(kFreeInk));
+  EXPECT_EQ(image.at<cv::Vec3b>(0, 11), opaque(kUnknownInk)) << "within the grid";
+  EXPECT_EQ(image.at<cv::Vec3b>(0, 0), opaque(kUnknownInk)) << "left of the grid";
+  EXPECT_EQ(image.at<cv::Vec3b>(7, 6), opaque(kUnknownInk)) << "below the grid";
 }
 
 TEST(MapImage, small_maps_are_enlarged_and_large_ones_reduced_by_whole_numbers) {

@@ -283,7 +283,7 @@ TEST_F(MappingSessionTest, checks_settings_and_log_before_mapping) {
 
 TEST_F(MappingSessionTest, exports_the_graph_and_the_figures_of_the_whole_run) {
   settings_.mapper.front_end.window_m = 0.2;
-  settings_.run.threads = 1;  // stages of several threads overlap
+  settings_.run.threads = 1;  // with more, stages overlap and may add up to more than wall_s
   MappingSession session(log(room_log_lines(60)), settings_);
   session.run(go_on_);
   const RunSummary summary = session.export_to(output());

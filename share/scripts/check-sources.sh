@@ -34,4 +34,5 @@ cppcheck --enable=warning,performance,portability --std=c++17 --language=c++ --q
 
 [ "${1:-}" = --tidy ] || exit 0
 cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz --target psi_slam_commit >/dev/null  # makes a header
 run-clang-tidy -p build/fuzz -quiet -j "$(nproc)" -header-filter "^$PWD/(libs|apps)/" "^$PWD/(build/fuzz/)?(libs|apps)/"

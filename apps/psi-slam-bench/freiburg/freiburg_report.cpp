@@ -24,7 +24,7 @@ using CellColumn = ColumnOf<CellRow>;
 std::vector<CellRow> rows_of(const FreiburgBenchmark& benchmark, bool with_failed) {
   std::vector<CellRow> rows;
   for (const FreiburgCell& cell : benchmark.cells)
-    if (auto figures = figures_of(cell); figures || with_failed) rows.push_back({&cell, std::move(figures)});
+    if (const auto figures = figures_of(cell); figures || with_failed) rows.push_back({&cell, figures});
   return rows;
 }
 

@@ -20,7 +20,7 @@ constexpr float kMaxSurfaceGap_m = 0.4F;    // largest gap between neighbours on
 constexpr float kMaxGapPerMetre = 0.15F;    // the same limit per metre of range; the larger limit applies
 constexpr float kMaxResidual_m = 0.04F;     // largest root mean square distance of points from their line
 
-// Whether a surface goes on from each point to the point after it, and to the point before it.
+// Whether a surface continues from each point to the next one, and to the previous one.
 struct Joints {
   std::vector<std::uint8_t> to_next;
   std::vector<std::uint8_t> to_previous;

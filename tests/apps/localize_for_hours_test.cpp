@@ -54,7 +54,7 @@ class CarriedRobot {
  public:
   CarriedRobot(const MappingResult& mapped, Localizer& localizer) : mapped_(mapped), localizer_(localizer) {}
 
-  /// Replays the scans [begin, end) of the log. Times go on from those before.
+  /// Replays the scans [begin, end) of the log. Times continue from those before.
   void replay(std::size_t begin, std::size_t end, Figures& figures) {
     constexpr double kWrong_m = 0.5;
     const Frame& first = mapped_.log[begin];

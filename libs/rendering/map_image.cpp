@@ -2,7 +2,6 @@
 #include "rendering/map_image.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
@@ -88,25 +87,18 @@ ShownPart shown_part(const COccupancyGridMap2D& grid, const MapPictureOptions& o
 /// Draws each cell as a pixel, into an image of the size of `part` with three or four channels.
 void draw_cells(const COccupancyGridMap2D& grid, const ShownPart& part, const Pixel& unknown,
                 cv::Mat& image) {
-  using Cell = COccupancyGridMap2D::cellType;
-  std::array<Pixel, 256> colours;  // index: cell as an unsigned number
-  for (int value = 0; value < 256; ++value) {
-    const auto cell = static_cast<Cell>(static_cast<std::uint8_t>(value));
-    colours[static_cast<std::size_t>(value)] =
-        block_colour({is_occupied(cell) ? 1 : 0, is_free(cell) ? 1 : 0}, 1, unknown);
-  }
   const int channels = image.channels();
   for (int row = 0; row < image.rows; ++row) {
     const int y = part.y_end - 1 - row;
     const bool is_within = y >= 0 && y < static_cast<int>(grid.getSizeY());
-    const Cell* cells = is_within ? grid.getRow(y) : nullptr;
+    const COccupancyGridMap2D::cellType* cells = is_within ? grid.getRow(y) : nullptr;
     std::uint8_t* pixel = image.ptr(row);
     for (int column = 0; column < image.cols; ++column, pixel += channels) {
       const int x = part.x_begin + column;
-      const Pixel& colour = is_within && x >= 0 && x < static_cast<int>(grid.getSizeX())
-                                ? colours[static_cast<std::uint8_t>(cells[x])]
-                                : unknown;
-      std::copy_n(colour.val, channels, pixel);
+      const Pixel* colour = &unknown;
+      if (is_within && x >= 0 && x < static_cast<int>(grid.getSizeX()))
+        colour = is_occupied(cells[x]) ? &kWallInk : is_free(cells[x]) ? &kFreeInk : &unknown;
+      std::copy_n(colour->val, channels, pixel);
     }
   }
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "allocated_memory.h"
+#include "exports/mapped_trajectory.h"
 #include "frames/discarded_ranges.h"
 #include "frames/pose_operations.h"
 #include "psi_slam/grid_map.h"
@@ -100,9 +101,7 @@ TEST(LocalizeForHours, keeps_the_memory_and_finds_the_robot_again_and_again) {
   }
   session.finish();
   const MappingResult& mapped = session.result();
-  std::vector<TPose2D> map_T_robot;
-  for (const FrameRecord& record : mapped.frames) map_T_robot.push_back(record.map_T_robot);
-  Localizer localizer(*draw_grid_map(mapped.log, map_T_robot, bound.settings.map),
+  Localizer localizer(*draw_grid_map(mapped.log, mapped_poses(mapped), bound.settings.map),
                       localizer_options(bound.settings));
 
   const std::size_t scans = mapped.log.size();
@@ -121,9 +120,8 @@ TEST(LocalizeForHours, keeps_the_memory_and_finds_the_robot_again_and_again) {
   const double log_time_s = static_cast<double>(rounds) * round_s;
   std::printf(
       "%zu rounds, %.1f h of log time, %.0f times as fast as real time; carried %zu times, noticed %zu, "
-      "found "
-      "again %zu; %.1f %% of the scans tracked, %zu farther than 0.5 m from the map's path; memory after the "
-      "first round %.1f MiB, after half of them %.1f, after the last %.1f\n",
+      "found again %zu; %.1f %% of the scans tracked, %zu farther than 0.5 m from the map's path; memory "
+      "after the first round %.1f MiB, after half of them %.1f, after the last %.1f\n",
       rounds, log_time_s / 3600, log_time_s / took.count(), figures.carries, figures.noticed, figures.found,
       100 * share, figures.wrong, figures.memory_MiB.front(), figures.memory_MiB[rounds / 2],
       figures.memory_MiB.back());

@@ -66,7 +66,7 @@ class MainFrame : public wxFrame {
 
   /// Opens a log or a session. A session also replaces the window's settings. `edits`, if given, replace the
   /// session's edits. `overrule` may change settings that do not shape the map of the session.
-  void open_log(const std::filesystem::path& log, std::optional<EditJournal> edits = {},
+  void open_log(const std::filesystem::path& log, const std::optional<EditJournal>& edits = {},
                 const std::function<void(BoundSettings&)>& overrule = {});
   /// Calls open_log(), but asks first if edits or a live map would be lost.
   void open_other_log(const std::filesystem::path& log);

@@ -208,10 +208,10 @@ void MainFrame::start(const std::string& log, const std::string& config,
   });
   settings_panel_->refresh();
   if (log.empty()) return;
-  open_log(log, std::move(journal), [=](BoundSettings& bound) { bound.load(config, settings); });
+  open_log(log, journal, [=](BoundSettings& bound) { bound.load(config, settings); });
 }
 
-void MainFrame::open_log(const Path& log, std::optional<EditJournal> edits,
+void MainFrame::open_log(const Path& log, const std::optional<EditJournal>& edits,
                          const std::function<void(BoundSettings&)>& overrule) {
   const auto open_input = [=](SessionInput input, const std::vector<std::string>& remarks) {
     opened_ = log;

@@ -227,7 +227,7 @@ std::vector<PlotColumn> plot_columns(const HistoryView<FrameRecord>& frames, std
     const auto scans = static_cast<double>(end - first);
     for (double* mean : {&column.front_end_ms, &column.loops_ms, &column.graph_ms}) *mean /= scans;
     before = column;
-    result.push_back(std::move(column));
+    result.push_back(column);
   }
   return result;
 }

@@ -9,11 +9,15 @@
 #include <optional>
 #include <utility>
 
+#include "base/allocation_limit.h"
 #include "compression/compressed_file.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
+
+/// Memory for one object. MRPT allocates the number of elements that an object states before it reads them.
+constexpr std::size_t kLargestObject_bytes = std::size_t{256} << 20;
 
 /// Stream for mrpt::serialization::archiveFrom(). Reads one byte ahead, to distinguish an end of file between
 /// objects from one within an object.
@@ -102,6 +106,7 @@ mrpt::serialization::CSerializable::Ptr RawlogArchive::next() {
   if (stream.is_at_end()) return nullptr;
   ++state_->objects;
   try {
+    const AllocationLimit limit(kLargestObject_bytes);
     return state_->archive.ReadObject();
   } catch (const std::exception&) {
     if (stream.failure()) throw UserError(*stream.failure());

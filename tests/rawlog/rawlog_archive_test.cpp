@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdint>
+
 #include "log_files.h"
 #include "rawlog_files.h"
 #include "temporary_folder.h"
@@ -66,6 +68,22 @@ TEST_F(RawlogArchiveTest, reports_an_unknown_or_damaged_object) {
                                                   ": object 2 is damaged or has a class that this version of "
                                                   "MRPT does not know, expected an action, a "
                                                   "sensory frame or an observation");
+}
+
+/// Without a limit, MRPT would take 4 GiB and then find the end of the file.
+TEST_F(RawlogArchiveTest, refuses_an_object_that_states_a_billion_elements) {
+  const std::vector<float> ranges_m{1, 2, 3, 4, 5};
+  write_rawlog(path_, {range_scan(1, "laser", ranges_m)}, false);
+  std::string damaged = read_file(path_);
+  const auto little_endian = [](const auto& value) {
+    return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  const std::string count = little_endian(std::uint32_t{5});
+  const std::size_t place = damaged.find(count + little_endian(ranges_m[0]));
+  ASSERT_NE(place, std::string::npos);
+  write_file(path_, damaged.replace(place, count.size(), little_endian(std::uint32_t{1} << 30)));
+  EXPECT_EQ(sentence_of([&] { read_all(); }).substr(0, path_.string().size() + 21),
+            path_.string() + ": object 1 is damaged");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ constexpr double kLeastWeight = 0.05;
 
 double weight(const LoopConsensus::Vote& vote) {
   const double weight = 1 - vote.ambiguity;
-  return weight < kLeastWeight ? 0 : weight;
+  return weight < kLeastWeight ? 0 : weight * vote.response;
 }
 
 }  // namespace

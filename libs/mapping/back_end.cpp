@@ -57,8 +57,9 @@ std::vector<std::size_t> BackEnd::confirmed_by(std::size_t index, const Keyframe
   if (loop.verdict != LoopVerdict::kPending) return {};
   const NodeScan& here = keyframes.nodes[loop.node];
   return consensus_.add(
-      {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity}, graph,
-      [&](std::size_t other) { return ledger_.loops()[other].verdict == LoopVerdict::kPending; });
+      {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity,
+       loop.response},
+      graph, [&](std::size_t other) { return ledger_.loops()[other].verdict == LoopVerdict::kPending; });
 }
 
 std::optional<double> BackEnd::optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver) {

@@ -345,7 +345,7 @@ void describe_consensus(OptionTable& table, LoopConsensusOptions& consensus) {
               "Least travel from the first to the last of the matches that agree.")
       .number("min_weight", consensus.min_weight, above(0), "",
               "Least total weight of the matches that agree. A match weighs 1 minus its ambiguity, and 0 if "
-              "that is below 0.05.")
+              "that is below 0.05. While mapping, it weighs that times its response.")
       .number("max_other_place_share", consensus.max_rival_share, between(0, 1), "",
               "Largest weight of any other place, as a share of the weight of the matches that agree.");
 }

@@ -80,6 +80,26 @@ TEST(LoopConsensus, confirmed_matches_are_forgotten) {
   EXPECT_EQ(consensus.add(vote(3, 9.5), graph), Loops({2, 3}));
 }
 
+// From a simulated building with equal corridors 15 m apart: responses of three matches that led to another
+// corridor.
+TEST(LoopConsensus, weak_matches_need_more_others_than_strong_ones) {
+  const PoseGraph graph = two_anchors();
+  const auto weighed = [&](double response) {
+    LoopConsensus consensus({});
+    Loops confirmed;
+    std::size_t loop = 0;
+    for (const double ambiguity : {0.91, 0.77, 0.77}) {
+      LoopConsensus::Vote one = vote(loop, static_cast<double>(loop), ambiguity);
+      one.response = response;
+      confirmed = consensus.add(one, graph);
+      ++loop;
+    }
+    return confirmed;
+  };
+  EXPECT_EQ(weighed(0.40), Loops());
+  EXPECT_EQ(weighed(0.95), Loops({0, 1, 2}));  // 0.95 * (0.09 + 0.23 + 0.23) = 0.52, and 0.5 is enough
+}
+
 TEST(LoopConsensus, ambiguous_matches_need_many_others) {
   const PoseGraph graph = two_anchors();
   LoopConsensus consensus({});

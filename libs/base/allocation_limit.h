@@ -7,8 +7,9 @@
 
 namespace psi_slam {
 
-/// Limits the memory that the calling thread allocates while it lives: what would exceed the limit ends with
-/// std::bad_alloc. Memory that is freed meanwhile counts, too. It is for calls of other libraries that
+/// Limits what the calling thread allocates during the lifetime of this object. An allocation beyond the
+/// limit throws std::bad_alloc. Freed memory still counts. A nested limit also counts for the outer ones.
+/// Counts operator new and mrpt::aligned_malloc(), not malloc(). It is for calls of other libraries that
 /// allocate whatever size a file states. Works in programs that link psi_slam_limited_new, as those of
 /// psi-slam do; in others it does nothing.
 class AllocationLimit {

@@ -10,7 +10,8 @@
 namespace psi_slam {
 
 /// Compares the places that searches of a finished map found for nodes along a path. A place counts once
-/// other places agree with it, see LoopConsensus.
+/// other places agree with it, see LoopConsensus. The response of a place is not weighed, because each place
+/// was verified by the scans around it.
 class PlaceConsensus {
  public:
   /// Places wait longer for others than loops do: searches of a whole map are 1 m of travel or more apart.

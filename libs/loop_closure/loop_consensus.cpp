@@ -11,12 +11,16 @@
 namespace psi_slam {
 namespace {
 
-// Matches of a smaller weight count for nothing, however many they are.
-constexpr double kLeastWeight = 0.05;
+// Matches whose ambiguity leaves less than this count for nothing, however many they are.
+constexpr double kLeastUniqueness = 0.05;
+
+// Matches with this response or more count fully. True matches in wide windows may have no more than 0.6
+// where a corridor looks alike for a long way.
+constexpr double kFullResponse = 0.6;
 
 double weight(const LoopConsensus::Vote& vote) {
-  const double weight = 1 - vote.ambiguity;
-  return weight < kLeastWeight ? 0 : weight * vote.response;
+  const double uniqueness = 1 - vote.ambiguity;
+  return uniqueness < kLeastUniqueness ? 0 : uniqueness * std::min(1.0, vote.response / kFullResponse);
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 // scans imply the same pose, whereas false matches imply different poses. The weight of a match decreases
 // with its ambiguity, down to 0: along a corridor with equal doors, matches that are all off by the same
 // number of doors agree with each other for as long as the robot follows the corridor. For the same reason,
-// only matches within a few metres of travel count together. The weight also decreases with the response:
-// where the true place is outside the window, or in another local map, some matches of 0.4 may agree at a
-// place that looks like it.
+// only matches within a few metres of travel count together. The weight also decreases with a response below
+// 0.6. If the true place is outside the window or in another local map, a few matches with responses of about
+// 0.4 may agree on a similar place.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -27,8 +27,8 @@ struct LoopConsensusOptions {
   double same_heading_rad = radians_from_degrees(3.5L);  ///< largest turn between poses that agree
   /// Shortest path between the first match that agrees and has a weight, and the last.
   double min_span_m = 1.0;
-  /// Minimum sum of agreeing weights. A weight is 1 - ambiguity, or 0 if that is below 0.05, times the
-  /// response.
+  /// Minimum sum of agreeing weights. A weight is 1 - ambiguity, or 0 if that is below 0.05. Below a response
+  /// of 0.6, the weight is less in proportion.
   double min_weight = 0.5;
   double max_rival_share = 0.5;  ///< largest weight of another place, divided by the sum of agreeing weights
 };
@@ -44,7 +44,7 @@ class LoopConsensus {
     std::size_t anchor = 0;              ///< anchor of the matched local map
     mrpt::math::TPose2D anchor_T_robot;  ///< matched pose
     double ambiguity = 0;
-    double response = 1;  ///< of the match, 0 to 1
+    double response = 1;  ///< of the match, 0 to 1; 1 does not weigh it
   };
 
   /// Adds a vote. Returns the loops that it confirms, including its own loop; empty without a confirmation.

@@ -6,6 +6,7 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <exception>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -108,6 +109,9 @@ mrpt::serialization::CSerializable::Ptr RawlogArchive::next() {
   try {
     const AllocationLimit limit(kLargestObject_bytes);
     return state_->archive.ReadObject();
+  } catch (const std::bad_alloc&) {
+    throw UserError(place() + " needs more than " + std::to_string(kLargestObject_bytes >> 20) +
+                    " MiB of memory, so it is probably damaged. Fetch the log again");
   } catch (const std::exception&) {
     if (stream.failure()) throw UserError(*stream.failure());
     if (stream.ended_early() && state_->is_growing) return nullptr;

@@ -71,7 +71,7 @@ endfunction()
 
 # psi_slam_add_app(NAME [COMPONENT component] SOURCES file... LINK dependency...)
 # Adds a program and installs it with its man page and completion. The program must have the options of
-# add_document_options(). It belongs to the component `programs` unless COMPONENT names another one.
+# add_document_options(). Its operator new keeps AllocationLimit. It belongs to the component `programs` unless COMPONENT names another one.
 function(psi_slam_add_app name)
   cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_COMPONENT)

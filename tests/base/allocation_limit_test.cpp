@@ -41,6 +41,7 @@ TEST(AllocationLimit, refuses_aligned_memory) {
   const AllocationLimit limit(kLimit_bytes);
   EXPECT_EQ(std::vector<Line>(10).size(), 10U);
   EXPECT_THROW(std::vector<Line>(kLimit_bytes / 64), std::bad_alloc);
+  operator delete(operator new(10, std::align_val_t(1)), std::align_val_t(1));
   allocate<mrpt::aligned_allocator_cpp11<char>>(1000);
   EXPECT_THROW(allocate<mrpt::aligned_allocator_cpp11<char>>(kLimit_bytes), std::bad_alloc);
 }

@@ -80,24 +80,23 @@ TEST(LoopConsensus, confirmed_matches_are_forgotten) {
   EXPECT_EQ(consensus.add(vote(3, 9.5), graph), Loops({2, 3}));
 }
 
-// From a simulated building with equal corridors 15 m apart: responses of three matches that led to another
-// corridor.
+// Ambiguities and responses like those of matches that led to another corridor of a simulated building.
 TEST(LoopConsensus, weak_matches_need_more_others_than_strong_ones) {
   const PoseGraph graph = two_anchors();
-  const auto weighed = [&](double response) {
+  const auto confirmed_of = [&](std::size_t matches, double response) {
     LoopConsensus consensus({});
     Loops confirmed;
-    std::size_t loop = 0;
-    for (const double ambiguity : {0.91, 0.77, 0.77}) {
-      LoopConsensus::Vote one = vote(loop, static_cast<double>(loop), ambiguity);
-      one.response = response;
-      confirmed = consensus.add(one, graph);
-      ++loop;
+    for (std::size_t i = 0; i < matches; ++i) {
+      LoopConsensus::Vote match = vote(i, 0.8 * static_cast<double>(i), 0.8);
+      match.response = response;
+      confirmed = consensus.add(match, graph);
     }
-    return confirmed;
+    return confirmed.size();
   };
-  EXPECT_EQ(weighed(0.40), Loops());
-  EXPECT_EQ(weighed(0.95), Loops({0, 1, 2}));  // 0.95 * (0.09 + 0.23 + 0.23) = 0.52, and 0.5 is enough
+  EXPECT_EQ(confirmed_of(3, 0.9), 3U);  // 3 * 0.2 is more than 0.5
+  EXPECT_EQ(confirmed_of(3, 0.6), 3U);
+  EXPECT_EQ(confirmed_of(3, 0.4), 0U);
+  EXPECT_EQ(confirmed_of(4, 0.4), 4U);  // 4 * 0.2 * 0.4 / 0.6 = 0.53
 }
 
 TEST(LoopConsensus, ambiguous_matches_need_many_others) {

@@ -15,10 +15,10 @@ namespace psi_slam {
 class AllocationLimit {
  public:
   explicit AllocationLimit(std::size_t max_bytes)
-      : before_bytes_(left_bytes_), given_bytes_(std::min(max_bytes, left_bytes_)) {
-    left_bytes_ = given_bytes_;
+      : withheld_bytes_(left_bytes_ - std::min(max_bytes, left_bytes_)) {
+    left_bytes_ -= withheld_bytes_;
   }
-  ~AllocationLimit() { left_bytes_ = before_bytes_ - (given_bytes_ - left_bytes_); }
+  ~AllocationLimit() { left_bytes_ += withheld_bytes_; }
   AllocationLimit(const AllocationLimit&) = delete;
   AllocationLimit& operator=(const AllocationLimit&) = delete;
 
@@ -33,8 +33,7 @@ class AllocationLimit {
  private:
   // Without a limit, so many bytes that no thread allocates them.
   static inline thread_local std::size_t left_bytes_ = std::numeric_limits<std::size_t>::max();
-  std::size_t before_bytes_;
-  std::size_t given_bytes_;
+  std::size_t withheld_bytes_;
 };
 
 }  // namespace psi_slam

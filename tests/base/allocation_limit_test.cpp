@@ -2,7 +2,6 @@
 #include "base/allocation_limit.h"
 
 #include <gtest/gtest.h>
-
 #include <mrpt/core/aligned_allocator.h>
 
 #include <array>

@@ -114,7 +114,7 @@ class Picture {
     }
   }
 
-  const cv::Mat& image() const { return image_; }
+  cv::Mat take_image() { return std::move(image_); }
 
  private:
   cv::Point2d pixel(const mrpt::math::TPoint2D& point) const {
@@ -136,7 +136,7 @@ std::string change_picture(const WallChanges& walls) {
   Picture picture(walls.cells, shown_cells(walls.cells));
   for (const WallChange& change : walls.changes) picture.mark(change);
   picture.add_legend();
-  return png_bytes(picture.image());
+  return png_bytes(picture.take_image());
 }
 
 }  // namespace psi_slam

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "base/number_text.h"
 #include "base/portable_math.h"
@@ -100,7 +101,7 @@ std::string print_map(const mrpt::maps::COccupancyGridMap2D& grid, const MapFile
   cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
   cv::resize(image, image, {pixels(raster.width_px), pixels(raster.height_px)}, 0, 0, cv::INTER_NEAREST);
   add_footer(image, options, pixels_a_m, paper_pixels_a_m / 1000);
-  return with_resolution(png_bytes(image), paper_pixels_a_m);
+  return with_resolution(png_bytes(std::move(image)), paper_pixels_a_m);
 }
 
 }  // namespace psi_slam

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "base/atomic_file.h"
@@ -219,7 +220,7 @@ MapPicture map_picture(const COccupancyGridMap2D& grid, const MapPictureOptions&
     const double bar_m = scale_bar_m(picture.width_px * picture.resolution_m, picture.resolution_m);
     draw_scale_bar(image, {2 * unit, height_px + 5 * unit / 2, unit}, bar_m, picture.resolution_m);
   }
-  picture.png = png_bytes(image);
+  picture.png = png_bytes(std::move(image));
   return picture;
 }
 

@@ -15,12 +15,13 @@ namespace {
 constexpr double kLeastUniqueness = 0.05;
 
 // Matches with this response or more count fully. True matches in wide windows may have no more than 0.6
-// where a corridor looks alike for a long way.
+// where a corridor looks alike for a long way. Half of it leaves a quarter of the weight.
 constexpr double kFullResponse = 0.6;
 
 double weight(const LoopConsensus::Vote& vote) {
   const double uniqueness = 1 - vote.ambiguity;
-  return uniqueness < kLeastUniqueness ? 0 : uniqueness * std::min(1.0, vote.response / kFullResponse);
+  const double strength = std::min(1.0, vote.response / kFullResponse);
+  return uniqueness < kLeastUniqueness ? 0 : uniqueness * strength * strength;
 }
 
 }  // namespace

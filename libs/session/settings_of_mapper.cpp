@@ -343,11 +343,10 @@ void describe_consensus(OptionTable& table, LoopConsensusOptions& consensus) {
                  "Matches agree only if their headings differ by at most this much.")
       .number("min_span_m", consensus.min_span_m, at_least(0), "m",
               "Least travel from the first to the last of the matches that agree.")
-      .number(
-          "min_weight", consensus.min_weight, above(0), "",
-          "Least total weight of the matches that agree. The weight of a match is 1 minus its ambiguity, "
-          "or 0 if that is below 0.05. While mapping, a match with a response below 0.6 has less weight, in "
-          "proportion.")
+      .number("min_weight", consensus.min_weight, above(0), "",
+              "Least total weight of the matches that agree. The weight of a match is 1 minus its ambiguity, "
+              "or 0 if that is below 0.05. While mapping, the weight of a match with a response below 0.6 "
+              "decreases with the square of the response.")
       .number("max_other_place_share", consensus.max_rival_share, between(0, 1), "",
               "Largest weight of any other place, as a share of the weight of the matches that agree.");
 }

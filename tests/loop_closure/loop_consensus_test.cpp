@@ -80,23 +80,52 @@ TEST(LoopConsensus, confirmed_matches_are_forgotten) {
   EXPECT_EQ(consensus.add(vote(3, 9.5), graph), Loops({2, 3}));
 }
 
-// Ambiguities and responses like those of matches that led to another corridor of a simulated building.
 TEST(LoopConsensus, weak_matches_need_more_others_than_strong_ones) {
   const PoseGraph graph = two_anchors();
-  const auto confirmed_of = [&](std::size_t matches, double response) {
+  const auto needed = [&](double response) {
     LoopConsensus consensus({});
     Loops confirmed;
-    for (std::size_t i = 0; i < matches; ++i) {
-      LoopConsensus::Vote match = vote(i, 0.8 * static_cast<double>(i), 0.8);
+    for (std::size_t i = 0; i < 10 && confirmed.empty(); ++i) {
+      LoopConsensus::Vote match = vote(i, 0.6 * static_cast<double>(i), 0.8);
       match.response = response;
       confirmed = consensus.add(match, graph);
     }
     return confirmed.size();
   };
-  EXPECT_EQ(confirmed_of(3, 0.9), 3U);  // 3 * 0.2 is more than 0.5
-  EXPECT_EQ(confirmed_of(3, 0.6), 3U);
-  EXPECT_EQ(confirmed_of(3, 0.4), 0U);
-  EXPECT_EQ(confirmed_of(4, 0.4), 4U);  // 4 * 0.2 * 0.4 / 0.6 = 0.53
+  EXPECT_EQ(needed(0.9), 3U);  // 3 * 0.2 is more than 0.5
+  EXPECT_EQ(needed(0.6), 3U);
+  EXPECT_EQ(needed(0.5), 4U);  // 0.2 * (0.5 / 0.6)^2 = 0.14
+  EXPECT_EQ(needed(0.4), 6U);  // 0.2 * (0.4 / 0.6)^2 = 0.09
+}
+
+TEST(LoopConsensus, two_weak_matches_suffice_where_no_other_place_is_similar) {
+  const PoseGraph graph = two_anchors();
+  LoopConsensus consensus({});
+  for (std::size_t i = 0; i < 2; ++i) {
+    LoopConsensus::Vote match = vote(i, 1.1 * static_cast<double>(i));
+    match.response = 0.35;
+    EXPECT_EQ(consensus.add(match, graph).size(), 2 * i);
+  }
+}
+
+// All these matches of a simulated log led to another corridor, 15 m off. The true corridor was not searched.
+TEST(LoopConsensus, weak_matches_in_an_equal_corridor_confirm_none) {
+  struct Match {
+    double ambiguity;
+    double response;
+  };
+  const PoseGraph graph = two_anchors();
+  for (const std::vector<Match>& matches :
+       {std::vector<Match>{
+            {0.93, 0.39}, {0.78, 0.39}, {0.96, 0.40}, {0.76, 0.43}, {0.95, 0.50}, {0.85, 0.47}},
+        std::vector<Match>{{0.95, 0.46}, {0.89, 0.49}, {0.85, 0.47}, {0.86, 0.54}, {0.82, 0.42}}}) {
+    LoopConsensus consensus({});
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      LoopConsensus::Vote match = vote(i, 0.5 * static_cast<double>(i), matches[i].ambiguity);
+      match.response = matches[i].response;
+      EXPECT_EQ(consensus.add(match, graph), Loops()) << i;
+    }
+  }
 }
 
 TEST(LoopConsensus, ambiguous_matches_need_many_others) {

@@ -21,6 +21,7 @@ SimulateRow row() {
   row.local_maps = 83;
   row.error_mean_m = 1.0 / 3;
   row.error_max_m = 0.7;
+  row.aligned_mean_m = 0.21;
   row.relation_mean_m = 0.12;
   row.relation_mean_deg = 0.5;
   row.odometry_error_mean_m = 12.3;
@@ -58,7 +59,7 @@ TEST(SimulateReport, markdown_has_the_figures) {
   const std::string page = simulate_report({row()}, {}, "a machine").markdown;
   EXPECT_THAT(
       page,
-      HasSubstr("| 1000 m | 10001 | 334 | 36 | 2464 | 83 | 0.333 | 0.700 | 0.120 | 0.50 | 12.3 | 700 | 2 |"));
+      HasSubstr("| 1000 m | 10001 | 334 | 36 | 2464 | 83 | 0.333 | 0.700 | 0.210 | 0.120 | 0.50 | 12.3 | 700 | 2 |"));
   EXPECT_THAT(page, HasSubstr("| 1000 m | loops | 700 | 1.50 | 0.90 | 7.2 % |"));
   EXPECT_THAT(page,
               HasSubstr("| 1000 m | 0.99 | 8.42 | 9.5 | 1.25 | 4.5 | 6.5 | 9.9 | 5.5 | 210 | 2.5 | 1.2 |"));

@@ -25,18 +25,6 @@ VerdictRow row_of(double error_m, double doubt_m) {
   return row;
 }
 
-TEST(VerdictBenchmark, measures_errors_after_the_best_alignment) {
-  std::vector<TPose2D> truth;
-  std::vector<TPose2D> path;
-  for (int i = 0; i < 50; ++i) {
-    truth.emplace_back(0.1 * i, std::sin(0.2 * i), 0);
-    path.push_back(TPose2D(3, -2, 0.7) + truth.back());
-  }
-  EXPECT_NEAR(aligned_error_m(path, truth), 0, 1e-9);
-  for (std::size_t i = 0; i < path.size(); ++i) path[i].x += i % 2 == 0 ? 0.1 : -0.1;
-  EXPECT_NEAR(aligned_error_m(path, truth), 0.1, 0.01);
-}
-
 TEST(VerdictBenchmark, ranks_wrong_maps_above_right_ones) {
   EXPECT_FALSE(area_under_curve({row_of(0.01, 0.1)}));
   EXPECT_EQ(area_under_curve({row_of(0.01, 0.1), row_of(1, 0.2)}), 1.0);

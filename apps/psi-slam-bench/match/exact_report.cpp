@@ -6,45 +6,47 @@
 namespace psi_slam {
 namespace {
 
-using Row = ExactBenchmarkRow;
+using ExactRow = ExactBenchmarkRow;
 
 /// Column "mean / max" in Markdown.
-ColumnOf<Row> times(const std::string& head, SearchTimes Row::*search) {
-  return {{head}, [=](const Row& row) {
+ColumnOf<ExactRow> times(const std::string& head, SearchTimes ExactRow::*search) {
+  return {{head}, [=](const ExactRow& row) {
             return cell(fixed_text((row.*search).mean_ms, 2) + " / " + fixed_text((row.*search).max_ms, 1));
           }};
 }
 
 /// Column of one time in JSON and CSV.
-ColumnOf<Row> time(const std::string& key, SearchTimes Row::*search, double SearchTimes::*value) {
-  return {{{}, key}, [=](const Row& row) { return cell(row.*search.*value, 3); }};
+ColumnOf<ExactRow> time(const std::string& key, SearchTimes ExactRow::*search, double SearchTimes::*value) {
+  return {{{}, key}, [=](const ExactRow& row) { return cell(row.*search.*value, 3); }};
 }
 
-ReportTable rows_table(const std::vector<Row>& rows) {
-  return table_of<Row>(
-      {column("cases", "cases", &Row::cases),
+ReportTable rows_table(const std::vector<ExactRow>& rows) {
+  return table_of<ExactRow>(
+      {column("cases", "cases", &ExactRow::cases),
        {{"threshold", "min_response"},
-        [](const Row& row) {
+        [](const ExactRow& row) {
           return ReportCell{row.min_response > 0 ? fixed_text(row.min_response, 1) : "none",
                             row.min_response};
         }},
-       column("number", "count", &Row::count),
-       column("found", "found", &Row::found),
-       column("equal", "equal", &Row::equal),
-       times("csm [ms]", &Row::csm),
-       times("with ambiguity [ms]", &Row::csm_ambiguity),
-       times("depth-first [ms]", &Row::depth_first),
-       time("csm_ms.mean", &Row::csm, &SearchTimes::mean_ms),
-       time("csm_ms.max", &Row::csm, &SearchTimes::max_ms),
-       time("csm_ambiguity_ms.mean", &Row::csm_ambiguity, &SearchTimes::mean_ms),
-       time("csm_ambiguity_ms.max", &Row::csm_ambiguity, &SearchTimes::max_ms),
-       time("depth_first_ms.mean", &Row::depth_first, &SearchTimes::mean_ms),
-       time("depth_first_ms.max", &Row::depth_first, &SearchTimes::max_ms),
+       column("number", "count", &ExactRow::count),
+       column("found", "found", &ExactRow::found),
+       column("equal", "equal", &ExactRow::equal),
+       times("csm [ms]", &ExactRow::csm),
+       times("with ambiguity [ms]", &ExactRow::csm_ambiguity),
+       times("depth-first [ms]", &ExactRow::depth_first),
+       time("csm_ms.mean", &ExactRow::csm, &SearchTimes::mean_ms),
+       time("csm_ms.max", &ExactRow::csm, &SearchTimes::max_ms),
+       time("csm_ambiguity_ms.mean", &ExactRow::csm_ambiguity, &SearchTimes::mean_ms),
+       time("csm_ambiguity_ms.max", &ExactRow::csm_ambiguity, &SearchTimes::max_ms),
+       time("depth_first_ms.mean", &ExactRow::depth_first, &SearchTimes::mean_ms),
+       time("depth_first_ms.max", &ExactRow::depth_first, &SearchTimes::max_ms),
        {{"csm is faster"},
-        [](const Row& row) { return cell("× " + fixed_text(row.depth_first.mean_ms / row.csm.mean_ms, 1)); }},
-       column("csm: evaluations", "csm_evaluations", &Row::csm_evaluations, 0),
-       column("depth-first: evaluations", "depth_first_evaluations", &Row::depth_first_evaluations, 0),
-       column("csm: limit [ms]", "csm_limit_ms", &Row::csm_limit_ms, 2)},
+        [](const ExactRow& row) {
+          return cell("× " + fixed_text(row.depth_first.mean_ms / row.csm.mean_ms, 1));
+        }},
+       column("csm: evaluations", "csm_evaluations", &ExactRow::csm_evaluations, 0),
+       column("depth-first: evaluations", "depth_first_evaluations", &ExactRow::depth_first_evaluations, 0),
+       column("csm: limit [ms]", "csm_limit_ms", &ExactRow::csm_limit_ms, 2)},
       rows);
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/portable_math.h"
+#include "common/aligned_error.h"
 #include "common/benchmark_logs.h"
 #include "exports/run_summary.h"
 #include "frames/pose_operations.h"
@@ -37,9 +38,12 @@ void compare_with_truth(const MappingResult& result, const Trajectory& truth, st
     mapped.push_back(frame.map_T_robot);
     odometry.push_back(frame.odom_T_robot);
   }
+  std::vector<TPose2D> true_poses;
+  for (std::size_t i = 0; i < mapped.size(); ++i) true_poses.push_back(truth[i].pose);
   const ErrorSummary error = trajectory_error_m(mapped, truth);
   row.error_mean_m = error.mean;
   row.error_max_m = error.max;
+  row.aligned_mean_m = aligned_error_m(mapped, true_poses);
   row.odometry_error_mean_m = trajectory_error_m(odometry, truth).mean;
   const RelationsMetric metric = error_of(result.frames, draw_relations(truth, kRelations, seed));
   row.relation_mean_m = metric.translation_abs_m.mean;
@@ -55,9 +59,9 @@ void compare_with_truth(const MappingResult& result, const Trajectory& truth, st
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeSummary, mean, p99, max)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NormalisedErrors, of, count, mean, median, beyond_95)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SimulateRow, path_m, scans, rooms, corridors_m, nodes, local_maps,
-                                   error_mean_m, error_max_m, relation_mean_m, relation_mean_deg,
-                                   odometry_error_mean_m, loops, false_loops, covariances, scan_ms,
-                                   optimisation_ms, add_s, finish_s, peak_memory_mib, stages_s)
+                                   error_mean_m, error_max_m, aligned_mean_m, relation_mean_m,
+                                   relation_mean_deg, odometry_error_mean_m, loops, false_loops, covariances,
+                                   scan_ms, optimisation_ms, add_s, finish_s, peak_memory_mib, stages_s)
 
 std::string row_text(const SimulateRow& row) {
   return nlohmann::json(row).dump();

@@ -46,6 +46,7 @@ struct SimulateRow {
 
   double error_mean_m = 0;  ///< mean distance from the truth; both paths are aligned at the first scan
   double error_max_m = 0;
+  double aligned_mean_m = 0;   ///< mean distance from the truth after the best rigid alignment
   double relation_mean_m = 0;  ///< mean error over relations between random pairs of scans
   double relation_mean_deg = 0;
   double odometry_error_mean_m = 0;  ///< mean error of odometry alone, aligned like error_mean_m

@@ -31,6 +31,7 @@ std::vector<Column> map_columns() {
           column("local maps", "local_maps", &SimulateRow::local_maps),
           column("error mean [m]", "error_mean_m", &SimulateRow::error_mean_m, 3),
           column("error max [m]", "error_max_m", &SimulateRow::error_max_m, 3),
+          column("aligned [m]", "aligned_mean_m", &SimulateRow::aligned_mean_m, 3),
           column("relations [m]", "relation_mean_m", &SimulateRow::relation_mean_m, 3),
           column("relations [deg]", "relation_mean_deg", &SimulateRow::relation_mean_deg, 2),
           column("odometry [m]", "odometry_error_mean_m", &SimulateRow::odometry_error_mean_m, 1),
@@ -115,6 +116,7 @@ std::string markdown_of(const Rows& rows, const SimulateOptions& options, const 
       " m. Each run has a building and a process of its own.\n\n";
   text +=
       "- error: distance from the truth, with both paths aligned at the first scan\n"
+      "- aligned: mean distance from the truth after the best rigid alignment\n"
       "- relations: metric of Kümmerle et al. over " +
       std::to_string(kRelations) +
       " randomly drawn pairs of scans\n- odometry: mean error of odometry alone, measured like error\n"

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/random_draws.h"
+#include "common/aligned_error.h"
 #include "exports/mapped_trajectory.h"
 #include "false_loops/false_loop_benchmark.h"
 #include "mapping/carried_frames.h"

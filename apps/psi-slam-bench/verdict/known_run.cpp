@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/portable_math.h"
+#include "common/aligned_error.h"
 #include "exports/mapped_trajectory.h"
 #include "frames/pose_operations.h"
 #include "psi_slam/mapper.h"
@@ -97,33 +98,6 @@ MappingResult map_of(const KnownRun& run, bool close_loops) {
 double mean_error_m(const MappingResult& map, const KnownRun& run) {
   if (!run.truth) return aligned_error_m(mapped_poses(map), run.world_T_robot);
   return evaluate_relations(with_all_scans(map, run), run.truth->relations).translation_abs_m.mean;
-}
-
-double aligned_error_m(const std::vector<TPose2D>& path, const std::vector<TPose2D>& truth) {
-  const auto count = static_cast<double>(path.size());
-  TPoint2D path_mean(0, 0);
-  TPoint2D true_mean(0, 0);
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    path_mean += TPoint2D(path[i].x, path[i].y) * (1 / count);
-    true_mean += TPoint2D(truth[i].x, truth[i].y) * (1 / count);
-  }
-  double dot = 0;
-  double cross = 0;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const double px = path[i].x - path_mean.x;
-    const double py = path[i].y - path_mean.y;
-    const double tx = truth[i].x - true_mean.x;
-    const double ty = truth[i].y - true_mean.y;
-    dot += px * tx + py * ty;
-    cross += px * ty - py * tx;
-  }
-  const TPose2D turn(0, 0, portable::atan2(cross, dot));
-  double sum_m = 0;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const TPose2D turned = compose(turn, TPose2D(path[i].x - path_mean.x, path[i].y - path_mean.y, 0));
-    sum_m += portable::hypot(turned.x - (truth[i].x - true_mean.x), turned.y - (truth[i].y - true_mean.y));
-  }
-  return sum_m / count;
 }
 
 KnownRun degraded(const KnownRun& run, std::size_t keep_every_nth, double max_range_m, double noise,

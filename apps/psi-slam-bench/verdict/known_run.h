@@ -50,11 +50,6 @@ MappingResult map_of(const KnownRun& run, bool close_loops = true);
 /// whole log.
 double mean_error_m(const MappingResult& map, const KnownRun& run);
 
-/// Mean distance between two paths of the same frames after the rigid alignment that minimises the sum of
-/// squared distances.
-double aligned_error_m(const std::vector<mrpt::math::TPose2D>& path,
-                       const std::vector<mrpt::math::TPose2D>& truth);
-
 /// Keeps every nth frame, cuts ranges, and adds a random walk to odometry.
 KnownRun degraded(const KnownRun& run, std::size_t keep_every_nth, double max_range_m, double noise,
                   RandomDraws& draws);

@@ -32,6 +32,7 @@
 #include "psi_slam/user_error.h"
 #include "rawlog/observation_stream.h"
 #include "rawlog/rawlog_archive.h"
+#include "rawlog/rawlog_stream.h"
 
 namespace psi_slam {
 namespace {
@@ -377,7 +378,8 @@ std::unique_ptr<LogReader> open_rawlog(const std::filesystem::path& path, const 
 
 std::unique_ptr<LogReader> open_rawlog_stream(std::unique_ptr<ByteSource> recording,
                                               const LogOptions& options, double look_over_s) {
-  return open_observation_stream(std::make_unique<RawlogArchive>(std::move(recording)), options, look_over_s);
+  return open_observation_stream(std::make_unique<RawlogStream>(std::move(recording), true), options,
+                                 look_over_s);
 }
 
 std::unique_ptr<LogReader> open_observation_stream(std::unique_ptr<ObjectSource> stream,

@@ -71,14 +71,14 @@ endfunction()
 
 # psi_slam_add_app(NAME [COMPONENT component] SOURCES file... LINK dependency...)
 # Adds a program and installs it with its man page and completion. The program must have the options of
-# add_document_options(). Its operator new keeps AllocationLimit. It belongs to the component `programs` unless COMPONENT names another one.
+# add_document_options(). It belongs to the component `programs` unless COMPONENT names another one.
 function(psi_slam_add_app name)
   cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_COMPONENT)
     set(ARG_COMPONENT programs)
   endif()
   add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE ${ARG_LINK} psi_slam_limited_new)
+  target_link_libraries(${name} PRIVATE ${ARG_LINK})
   psi_slam_configure_target(${name})
   set_property(GLOBAL APPEND PROPERTY psi_slam_programs ${name})
   set_target_properties(${name} PROPERTIES PSI_SLAM_COMPONENT ${ARG_COMPONENT})

@@ -2,8 +2,13 @@
 #include "rawlog/rawlog_archive.h"
 
 #include <gmock/gmock.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <sys/wait.h>
 
+#include <cerrno>
+#include <csignal>
 #include <cstdint>
+#include <fstream>
 
 #include "log_files.h"
 #include "rawlog_files.h"
@@ -21,6 +26,12 @@ class RawlogArchiveTest : public testing::Test {
     EXPECT_EQ(archive.place(), path_.string() + ": object " + std::to_string(objects));
     EXPECT_EQ(archive.progress(), 1.0);
     return objects;
+  }
+
+  std::string damaged_object(int number) const {
+    return path_.string() + ": object " + std::to_string(number) +
+           " needs more than 512 MiB of memory or crashes MRPT, so it is probably damaged. Fetch the log "
+           "again";
   }
 
   TemporaryFolder folder_;
@@ -70,6 +81,93 @@ TEST_F(RawlogArchiveTest, reports_an_unknown_or_damaged_object) {
                                                   "sensory frame or an observation");
 }
 
+TEST_F(RawlogArchiveTest, leaves_out_observations_that_psi_slam_does_not_use) {
+  const auto comment = mrpt::obs::CObservationComment::Create();
+  write_rawlog(path_, {comment, sensory_frame({comment, range_scan(2)}), range_scan(3), comment}, false);
+  RawlogArchive archive(path_);
+  const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(archive.next());
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->size(), 1U);
+  EXPECT_EQ(archive.place(), path_.string() + ": object 2");
+  EXPECT_TRUE(std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(archive.next()));
+  EXPECT_EQ(archive.next(), nullptr);
+  EXPECT_EQ(archive.place(), path_.string() + ": object 4");
+}
+
+TEST_F(RawlogArchiveTest, reports_a_file_that_cannot_be_opened) {
+  EXPECT_THAT(sentence_of([&] { read_all(); }), testing::StartsWith(path_.string() + " does not exist"));
+}
+
+/// Version 0 of a movement has a probability density, of which MRPT asks the mean, also if it is another
+/// object.
+TEST_F(RawlogArchiveTest, reports_an_object_that_crashes_mrpt) {
+  write_rawlog(path_, {range_scan(1)}, false);
+  const std::string scan = read_file(path_);
+  const std::string movement = std::string("\x96") + "CActionRobotMovement2D" + '\0';
+  write_file(path_, scan + scan + movement + scan + std::string(100, '\0'));
+  RawlogArchive archive(path_);
+  EXPECT_TRUE(archive.next());
+  EXPECT_TRUE(archive.next());
+  EXPECT_EQ(sentence_of([&] { archive.next(); }), damaged_object(3));
+}
+
+/// A rawlog that does not fit into a pipe, so that its child process waits for the parent.
+class RawlogChild : public RawlogArchiveTest {
+ protected:
+  RawlogChild() { write_rawlog(path_, RawlogObjects(kObjects, range_scan(1)), false); }
+
+  /// Returns the only child process of this one.
+  static pid_t child() {
+    std::ifstream children("/proc/thread-self/children");
+    pid_t pid = 0;
+    EXPECT_TRUE(children >> pid);
+    EXPECT_FALSE(children >> pid) << "there are more children";
+    return pid;
+  }
+
+  static constexpr std::size_t kObjects = 2000;
+};
+
+TEST_F(RawlogChild, reports_that_it_was_killed) {
+  RawlogArchive archive(path_);
+  ASSERT_TRUE(archive.next());
+  ASSERT_EQ(::kill(child(), SIGKILL), 0);
+  try {
+    while (archive.next()) {
+    }
+    FAIL() << "the rest of the file was read";
+  } catch (const SystemFailure& failure) {
+    EXPECT_EQ(failure.what(), "the process that reads " + path_.string() + " was killed");
+  }
+}
+
+TEST_F(RawlogChild, goes_on_after_ctrl_c) {
+  RawlogArchive archive(path_);
+  ASSERT_TRUE(archive.next());
+  ASSERT_EQ(::kill(child(), SIGINT), 0);
+  std::size_t objects = 1;
+  while (archive.next()) ++objects;
+  EXPECT_EQ(objects, kObjects);
+}
+
+TEST_F(RawlogChild, ends_with_its_archive) {
+  { RawlogArchive(path_).next(); }
+  EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+}
+
+/// Otherwise the first child would wait for a reader of its pipe as long as the second one runs.
+TEST_F(RawlogChild, keeps_no_pipe_of_another_child) {
+  auto first = std::make_unique<RawlogArchive>(path_);
+  ASSERT_TRUE(first->next());
+  RawlogArchive second(path_);
+  ASSERT_TRUE(second.next());
+  first.reset();
+  std::size_t objects = 1;
+  while (second.next()) ++objects;
+  EXPECT_EQ(objects, kObjects);
+}
+
 /// Without a limit, MRPT would take 4 GiB and then find the end of the file.
 TEST_F(RawlogArchiveTest, refuses_an_object_that_states_a_billion_elements) {
   const std::vector<float> ranges_m{1, 2, 3, 4, 5};
@@ -82,10 +180,7 @@ TEST_F(RawlogArchiveTest, refuses_an_object_that_states_a_billion_elements) {
   const std::size_t place = damaged.find(count + little_endian(ranges_m[0]));
   ASSERT_NE(place, std::string::npos);
   write_file(path_, damaged.replace(place, count.size(), little_endian(std::uint32_t{1} << 30)));
-  EXPECT_EQ(
-      sentence_of([&] { read_all(); }),
-      path_.string() +
-          ": object 1 needs more than 256 MiB of memory, so it is probably damaged. Fetch the log again");
+  EXPECT_EQ(sentence_of([&] { read_all(); }), damaged_object(1));
 }
 
 }  // namespace

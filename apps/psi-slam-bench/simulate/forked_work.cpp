@@ -8,7 +8,7 @@
 #include <exception>
 #include <stdexcept>
 
-#include "batch/child_process.h"
+#include "base/forked_child.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/forked_child.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "psi_slam/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+[[noreturn]] void fail(const std::string& doing, int error) {
+  throw SystemFailure(doing + ": " + std::strerror(error));
+}
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+}  // namespace
+
+Pipe::Pipe() {
+  if (::pipe2(ends_.data(), O_CLOEXEC) != 0) fail("cannot create a pipe", errno);
+}
+
+Pipe::~Pipe() {
+  close_end(0);
+  close_end(1);
+}
+
+bool Pipe::read_to(std::string& text) {
+  std::array<char, 1 << 14> block{};
+  const ssize_t count = ::read(ends_[0], block.data(), block.size());
+  if (count < 0) return errno == EINTR || errno == EAGAIN;
+  text.append(block.data(), static_cast<std::size_t>(count));
+  return count > 0;
+}
+
+void Pipe::close_end(std::size_t end) {
+  if (ends_[end] >= 0) ::close(ends_[end]);
+  ends_[end] = -1;
+}
+
+RunningChild::~RunningChild() {
+  if (pid_ <= 0) return;
+  kill();
+  while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+void RunningChild::kill() const {
+  ::kill(pid_, SIGKILL);
+}
+
+EndedChild RunningChild::wait() {
+  EndedChild end;
+  rusage usage{};
+  while (::wait4(pid_, &end.status, 0, &usage) < 0)
+    if (errno != EINTR) fail("cannot wait for a child process", errno);
+  pid_ = 0;
+  end.cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+  end.peak_memory_mib = static_cast<double>(usage.ru_maxrss) / 1024;  // Linux states kibibytes
+  return end;
+}
+
+}  // namespace psi_slam

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <stdexcept>
 
 #include "psi_slam/user_error.h"
 
@@ -42,9 +43,29 @@ bool Pipe::read_to(std::string& text) {
   return count > 0;
 }
 
+bool Pipe::read_exactly(void* bytes, std::size_t size) const {
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t count = ::read(ends_[0], static_cast<char*>(bytes) + done, size - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    done += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
 void Pipe::close_end(std::size_t end) {
   if (ends_[end] >= 0) ::close(ends_[end]);
   ends_[end] = -1;
+}
+
+bool write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
 }
 
 RunningChild::~RunningChild() {
@@ -59,6 +80,7 @@ void RunningChild::kill() const {
 }
 
 EndedChild RunningChild::wait() {
+  if (pid_ <= 0) throw std::logic_error("RunningChild::wait() was called twice");
   EndedChild end;
   rusage usage{};
   while (::wait4(pid_, &end.status, 0, &usage) < 0)

@@ -5,7 +5,9 @@
 #include <sys/types.h>
 
 #include <array>
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace psi_slam {
 
@@ -27,11 +29,17 @@ class Pipe {
   /// Returns true after bytes, and if a signal interrupts the wait.
   bool read_to(std::string& text);
 
+  /// Waits for `size` bytes. Returns false if the data end before, or after a read error.
+  bool read_exactly(void* bytes, std::size_t size) const;
+
  private:
   void close_end(std::size_t end);
 
   std::array<int, 2> ends_{-1, -1};
 };
+
+/// Writes all bytes. Returns false if that is impossible, as to a pipe that nobody reads.
+bool write_all(int descriptor, std::string_view bytes);
 
 /// Exit of a process, and the resources that the operating system counted for it.
 struct EndedChild {
@@ -50,7 +58,8 @@ class RunningChild {
 
   void kill() const;
 
-  /// Waits for the exit. Call it once. Throws SystemFailure when the system reports no exit.
+  /// Waits for the exit. Throws SystemFailure when the system reports no exit, std::logic_error at a second
+  /// call.
   EndedChild wait();
 
  private:

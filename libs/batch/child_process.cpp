@@ -37,7 +37,7 @@ bool take(Pipe& pipe, std::string& text, std::size_t most) {
   return more;
 }
 
-/// Replaces the forked process by the program. Makes only system calls: nothing else is safe after fork().
+/// Replaces the forked process by the program. Makes only system calls, which are always safe after fork().
 /// The process ends with its parent and does not receive the terminal's Ctrl-C. Writes errno to `error_pipe`
 /// if the program cannot be started.
 [[noreturn]] void start_program(char* const* words, int out, int err, int error_pipe, pid_t parent) {

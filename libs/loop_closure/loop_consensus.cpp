@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeastUniqueness = 0.05;
 
 // Matches with this response or more count fully. True matches in wide windows may have no more than 0.6
-// where a corridor looks alike for a long way. Half of it leaves a quarter of the weight.
+// where a corridor looks alike for a long way.
 constexpr double kFullResponse = 0.6;
 
 double weight(const LoopConsensus::Vote& vote) {

@@ -5,10 +5,10 @@
 // scans imply the same pose, whereas false matches imply different poses. The weight of a match decreases
 // with its ambiguity, down to 0: along a corridor with equal doors, matches that are all off by the same
 // number of doors agree with each other for as long as the robot follows the corridor. For the same reason,
-// only matches within a few metres of travel count together. The weight also decreases with the square of a
-// response below 0.6. If the true place is outside the window or in another local map, several matches with
-// responses of 0.4 to 0.5 may agree on a similar place. But if no other place is similar, two true matches
-// with responses below 0.4 suffice.
+// only matches within a few metres of travel count together. A response below 0.6 multiplies the weight by
+// (response / 0.6)^2. If the true place is outside the window or in another local map, several matches with
+// responses of 0.4 to 0.5 may agree on a similar place. But two matches suffice, also with
+// responses of 0.35, if they are not ambiguous.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -28,8 +28,8 @@ struct LoopConsensusOptions {
   double same_heading_rad = radians_from_degrees(3.5L);  ///< largest turn between poses that agree
   /// Shortest path between the first match that agrees and has a weight, and the last.
   double min_span_m = 1.0;
-  /// Minimum sum of agreeing weights. A weight is 1 - ambiguity, or 0 if that is below 0.05. Below a response
-  /// of 0.6, the weight decreases with the square of the response.
+  /// Minimum sum of agreeing weights. A weight is 1 - ambiguity, or 0 if that is below 0.05. A response
+  /// below 0.6 multiplies it by (response / 0.6)^2.
   double min_weight = 0.5;
   double max_rival_share = 0.5;  ///< largest weight of another place, divided by the sum of agreeing weights
 };

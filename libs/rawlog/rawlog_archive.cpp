@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rawlog/rawlog_archive.h"
 
+#include <fcntl.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -10,6 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -17,7 +21,6 @@
 #include <exception>
 #include <fstream>
 #include <iterator>
-#include <new>
 #include <utility>
 
 #include "base/forked_child.h"
@@ -28,76 +31,60 @@
 namespace psi_slam {
 namespace {
 
+using mrpt::obs::CActionCollection;
+using mrpt::obs::CActionRobotMovement2D;
 using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
 using Object = mrpt::serialization::CSerializable::Ptr;
 
-constexpr std::size_t kMemoryOfChild_bytes = std::size_t{512} << 20;
+constexpr rlim_t kMemoryOfChild_bytes = rlim_t{512} << 20;
+constexpr rlim_t kTimeForObject_s = 10;
 
-/// Messages of the child. Some have values, in the form of MRPT's archives.
-enum class Message : std::uint8_t {
+// A movement of more particles would take too long to draw again in the parent.
+constexpr std::uint32_t kMostParticles = 100'000;
+
+constexpr const char* kContradiction = " is damaged: its contents contradict each other. Fetch the log again";
+
+/// What a message of the child says.
+enum class Kind : std::uint8_t {
   kReads,      ///< the child begins to read an object
-  kObject,     ///< share of the file that has been read (double), and the object
-  kEnd,        ///< share of the file that has been read (double)
-  kUserError,  ///< text (std::string)
-  kFailure     ///< text (std::string) of a SystemFailure
+  kObject,     ///< the text is the object, in the form of MRPT's archives
+  kEnd,        ///< the file has ended
+  kUserError,  ///< the text is its sentence
+  kFailure     ///< the text is that of a SystemFailure
 };
 
-/// The child's end of the pipe, as a stream for MRPT's archives.
-class MessageWriter {
- public:
-  explicit MessageWriter(int descriptor) : descriptor_(descriptor) {}
+/// Precedes the text of a message.
+struct Header {
+  std::uint64_t text_bytes = 0;
+  double progress = 0;  ///< share of the file that has been read
+  Kind kind = Kind::kReads;
+};
 
-  static std::size_t Read(void* /*bytes*/, std::size_t /*size*/) { return 0; }
-  std::size_t Write(const void* bytes, std::size_t size) {
-    waiting_.append(static_cast<const char*>(bytes), size);
+/// Text as a stream for MRPT's archives.
+class TextStream {
+ public:
+  explicit TextStream(std::string text = {}) : text_(std::move(text)) {}
+
+  /// Reads all `size` bytes or none: MRPT would take the first bytes of a number for a number.
+  std::size_t Read(void* bytes, std::size_t size) {
+    if (text_.size() - taken_ < size) return 0;
+    taken_ += text_.copy(static_cast<char*>(bytes), size, taken_);
     return size;
   }
-  static std::string getStreamDescription() { return "pipe to the parent"; }
-
-  /// Sends what was written. Ends the process if the parent no longer reads.
-  void flush() {
-    for (std::size_t sent = 0; sent < waiting_.size();) {
-      const ssize_t count = ::write(descriptor_, waiting_.data() + sent, waiting_.size() - sent);
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) ::_exit(1);
-      sent += static_cast<std::size_t>(count);
-    }
-    waiting_.clear();
+  std::size_t Write(const void* bytes, std::size_t size) {
+    text_.append(static_cast<const char*>(bytes), size);
+    return size;
   }
+  static std::string getStreamDescription() { return "message"; }
+  const std::string& text() const { return text_; }
 
  private:
-  int descriptor_;
-  std::string waiting_;
-};
-
-/// The parent's end of the pipe, as a stream for MRPT's archives.
-class MessageReader {
- public:
-  explicit MessageReader(Pipe& pipe) : pipe_(pipe) {}
-
-  std::size_t Read(void* bytes, std::size_t size) {
-    while (received_.size() - taken_ < size && !is_at_end_) is_at_end_ = !pipe_.read_to(received_);
-    const std::size_t count = received_.copy(static_cast<char*>(bytes), size, taken_);
-    taken_ += count;
-    if (taken_ == received_.size()) received_.clear(), taken_ = 0;
-    return count;
-  }
-  static std::size_t Write(const void* /*bytes*/, std::size_t /*size*/) { return 0; }
-  static std::string getStreamDescription() { return "pipe from the child"; }
-
-  /// Whether less was received than was to be read.
-  bool is_at_end() const { return is_at_end_; }
-
- private:
-  Pipe& pipe_;
-  std::string received_;
+  std::string text_;
   std::size_t taken_ = 0;
-  bool is_at_end_ = false;
 };
 
-template <class Stream>
-using Archive = mrpt::serialization::CArchiveStreamBase<Stream>;
+using TextArchive = mrpt::serialization::CArchiveStreamBase<TextStream>;
 
 bool is_used(const CObservation& observation) {
   return dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation) != nullptr ||
@@ -105,74 +92,127 @@ bool is_used(const CObservation& observation) {
          dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation) != nullptr;
 }
 
-/// Returns the object without the observations that psi-slam does not use; null if it is one of them.
+bool is_plausible(const CActionCollection& actions) {
+  return std::none_of(actions.begin(), actions.end(), [](const auto& action) {
+    const auto* movement = dynamic_cast<const CActionRobotMovement2D*>(action.get());
+    return movement != nullptr &&
+           movement->motionModelConfiguration.thrunModel.nParticlesCount > kMostParticles;
+  });
+}
+
+/// Returns what psi-slam uses of an object; null if nothing. Images would take long to send.
 Object used_part(const Object& object) {
   if (const auto* observation = dynamic_cast<const CObservation*>(object.get()))
     return is_used(*observation) ? object : nullptr;
-  if (auto* frame = dynamic_cast<CSensoryFrame*>(object.get()))
+  if (auto* frame = dynamic_cast<CSensoryFrame*>(object.get())) {
     for (auto observation = frame->begin(); observation != frame->end();)
       observation =
           *observation && is_used(**observation) ? std::next(observation) : frame->erase(observation);
-  return object;
+    return object;
+  }
+  return dynamic_cast<const CActionCollection*>(object.get()) != nullptr ? object : nullptr;
 }
 
-/// Limits the memory of this process beyond what it has now. It leaves no memory dump if it crashes.
-void limit_resources() {
+void lower_limit(int resource, rlim_t most) {
   rlimit limit{};
-  ::setrlimit(RLIMIT_CORE, &limit);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes
-  std::size_t pages = 0;
-  if (!(std::ifstream("/proc/self/statm") >> pages)) return;
-  limit.rlim_cur = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + kMemoryOfChild_bytes;
-  limit.rlim_max = limit.rlim_cur;
-  ::setrlimit(RLIMIT_AS, &limit);
-#endif
+  ::getrlimit(resource, &limit);
+  limit.rlim_cur = std::min(limit.rlim_cur, most);
+  ::setrlimit(resource, &limit);
 }
 
-void send_objects(const std::filesystem::path& path, MessageWriter& writer) {
-  Archive<MessageWriter> archive(writer);
-  const auto send = [&](Message message) -> mrpt::serialization::CArchive& {
-    return archive << static_cast<std::uint8_t>(message);
-  };
+/// Limits the memory of this process to kMemoryOfChild_bytes more than it has now.
+void limit_memory() {
+  rlim_t pages = 0;
+  if (std::ifstream("/proc/self/statm") >> pages)
+    lower_limit(RLIMIT_AS, pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + kMemoryOfChild_bytes);
+}
+
+/// Limits the processor time of this process to kTimeForObject_s more than it has taken.
+void limit_time() {
+  timespec taken{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &taken);
+  rlimit limit{};
+  ::getrlimit(RLIMIT_CPU, &limit);
+  limit.rlim_cur = std::min(limit.rlim_max, static_cast<rlim_t>(taken.tv_sec) + 1 + kTimeForObject_s);
+  ::setrlimit(RLIMIT_CPU, &limit);
+}
+
+/// The child's end of the pipe.
+class Sender {
+ public:
+  explicit Sender(int descriptor) : descriptor_(descriptor) {}
+
+  /// Ends this process if the parent no longer reads.
+  void send(Kind kind, double progress, const std::string& text = {}) const {
+    Header header;
+    header.text_bytes = text.size();
+    header.progress = progress;
+    header.kind = kind;
+    const std::string_view bytes(reinterpret_cast<const char*>(&header), sizeof header);
+    if (!write_all(descriptor_, bytes) || !write_all(descriptor_, text)) ::_exit(1);
+  }
+
+ private:
+  int descriptor_;
+};
+
+void send_object(const Object& object, const RawlogStream& objects, const Sender& sender) {
+  const auto* actions = dynamic_cast<const CActionCollection*>(object.get());
+  TextStream stream;
+  try {
+    if (actions != nullptr && !is_plausible(*actions)) throw std::out_of_range("particles");
+    TextArchive(stream) << *object;
+  } catch (const std::exception&) {
+    throw UserError(objects.place() + kContradiction);
+  }
+  sender.send(Kind::kObject, objects.progress(), stream.text());
+}
+
+void send_objects(const std::filesystem::path& path, const Sender& sender) {
   try {
     RawlogStream objects(std::make_unique<CompressedFile>(path), false);
     while (true) {
-      send(Message::kReads);
-      writer.flush();
+      sender.send(Kind::kReads, objects.progress());
+      limit_time();
       const Object object = objects.next();
       if (!object) break;
-      if (const Object used = used_part(object)) send(Message::kObject) << objects.progress() << *used;
+      if (const Object used = used_part(object)) send_object(used, objects, sender);
     }
-    send(Message::kEnd) << objects.progress();
-  } catch (const std::bad_alloc&) {
-    ::_exit(1);  // MRPT crashes if some of its allocations fail, so the parent reports both in the same way
+    sender.send(Kind::kEnd, objects.progress());
   } catch (const UserError& error) {
-    send(Message::kUserError) << std::string(error.what());
+    sender.send(Kind::kUserError, 0, error.what());
   } catch (const std::exception& error) {
-    send(Message::kFailure) << std::string(error.what());
+    sender.send(Kind::kFailure, 0, error.what());
   }
-  writer.flush();
 }
 
-/// The child process. Never returns to the code of the parent, and ends with SIGPIPE if the parent ends.
-[[noreturn]] void read_in_child(const std::filesystem::path& path, int descriptor) {
+/// The child process. Never returns to the code of the parent. If the parent ends, so does the child when it
+/// sends the next object.
+[[noreturn]] void read_in_child(const std::filesystem::path& path, const Pipe& pipe) {
   constexpr int kPipe = 3;
-  std::signal(SIGINT, SIG_IGN);  // Ctrl-C of a terminal is for the parent
-  std::signal(SIGPIPE, SIG_DFL);
-  ::dup2(descriptor, kPipe);
+  ::setpgid(0, 0);  // signals of the terminal are for the parent
+  for (const int signal : {SIGPIPE, SIGTERM, SIGXCPU, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+    std::signal(signal, SIG_DFL);
+  ::close(pipe.reading());
+  ::dup2(pipe.writing(), kPipe);
   ::close_range(kPipe + 1, ~0U, 0);  // pipes of the parent would not end before this process
-  limit_resources();
-  MessageWriter writer(kPipe);
-  send_objects(path, writer);
+  const int nothing = ::open("/dev/null", O_RDWR);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nothing, stream);
+  ::close(nothing);
+  lower_limit(RLIMIT_CORE, 0);
+  limit_memory();
+  send_objects(path, Sender(kPipe));
   ::_exit(0);  // calls no destructors and flushes no stream buffers of the parent
 }
 
+/// The child does more than call the system, although this process may have other threads. It needs the locks
+/// of malloc(), which the C library releases in a child, and of MRPT's classes, which are registered before.
 pid_t start_child(const std::filesystem::path& path, Pipe& pipe) {
   register_rawlog_classes();
   const pid_t pid = ::fork();
   if (pid < 0)
     throw SystemFailure("cannot start a process that reads " + path.string() + ": " + std::strerror(errno));
-  if (pid == 0) read_in_child(path, pipe.writing());
+  if (pid == 0) read_in_child(path, pipe);
   pipe.close_writing();
   return pid;
 }
@@ -182,9 +222,11 @@ pid_t start_child(const std::filesystem::path& path, Pipe& pipe) {
 struct RawlogArchive::State {
   explicit State(std::filesystem::path rawlog) : path(std::move(rawlog)), child(start_child(path, pipe)) {}
 
-  /// Receives the next object, or null at the end of the file. Throws the errors of the child, and an
-  /// exception of MRPT if the child dies.
+  /// Receives the next object, or null at the end of the file.
   Object receive();
+
+  /// Returns why the child has ended without a message.
+  UserError end_of_child();
 
   std::string place_of(std::uint64_t number) const {
     return path.string() + ": object " + std::to_string(number);
@@ -193,64 +235,70 @@ struct RawlogArchive::State {
   std::filesystem::path path;
   Pipe pipe;
   RunningChild child;
-  MessageReader reader{pipe};
-  Archive<MessageReader> archive{reader};
   std::uint64_t reads = 0;   ///< number of objects that the child has begun to read
-  std::uint64_t object = 0;  ///< number of the object that next() last returned
+  std::uint64_t object = 0;  ///< number of the object that was last received; at the end, of all objects
   double progress = 0;
   bool is_at_end = false;
+  std::exception_ptr error;
 };
 
 Object RawlogArchive::State::receive() {
-  const auto text = [this] {
-    std::string received;
-    archive >> received;
-    return received;
-  };
   while (!is_at_end) {
-    std::uint8_t message = 0;
-    archive >> message;
-    switch (static_cast<Message>(message)) {
-      case Message::kReads:
+    Header header;
+    if (!pipe.read_exactly(&header, sizeof header)) throw end_of_child();
+    std::string text(header.text_bytes, '\0');
+    if (!pipe.read_exactly(text.data(), text.size())) throw end_of_child();
+    progress = header.progress;
+    switch (header.kind) {
+      case Kind::kReads:
         ++reads;
         break;
-      case Message::kObject:
+      case Kind::kObject: {
         object = reads;
-        archive >> progress;
-        return archive.ReadObject();
-      case Message::kEnd:
+        TextStream stream(std::move(text));
+        try {
+          return TextArchive(stream).ReadObject();
+        } catch (const std::exception&) {
+          throw UserError(place_of(reads) + kContradiction);
+        }
+      }
+      case Kind::kEnd:
         object = reads - 1;
-        archive >> progress;
         is_at_end = true;
         break;
-      case Message::kUserError:
-        throw UserError(text());
-      case Message::kFailure:
-        throw SystemFailure(text());
+      case Kind::kUserError:
+        throw UserError(text);
+      case Kind::kFailure:
+        throw SystemFailure(text);
     }
   }
   return nullptr;
+}
+
+UserError RawlogArchive::State::end_of_child() {
+  const int status = child.wait().status;
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (signal == SIGKILL || signal == SIGTERM)
+    return UserError("the process that reads " + path.string() + " was killed (signal " +
+                     std::to_string(signal) + "). Make sure that there is enough memory");
+  const std::string reason = signal == SIGXCPU
+                                 ? " takes MRPT more than " + std::to_string(kTimeForObject_s) + " s"
+                                 : " needs more than " + std::to_string(kMemoryOfChild_bytes >> 20) +
+                                       " MiB of memory or crashes MRPT";
+  return UserError(place_of(reads) + reason + ", so it is probably damaged. Fetch the log again");
 }
 
 RawlogArchive::RawlogArchive(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {}
 RawlogArchive::~RawlogArchive() = default;
 
 Object RawlogArchive::next() {
+  if (state_->error) std::rethrow_exception(state_->error);
   try {
     return state_->receive();
-  } catch (const std::exception&) {
-    if (!state_->reader.is_at_end()) throw;
-    report_death();
+  } catch (...) {
+    state_->error = std::current_exception();
+    throw;
   }
-}
-
-void RawlogArchive::report_death() const {
-  const int status = state_->child.wait().status;
-  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGKILL || WTERMSIG(status) == SIGTERM))
-    throw SystemFailure("the process that reads " + state_->path.string() + " was killed");
-  throw UserError(state_->place_of(state_->reads) + " needs more than " +
-                  std::to_string(kMemoryOfChild_bytes >> 20) +
-                  " MiB of memory or crashes MRPT, so it is probably damaged. Fetch the log again");
 }
 
 std::string RawlogArchive::place() const {

@@ -9,11 +9,12 @@
 
 namespace psi_slam {
 
-/// Reads the objects of an MRPT rawlog file, plain or gzipped, in the order of the file: actions, sensory
-/// frames, and those of the observations that psi-slam uses: scans, odometry and gyroscopes.
+/// Reads those objects of an MRPT rawlog file that psi-slam uses, in the order of the file: actions, scans,
+/// odometry, gyroscopes, and sensory frames without their other observations. The file may be gzipped.
 ///
-/// MRPT allocates the sizes that objects state, and some damaged objects crash it. Therefore a child process
-/// reads the file and sends these objects. It may take 512 MiB more than this process had.
+/// MRPT allocates whatever size an object states, and some damaged objects crash it. Therefore a child
+/// process reads the file with MRPT and sends the objects. Beyond the memory of this process when it starts,
+/// it may take 512 MiB, and for each object 10 s of processor time.
 class RawlogArchive : public ObjectSource {
  public:
   /// Starts the child process. Throws SystemFailure if that is impossible.
@@ -21,8 +22,8 @@ class RawlogArchive : public ObjectSource {
   ~RawlogArchive() override;
 
   /// Returns the next object, or null at the end of the file. Throws UserError if the file cannot be opened,
-  /// ends within an object, is damaged, or holds an object that this version of MRPT does not know;
-  /// SystemFailure if the child process is killed.
+  /// ends within an object, is damaged, or holds an object that this version of MRPT does not know, and if
+  /// the child process ends. After an error, throws it again.
   mrpt::serialization::CSerializable::Ptr next() override;
 
   std::string place() const override;
@@ -31,8 +32,6 @@ class RawlogArchive : public ObjectSource {
 
  private:
   struct State;
-  [[noreturn]] void report_death() const;
-
   std::unique_ptr<State> state_;
 };
 

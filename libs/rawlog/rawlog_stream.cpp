@@ -88,8 +88,12 @@ struct RawlogStream::State {
 };
 
 void register_rawlog_classes() {
-  mrpt::obs::registerAllClasses_mrpt_obs();
-  mrpt::maps::registerAllClasses_mrpt_maps();
+  static const bool kRegistered = [] {
+    mrpt::obs::registerAllClasses_mrpt_obs();
+    mrpt::maps::registerAllClasses_mrpt_maps();
+    return true;
+  }();
+  static_cast<void>(kRegistered);
 }
 
 RawlogStream::RawlogStream(std::unique_ptr<ByteSource> bytes, bool is_growing)
@@ -104,7 +108,8 @@ mrpt::serialization::CSerializable::Ptr RawlogStream::next() {
   try {
     return state_->archive.ReadObject();
   } catch (const std::bad_alloc&) {
-    throw;
+    throw UserError(place() +
+                    " needs more memory than there is, so it is probably damaged. Fetch the log again");
   } catch (const std::exception&) {
     if (stream.failure()) throw UserError(*stream.failure());
     if (stream.ended_early() && state_->is_growing) return nullptr;
@@ -114,10 +119,6 @@ mrpt::serialization::CSerializable::Ptr RawlogStream::next() {
                     " is damaged or has a class that this version of MRPT does not know, expected an "
                     "action, a sensory frame or an observation");
   }
-}
-
-std::size_t RawlogStream::count() const {
-  return state_->objects;
 }
 
 std::string RawlogStream::place() const {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <stdexcept>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "psi_slam/user_error.h"
@@ -64,8 +65,8 @@ std::optional<Palette> palette_of(const cv::Mat& image) {
   return palette;
 }
 
-/// Overwrites the first bytes of a continuous image with the numbers of its colours. The number of a pixel
-/// never lies behind the pixel.
+/// Overwrites the first bytes of a continuous image with the numbers of its colours. The byte for a
+/// pixel is never after its first byte, so no pixel is overwritten before it is read.
 void replace_by_numbers(Palette& palette, cv::Mat& image) {
   const std::uint8_t* pixel = image.data;
   for (std::size_t i = 0; i < image.total(); ++i, pixel += image.channels())

@@ -345,8 +345,8 @@ void describe_consensus(OptionTable& table, LoopConsensusOptions& consensus) {
               "Least travel from the first to the last of the matches that agree.")
       .number("min_weight", consensus.min_weight, above(0), "",
               "Least total weight of the matches that agree. The weight of a match is 1 minus its ambiguity, "
-              "or 0 if that is below 0.05. While mapping, the weight of a match with a response below 0.6 "
-              "decreases with the square of the response.")
+              "or 0 if that is below 0.05. "
+              "While mapping, a response below 0.6 multiplies it by (response / 0.6)².")
       .number("max_other_place_share", consensus.max_rival_share, between(0, 1), "",
               "Largest weight of any other place, as a share of the weight of the matches that agree.");
 }

@@ -7,6 +7,8 @@
 
 #include <cerrno>
 #include <csignal>
+#include <stdexcept>
+#include <string>
 
 namespace psi_slam {
 namespace {
@@ -30,6 +32,25 @@ TEST(RunningChild, reports_its_exit) {
   ASSERT_TRUE(WIFEXITED(end.status));
   EXPECT_EQ(WEXITSTATUS(end.status), 7);
   EXPECT_GT(end.peak_memory_mib, 0);
+}
+
+TEST(RunningChild, is_waited_for_once) {
+  const pid_t pid = ::fork();
+  if (pid == 0) ::_exit(0);
+  ASSERT_GT(pid, 0);
+  RunningChild child(pid);
+  child.wait();
+  EXPECT_THROW(child.wait(), std::logic_error);
+}
+
+TEST(Pipe, reads_exactly_what_is_asked_for_or_reports_the_end) {
+  Pipe pipe;
+  ASSERT_TRUE(write_all(pipe.writing(), "words"));
+  pipe.close_writing();
+  std::string text(3, ' ');
+  EXPECT_TRUE(pipe.read_exactly(text.data(), text.size()));
+  EXPECT_EQ(text, "wor");
+  EXPECT_FALSE(pipe.read_exactly(text.data(), text.size()));
 }
 
 TEST(Pipe, returns_written_bytes_then_the_end) {

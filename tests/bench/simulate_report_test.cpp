@@ -57,9 +57,8 @@ TEST(SimulateReport, json_has_machine_seed_and_figures) {
 
 TEST(SimulateReport, markdown_has_the_figures) {
   const std::string page = simulate_report({row()}, {}, "a machine").markdown;
-  EXPECT_THAT(
-      page,
-      HasSubstr("| 1000 m | 10001 | 334 | 36 | 2464 | 83 | 0.333 | 0.700 | 0.210 | 0.120 | 0.50 | 12.3 | 700 | 2 |"));
+  EXPECT_THAT(page, HasSubstr("| 1000 m | 10001 | 334 | 36 | 2464 | 83 | 0.333 | 0.700 | 0.210 | 0.120 | "
+                              "0.50 | 12.3 | 700 | 2 |"));
   EXPECT_THAT(page, HasSubstr("| 1000 m | loops | 700 | 1.50 | 0.90 | 7.2 % |"));
   EXPECT_THAT(page,
               HasSubstr("| 1000 m | 0.99 | 8.42 | 9.5 | 1.25 | 4.5 | 6.5 | 9.9 | 5.5 | 210 | 2.5 | 1.2 |"));

@@ -4,7 +4,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <exception>
 #include <stdexcept>
 
@@ -21,13 +20,7 @@ constexpr char kUserError = 'u';
 constexpr char kFailure = 'f';
 
 void send(int pipe, char kind, const std::string& text) {
-  const std::string message = kind + text + '\0';
-  for (std::size_t sent = 0; sent < message.size();) {
-    const ssize_t written = ::write(pipe, message.data() + sent, message.size() - sent);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) ::_exit(1);  // the parent no longer reads
-    sent += static_cast<std::size_t>(written);
-  }
+  if (!write_all(pipe, kind + text + '\0')) ::_exit(1);  // the parent no longer reads
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ RunningChild::~RunningChild() {
 }
 
 void RunningChild::kill() const {
-  ::kill(pid_, SIGKILL);
+  if (pid_ > 0) ::kill(pid_, SIGKILL);  // 0 and less mean groups of processes
 }
 
 EndedChild RunningChild::wait() {

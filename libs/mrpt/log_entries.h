@@ -37,10 +37,11 @@ class LogEntries {
 };
 
 /// Opens a log. If one laser of a rawlog is read, entries are unchanged, but scans of other lasers are left
-/// out, and observations that are neither scans nor odometry or those of gyroscopes. That laser is log.laser, or the first one if log.laser is empty. In all other cases each frame
-/// becomes an entry with the movement and the scans of all lasers that are read. The main laser comes first,
-/// because MRPT's deciders take the first scan. Throws UserError if the log cannot be opened; next() throws
-/// it if no laser has the label of log.laser.
+/// out, and observations that are neither scans nor odometry or those of gyroscopes. That laser is log.laser,
+/// or the first one if log.laser is empty. In all other cases each frame becomes an entry with the movement
+/// and the scans of all lasers that are read. The main laser comes first, because MRPT's deciders take the
+/// first scan. Throws UserError if the log cannot be opened; next() throws it if no laser has the label of
+/// log.laser.
 std::unique_ptr<LogEntries> open_log_entries(const std::filesystem::path& log, const LogOptions& options);
 
 }  // namespace psi_slam

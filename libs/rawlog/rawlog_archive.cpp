@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -21,6 +22,8 @@
 #include <exception>
 #include <fstream>
 #include <iterator>
+#include <new>
+#include <stdexcept>
 #include <utility>
 
 #include "base/forked_child.h"
@@ -32,7 +35,6 @@ namespace psi_slam {
 namespace {
 
 using mrpt::obs::CActionCollection;
-using mrpt::obs::CActionRobotMovement2D;
 using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
 using Object = mrpt::serialization::CSerializable::Ptr;
@@ -40,8 +42,8 @@ using Object = mrpt::serialization::CSerializable::Ptr;
 constexpr rlim_t kMemoryOfChild_bytes = rlim_t{512} << 20;
 constexpr rlim_t kTimeForObject_s = 10;
 
-// A movement of more particles would take too long to draw again in the parent.
-constexpr std::uint32_t kMostParticles = 100'000;
+// More particles in the movements of an object would take too long to draw again in the parent.
+constexpr std::uint64_t kMostParticles = 100'000;
 
 constexpr const char* kContradiction = " is damaged: its contents contradict each other. Fetch the log again";
 
@@ -92,12 +94,16 @@ bool is_used(const CObservation& observation) {
          dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation) != nullptr;
 }
 
-bool is_plausible(const CActionCollection& actions) {
-  return std::none_of(actions.begin(), actions.end(), [](const auto& action) {
-    const auto* movement = dynamic_cast<const CActionRobotMovement2D*>(action.get());
-    return movement != nullptr &&
-           movement->motionModelConfiguration.thrunModel.nParticlesCount > kMostParticles;
-  });
+/// Number of particles of all movements, which MRPT draws when it reads them.
+std::uint64_t particles_of(const CActionCollection& actions) {
+  std::uint64_t particles = 0;
+  for (const auto& action : actions) {
+    if (const auto* movement = dynamic_cast<const mrpt::obs::CActionRobotMovement2D*>(action.get()))
+      particles += movement->motionModelConfiguration.thrunModel.nParticlesCount;
+    if (const auto* movement = dynamic_cast<const mrpt::obs::CActionRobotMovement3D*>(action.get()))
+      particles += movement->motionModelConfiguration.mm6DOFModel.nParticlesCount;
+  }
+  return particles;
 }
 
 /// Returns what psi-slam uses of an object; null if nothing. Images would take long to send.
@@ -160,8 +166,10 @@ void send_object(const Object& object, const RawlogStream& objects, const Sender
   const auto* actions = dynamic_cast<const CActionCollection*>(object.get());
   TextStream stream;
   try {
-    if (actions != nullptr && !is_plausible(*actions)) throw std::out_of_range("particles");
+    if (actions != nullptr && particles_of(*actions) > kMostParticles) throw std::length_error("particles");
     TextArchive(stream) << *object;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     throw UserError(objects.place() + kContradiction);
   }
@@ -179,6 +187,8 @@ void send_objects(const std::filesystem::path& path, const Sender& sender) {
       if (const Object used = used_part(object)) send_object(used, objects, sender);
     }
     sender.send(Kind::kEnd, objects.progress());
+  } catch (const std::bad_alloc&) {
+    ::_exit(1);  // some failed allocations crash MRPT, so the parent reports both in the same way
   } catch (const UserError& error) {
     sender.send(Kind::kUserError, 0, error.what());
   } catch (const std::exception& error) {
@@ -248,7 +258,7 @@ Object RawlogArchive::State::receive() {
     if (!pipe.read_exactly(&header, sizeof header)) throw end_of_child();
     std::string text(header.text_bytes, '\0');
     if (!pipe.read_exactly(text.data(), text.size())) throw end_of_child();
-    progress = header.progress;
+    progress = std::max(progress, header.progress);  // errors state none
     switch (header.kind) {
       case Kind::kReads:
         ++reads;
@@ -258,6 +268,8 @@ Object RawlogArchive::State::receive() {
         TextStream stream(std::move(text));
         try {
           return TextArchive(stream).ReadObject();
+        } catch (const std::bad_alloc&) {
+          throw;
         } catch (const std::exception&) {
           throw UserError(place_of(reads) + kContradiction);
         }

@@ -23,7 +23,7 @@ class RawlogArchive : public ObjectSource {
 
   /// Returns the next object, or null at the end of the file. Throws UserError if the file cannot be opened,
   /// ends within an object, is damaged, or holds an object that this version of MRPT does not know, and if
-  /// the child process ends. After an error, throws it again.
+  /// the child process ends; SystemFailure if the system fails. After an error, throws it again.
   mrpt::serialization::CSerializable::Ptr next() override;
 
   std::string place() const override;

@@ -108,6 +108,7 @@ mrpt::serialization::CSerializable::Ptr RawlogStream::next() {
   try {
     return state_->archive.ReadObject();
   } catch (const std::bad_alloc&) {
+    if (!state_->is_growing) throw;
     throw UserError(place() +
                     " needs more memory than there is, so it is probably damaged. Fetch the log again");
   } catch (const std::exception&) {

@@ -24,8 +24,9 @@ class RawlogStream : public ObjectSource {
   ~RawlogStream() override;
 
   /// Returns the next object, or null at the end of the file. Throws UserError if the file ends within an
-  /// object, is damaged, or holds an object that this version of MRPT does not know. Also throws it if an
-  /// object needs more memory than there is; but some failed allocations crash MRPT.
+  /// object, is damaged, or holds an object that this version of MRPT does not know. If an object needs more
+  /// memory than there is, throws std::bad_alloc, or UserError if the rawlog is growing; but some failed
+  /// allocations crash MRPT.
   mrpt::serialization::CSerializable::Ptr next() override;
 
   std::string place() const override;

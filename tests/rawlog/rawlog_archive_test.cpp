@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <thread>
 
 #include "base/forked_child.h"
@@ -152,6 +153,27 @@ TEST_F(RawlogChild, reports_that_it_was_killed) {
                 " was killed (signal 9). Make sure that there is enough memory");
 }
 
+/// The system sends this signal at the limit of processor time.
+TEST_F(RawlogChild, has_a_limit_of_time) {
+  RawlogArchive archive(path_);
+  ASSERT_TRUE(archive.next());
+  std::ifstream limits("/proc/" + std::to_string(child()) + "/limits");
+  std::string line;
+  while (std::getline(limits, line) && line.rfind("Max cpu time", 0) != 0) continue;
+  std::istringstream words(line.substr(12));
+  int limit_s = 0;
+  EXPECT_TRUE(words >> limit_s) << line;
+  EXPECT_GE(limit_s, 10);
+  EXPECT_LE(limit_s, 20);
+  ASSERT_EQ(::kill(child(), SIGXCPU), 0);
+  EXPECT_THAT(
+      sentence_of([&] {
+        while (archive.next()) {
+        }
+      }),
+      testing::EndsWith(" takes MRPT more than 10 s, so it is probably damaged. Fetch the log again"));
+}
+
 TEST_F(RawlogChild, does_not_get_the_signals_of_the_terminal) {
   RawlogArchive archive(path_);
   ASSERT_TRUE(archive.next());
@@ -168,12 +190,18 @@ TEST_F(RawlogChild, ends_after_its_parent_was_killed) {
   Pipe pipe;
   const pid_t parent = ::fork();
   if (parent == 0) {
-    RawlogArchive archive(path_);
-    archive.next();
-    const pid_t pid = child();
-    if (!write_all(pipe.writing(), {reinterpret_cast<const char*>(&pid), sizeof pid})) ::_exit(1);
-    for (;;) ::pause();
+    try {
+      RawlogArchive archive(path_);
+      archive.next();
+      const pid_t pid = child();
+      if (write_all(pipe.writing(), {reinterpret_cast<const char*>(&pid), sizeof pid}))
+        for (;;) ::pause();
+    } catch (...) {
+    }
+    ::_exit(1);
   }
+  ASSERT_GT(parent, 0);
+  pipe.close_writing();
   RunningChild running(parent);
   pid_t grandchild = 0;
   ASSERT_TRUE(pipe.read_exactly(&grandchild, sizeof grandchild));

@@ -16,18 +16,18 @@
 namespace psi_slam {
 namespace {
 
-[[noreturn]] void fail(const std::string& doing, int error) {
-  throw SystemFailure(doing + ": " + std::strerror(error));
-}
-
 double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
 }  // namespace
 
+void fail_at(const std::string& attempt, int error) {
+  throw SystemFailure(attempt + ": " + std::strerror(error));
+}
+
 Pipe::Pipe() {
-  if (::pipe2(ends_.data(), O_CLOEXEC) != 0) fail("cannot create a pipe", errno);
+  if (::pipe2(ends_.data(), O_CLOEXEC) != 0) fail_at("cannot create a pipe", errno);
 }
 
 Pipe::~Pipe() {
@@ -84,7 +84,7 @@ EndedChild RunningChild::wait() {
   EndedChild end;
   rusage usage{};
   while (::wait4(pid_, &end.status, 0, &usage) < 0)
-    if (errno != EINTR) fail("cannot wait for a child process", errno);
+    if (errno != EINTR) fail_at("cannot wait for a child process", errno);
   pid_ = 0;
   end.cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
   end.peak_memory_mib = static_cast<double>(usage.ru_maxrss) / 1024;  // Linux states kibibytes

@@ -11,6 +11,9 @@
 
 namespace psi_slam {
 
+/// Throws SystemFailure with what was attempted and the text of the error number.
+[[noreturn]] void fail_at(const std::string& attempt, int error);
+
 /// A pipe whose destructor closes both ends. Programs started while it exists do not inherit it.
 class Pipe {
  public:

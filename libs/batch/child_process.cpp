@@ -25,10 +25,6 @@ constexpr int kPollTimeout_ms = 200;
 constexpr std::size_t kMostOut = std::size_t{16} << 20;
 constexpr std::size_t kMostErr = std::size_t{64} << 10;
 
-[[noreturn]] void fail(const std::string& doing, int error) {
-  throw SystemFailure(doing + ": " + std::strerror(error));
-}
-
 /// Appends the next bytes of the pipe to `text` and keeps at least the last `most` bytes of `text`. Returns
 /// false at the end of the data.
 bool take(Pipe& pipe, std::string& text, std::size_t most) {
@@ -61,7 +57,7 @@ pid_t start(const ChildProcess& child, const Pipe& out, const Pipe& err) {
   Pipe error_pipe;  // closes when the program starts; otherwise receives errno
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
-  if (pid < 0) fail("cannot start " + words.at(0), errno);
+  if (pid < 0) fail_at("cannot start " + words.at(0), errno);
   if (pid == 0) start_program(pointers.data(), out.writing(), err.writing(), error_pipe.writing(), parent);
   error_pipe.close_writing();
   std::string received;
@@ -71,7 +67,7 @@ pid_t start(const ChildProcess& child, const Pipe& out, const Pipe& err) {
   if (received.size() < sizeof error) return pid;
   std::memcpy(&error, received.data(), sizeof error);
   ::waitpid(pid, nullptr, 0);
-  fail("cannot start " + words[0], error);
+  fail_at("cannot start " + words[0], error);
 }
 
 /// Last line of a text, without the white space at its end.
@@ -108,7 +104,7 @@ ChildEnd run_child(const ChildProcess& child) {
   std::array<pollfd, 2> ends{{{out.reading(), POLLIN, 0}, {err.reading(), POLLIN, 0}}};
   while (ends[0].fd >= 0 || ends[1].fd >= 0) {
     const int ready = ::poll(ends.data(), ends.size(), kPollTimeout_ms);
-    if (ready < 0 && errno != EINTR) fail("cannot wait for the output of " + child.words[0], errno);
+    if (ready < 0 && errno != EINTR) fail_at("cannot wait for the output of " + child.words[0], errno);
     if (ready > 0) {  // otherwise poll() has not updated revents
       // poll() ignores negative descriptors.
       if (ends[0].revents != 0 && !take(out, end.out, kMostOut)) ends[0].fd = -1;

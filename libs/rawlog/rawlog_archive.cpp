@@ -18,7 +18,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
-#include <cstring>
 #include <exception>
 #include <fstream>
 #include <iterator>
@@ -220,8 +219,7 @@ void send_objects(const std::filesystem::path& path, const Sender& sender) {
 pid_t start_child(const std::filesystem::path& path, Pipe& pipe) {
   register_rawlog_classes();
   const pid_t pid = ::fork();
-  if (pid < 0)
-    throw SystemFailure("cannot start a process that reads " + path.string() + ": " + std::strerror(errno));
+  if (pid < 0) fail_at("cannot start a process that reads " + path.string(), errno);
   if (pid == 0) read_in_child(path, pipe);
   pipe.close_writing();
   return pid;

@@ -19,7 +19,6 @@
 namespace psi_slam {
 namespace {
 
-using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 constexpr double kScanRate_hz = 5;

@@ -7,13 +7,13 @@ namespace psi_slam {
 namespace {
 
 std::array<std::atomic<bool>, InterruptSignals::kMostExpected> signal_came{};
-std::atomic<std::size_t> signals{0};
+std::atomic<std::size_t> received_signals{0};
 std::atomic<std::size_t> expected_signals{1};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::size_t>::is_always_lock_free,
               "a signal handler may only use lock-free objects");
 
 extern "C" void on_signal(int) {
-  const std::size_t before = signals.fetch_add(1);
+  const std::size_t before = received_signals.fetch_add(1);
   if (before < signal_came.size()) signal_came[before] = true;
   if (before + 1 < expected_signals) return;
   signal(SIGINT, SIG_DFL);
@@ -24,7 +24,7 @@ extern "C" void on_signal(int) {
 
 InterruptSignals::InterruptSignals(std::size_t expected) {
   for (std::atomic<bool>& came : signal_came) came = false;
-  signals = 0;
+  received_signals = 0;
   expected_signals = expected;
   struct sigaction action = {};
   action.sa_handler = on_signal;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "comparison/map_alignment.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "base/number_text.h"
 #include "base/portable_math.h"
 #include "frames/pose_operations.h"
+#include "frames/position_variance.h"
 #include "localization/global_search.h"
 #include "localization/reference_map.h"
 #include "matching/make_matcher.h"
@@ -179,9 +179,8 @@ std::string objection(const std::optional<WallMatch>& found, const MapAlignmentO
 }  // namespace
 
 double MapAlignment::sigma_m(double distance_m) const {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance.topLeftCorner<2, 2>(),
-                                                            Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()) + distance_m * distance_m * covariance(2, 2));
+  return std::sqrt(std::max(0.0, largest_position_variance_m2(covariance)) +
+                   distance_m * distance_m * covariance(2, 2));
 }
 
 MapAlignment align_maps(const Grid& a, const Grid& b, const MapAlignmentOptions& options) {

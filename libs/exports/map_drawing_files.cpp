@@ -71,7 +71,7 @@ constexpr double kFooter_mm = 12;
 constexpr double kTextHeight_mm = 3.5;
 constexpr double kArrow_mm = 8;
 
-std::string number(double value) {
+std::string decimal(double value) {
   return trimmed_text(value, 4);
 }
 
@@ -79,7 +79,7 @@ std::string path_data(const MapLine& line, std::string_view end) {
   std::string data;
   for (const auto& point : line) {
     data += data.empty() ? 'M' : 'L';
-    data += number(point.x) + ' ' + number(point.y);
+    data += decimal(point.x) + ' ' + decimal(point.y);
   }
   return data + std::string(end);
 }
@@ -91,7 +91,7 @@ std::string layer(const std::string& id, const std::string& style, const std::st
 }
 
 std::string attribute(const char* name, double value) {
-  return std::string(" ") + name + "=\"" + number(value) + '"';
+  return std::string(" ") + name + "=\"" + decimal(value) + '"';
 }
 
 std::string text_at(double x, double y, double height, const std::string& content) {
@@ -103,9 +103,9 @@ std::string text_at(double x, double y, double height, const std::string& conten
 /// coordinates. `mm` is the length in the map, in metres, of one millimetre of paper.
 std::string footer(double x, double y, double width_m, double mm, double scale) {
   const auto go = [](const char* command, double dx, double dy) {
-    return command + number(dx) + ' ' + number(dy);
+    return command + decimal(dx) + ' ' + decimal(dy);
   };
-  const auto along = [](const char* command, double length) { return command + number(length); };
+  const auto along = [](const char* command, double length) { return command + decimal(length); };
   const double bar_m = scale_bar_m(width_m, 0.01);
   const double middle = y + kFooter_mm / 2 * mm;
   const double tip = kArrow_mm * mm;
@@ -120,7 +120,7 @@ std::string footer(double x, double y, double width_m, double mm, double scale) 
                            go("l", 0.7 * mm, -1.5 * mm) + go("l", 0.7 * mm, 1.5 * mm);
   return "<path d=\"" + bar + "\"/>\n" +
          text_at(x + bar_m + 2 * mm, middle + kTextHeight_mm / 3 * mm, kTextHeight_mm * mm,
-                 number(bar_m) + " m, 1:" + number(scale)) +
+                 decimal(bar_m) + " m, 1:" + decimal(scale)) +
          "<path id=\"axes\" fill=\"none\" d=\"" + axes + "\"/>\n" +
          text_at(axes_x + tip + mm, axes_y + mm, kTextHeight_mm * mm, "x") +
          text_at(axes_x - 3 * mm, axes_y - tip + mm, kTextHeight_mm * mm, "y");
@@ -157,9 +157,9 @@ std::string map_svg(const MapDrawing& drawing, double scale) {
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
          "<svg xmlns=\"http://www.w3.org/2000/svg\" "
          "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" width=\"" +
-         number(width / mm) + "mm\" height=\"" + number(height / mm) + "mm\" viewBox=\"" + number(left) +
-         ' ' + number(top) + ' ' + number(width) + ' ' + number(height) +
-         "\">\n<title>Floor plan, 1:" + number(scale) + "</title>\n<rect" + attribute("x", left) +
+         decimal(width / mm) + "mm\" height=\"" + decimal(height / mm) + "mm\" viewBox=\"" + decimal(left) +
+         ' ' + decimal(top) + ' ' + decimal(width) + ' ' + decimal(height) +
+         "\">\n<title>Floor plan, 1:" + decimal(scale) + "</title>\n<rect" + attribute("x", left) +
          attribute("y", top) + attribute("width", width) + attribute("height", height) +
          " fill=\"#fff\"/>\n" +
          layer("trajectory",

@@ -18,8 +18,8 @@ namespace psi_slam {
 namespace {
 
 constexpr double kMetresPerInch = 0.0254;
-constexpr double kFooter_mm = 14;     // height of the strip below the map, millimetres of paper
-constexpr double kMaxPixels = 150e6;  // limits the memory that the picture needs
+constexpr double kPrintFooter_mm = 14;  // height of the strip below the map, millimetres of paper
+constexpr double kMaxPixels = 150e6;    // limits the memory that the picture needs
 
 std::string big_endian(std::uint32_t number) {
   std::string bytes;
@@ -64,10 +64,10 @@ void draw_arrow(cv::Mat& image, const cv::Point2d& from, double length, double d
 /// Adds the strip below the map: scale bar on the left, north and axes on the right.
 void add_footer(cv::Mat& image, const MapFileOptions& options, double pixels_a_m, double px_per_mm) {
   const int top = image.rows;
-  cv::copyMakeBorder(image, image, 0, static_cast<int>(std::lround(kFooter_mm * px_per_mm)), 0, 0,
+  cv::copyMakeBorder(image, image, 0, static_cast<int>(std::lround(kPrintFooter_mm * px_per_mm)), 0, 0,
                      cv::BORDER_CONSTANT, kUnknownInk);
   const int unit = std::max(4, static_cast<int>(std::lround(2.5 * px_per_mm)));
-  const int middle = top + static_cast<int>(kFooter_mm / 2 * px_per_mm);
+  const int middle = top + static_cast<int>(kPrintFooter_mm / 2 * px_per_mm);
   draw_scale_bar(image, {unit, middle, unit}, scale_bar_m(image.cols / pixels_a_m, 1 / pixels_a_m),
                  1 / pixels_a_m, "  1:" + shortest_text(static_cast<float>(options.print_scale)));
   const cv::Point2d corner(image.cols - 12 * px_per_mm, top + 11 * px_per_mm);

@@ -57,6 +57,11 @@ inline Eigen::Matrix2d rotation_matrix(double angle_rad) {
   return matrix;
 }
 
+/// Returns the distance between two points, in metres.
+inline double distance_m(const mrpt::math::TPoint2D& a, const mrpt::math::TPoint2D& b) {
+  return portable::hypot(b.x - a.x, b.y - a.y);
+}
+
 /// Returns the pose at `fraction` of the way from one pose to another. Position and yaw change linearly; yaw
 /// turns along the shorter arc.
 inline mrpt::math::TPose2D interpolate(const mrpt::math::TPose2D& from, const mrpt::math::TPose2D& to,

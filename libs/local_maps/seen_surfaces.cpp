@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "base/portable_math.h"
 #include "frames/beam_directions.h"
+#include "frames/pose_operations.h"
 #include "frames/scan_neighbours.h"
 
 namespace psi_slam {
@@ -23,12 +23,8 @@ constexpr double kMaxGapPerSpacing =
 constexpr double kMaxOffset_m = 0.06;      // largest distance of a third end from the line through two ends
 constexpr double kMaxOffsetPerGap = 0.15;  // the same limit as a share of the gap; the larger limit applies
 
-double gap_m(const TPoint2D& a, const TPoint2D& b) {
-  return portable::hypot(b.x - a.x, b.y - a.y);
-}
-
 bool in_line(const TPoint2D& a, const TPoint2D& b, const TPoint2D& third) {
-  const double gap = gap_m(a, b);
+  const double gap = distance_m(a, b);
   const double offset = std::abs((third.x - b.x) * (b.y - a.y) - (third.y - b.y) * (b.x - a.x)) / gap;
   return offset <= std::max(kMaxOffset_m, kMaxOffsetPerGap * gap);
 }
@@ -55,7 +51,7 @@ std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m,
   for (std::size_t i = 0; i < beams; ++i) {
     const std::size_t last = before(i);
     if (!hit(last) || !hit(i)) continue;
-    const double gap = gap_m(ends[last], ends[i]);
+    const double gap = distance_m(ends[last], ends[i]);
     const double turn_rad = std::remainder(bearing(i) - bearing(last), 2 * M_PI);
     const double spacing = std::abs(turn_rad) * std::min(range(last), range(i));
     if (spacing < min_spacing_m || gap < kMinGap_m || gap > kMaxGap_m || gap > kMaxGapPerSpacing * spacing)

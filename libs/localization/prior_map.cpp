@@ -3,13 +3,13 @@
 
 #include <mrpt/math/wrap2pi.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "base/number_text.h"
 #include "frames/pose_operations.h"
+#include "frames/position_variance.h"
 #include "localization/place_consensus.h"
 
 namespace psi_slam {
@@ -60,12 +60,6 @@ GlobalSearchOptions search_options() {
   options.min_agree = 0.5;
   options.min_clear_share_alone = 0.8;
   return options;
-}
-
-double largest_sigma_m(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance.topLeftCorner<2, 2>(),
-                                                            Eigen::EigenvaluesOnly);
-  return std::sqrt(axes.eigenvalues().maxCoeff());
 }
 
 // Numbers of the nodes that get a place, in their order.
@@ -228,7 +222,7 @@ void PriorMap::follow(Path& path, Progress& progress) const {
     ++path.fits;
     path.places[i] = *place;
     prior_T_map = compose(place->pose, inverse(path.map_T_node[node]));
-    if (largest_sigma_m(place->further) <= kFirm_m) firm_m = travelled_m;
+    if (std::sqrt(largest_position_variance_m2(place->further)) <= kFirm_m) firm_m = travelled_m;
   };
   const double start_m = path.keyframes.nodes[path.nodes[path.first]].travelled_m;
   TPose2D prior_T_map = path.prior_T_map;

@@ -11,7 +11,6 @@
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
-#include "base/portable_math.h"
 #include "compression/line_reader.h"
 #include "pose_graph/information_matrix.h"
 #include "pose_graph/spanning_tree.h"
@@ -37,13 +36,11 @@ struct Edge {
   Eigen::Matrix3d information;  // in the axes of `from`
 };
 
-// Converts an information matrix from the axes of an edge's end, which is turned by theta, to the axes of its
+// Returns an information matrix along the axes in which its own axes have the heading theta, without the
+// asymmetry of rounding. Edges of g2o files have the axes of their end, those of the graph the axes of their
 // beginning.
-Eigen::Matrix3d turned(const Eigen::Matrix3d& information, double theta) {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  rotation.topLeftCorner<2, 2>() << portable::cos(theta), -portable::sin(theta), portable::sin(theta),
-      portable::cos(theta);
-  const Eigen::Matrix3d product = rotation * information * rotation.transpose();
+Eigen::Matrix3d turned_symmetric(const Eigen::Matrix3d& information, double theta) {
+  const Eigen::Matrix3d product = turned(information, theta);
   return 0.5 * (product + product.transpose());
 }
 
@@ -113,7 +110,7 @@ class Fields {
     if (!is_information_matrix(edge.information))
       throw bad("the information matrix is not positive semi-definite");
     if (edge.from == edge.to) throw bad("an edge links a vertex to itself");
-    if (format.in_axes_of_end) edge.information = turned(edge.information, edge.from_T_to.phi);
+    if (format.in_axes_of_end) edge.information = turned_symmetric(edge.information, edge.from_T_to.phi);
     return edge;
   }
 
@@ -260,7 +257,7 @@ void write_g2o(const PoseGraph& graph, const std::filesystem::path& path) {
     const Constraint& constraint = graph.constraint(i);
     text += "EDGE_SE2 " + std::to_string(constraint.from) + ' ' + std::to_string(constraint.to);
     append_pose(constraint.from_T_to);
-    Eigen::Matrix3d information = turned(constraint.information, -constraint.from_T_to.phi);
+    Eigen::Matrix3d information = turned_symmetric(constraint.information, -constraint.from_T_to.phi);
     if (information(2, 2) == 0) information(2, 2) = kNoHeading;
     for (const auto& [row, column] : kG2oEdge.entries) append(text, information(row, column));
     text += '\n';

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include "base/portable_math.h"
+
 namespace psi_slam {
 
 /// Returns whether the matrix can be an inverse covariance: finite and, up to rounding, symmetric and
@@ -26,6 +28,16 @@ inline bool is_information_matrix(const Eigen::Matrix3d& information) {
   const double limit = 1 + kRounding;
   const double determinant = 1 + 2 * xy * xt * yt - xy * xy - xt * xt - yt * yt;
   return xy * xy <= limit && xt * xt <= limit && yt * yt <= limit && determinant >= -kRounding;
+}
+
+/// Returns a covariance or information matrix of (x, y, theta) along the axes in which the axes of `matrix`
+/// have the heading `angle_rad`.
+inline Eigen::Matrix3d turned(const Eigen::Matrix3d& matrix, double angle_rad) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation(0, 0) = rotation(1, 1) = portable::cos(angle_rad);
+  rotation(1, 0) = portable::sin(angle_rad);
+  rotation(0, 1) = -rotation(1, 0);
+  return rotation * matrix * rotation.transpose();
 }
 
 /// Returns the inverse of a covariance of (x, y, theta) after adding independent noise to it: `sigma_m` in x

@@ -11,7 +11,7 @@ namespace psi_slam {
 namespace {
 
 // Returns R a R^T, where R is the rotation by the angle with this cosine and sine.
-PoseCovariance turned(const PoseCovariance& a, double cosine, double sine) {
+PoseCovariance turned_covariance(const PoseCovariance& a, double cosine, double sine) {
   const double off = sine * cosine * (a.xx - a.yy);
   const double cc = cosine * cosine;
   const double ss = sine * sine;
@@ -42,7 +42,7 @@ void add(PoseCovariance& a, const PoseCovariance& b) {
 PoseCovariance extended(const PoseCovariance& at_previous, const GraphLink& link, const RotatedPose& previous,
                         const RotatedPose& next, bool forwards) {
   const RotatedPose& from = forwards ? previous : next;
-  const PoseCovariance measured = turned(link.covariance, from.cosine, from.sine);
+  const PoseCovariance measured = turned_covariance(link.covariance, from.cosine, from.sine);
   const double dx = next.x - previous.x;
   const double dy = next.y - previous.y;
   PoseCovariance result = at_previous;
@@ -168,7 +168,7 @@ RelativeUncertainty PathCovarianceSearch::of(std::size_t index) const {
   const Node& node = nodes_.at(index);
   if (node.run != run_ || !node.settled) return uncertainty;
   const RotatedPose& source = nodes_[source_].pose;
-  const PoseCovariance own = turned(node.covariance, source.cosine, -source.sine);
+  const PoseCovariance own = turned_covariance(node.covariance, source.cosine, -source.sine);
   uncertainty.reached = true;
   uncertainty.previous = node.previous;
   uncertainty.constraint = node.constraint;

@@ -10,6 +10,7 @@
 
 #include "base/portable_math.h"
 #include "frames/pose_operations.h"
+#include "pose_graph/information_matrix.h"
 #include "pose_graph/marginal_covariance.h"
 #include "psi_slam/user_error.h"
 
@@ -25,16 +26,6 @@ constexpr double kRigidSigma = 1e-3;
 
 double distance_m(const PoseGraph& graph, std::size_t a, std::size_t b) {
   return portable::hypot(graph.pose(b).x - graph.pose(a).x, graph.pose(b).y - graph.pose(a).y);
-}
-
-// Returns a covariance or information matrix along the axes in which the axes of `matrix` have the heading
-// `angle_rad`.
-Matrix3d turned(const Matrix3d& matrix, double angle_rad) {
-  Matrix3d rotation = Matrix3d::Identity();
-  rotation(0, 0) = rotation(1, 1) = portable::cos(angle_rad);
-  rotation(1, 0) = portable::sin(angle_rad);
-  rotation(0, 1) = -rotation(1, 0);
-  return rotation * matrix * rotation.transpose();
 }
 
 Matrix3d inverse_of(const Matrix3d& matrix) {

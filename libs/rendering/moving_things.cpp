@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/portable_math.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -55,10 +56,6 @@ constexpr std::uint16_t kMostCount = 60'000;
 
 std::int64_t cells_in(double length_m, double resolution_m) {
   return static_cast<std::int64_t>(std::ceil(length_m / resolution_m - 1e-9));
-}
-
-double distance_m(const TPoint2D& a, const TPoint2D& b) {
-  return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
 }
 
 /// Returns whether [first, last] lies within [other_first, other_last], with kRimSlack intervals more.

@@ -19,7 +19,12 @@ struct Record {
   std::string_view data;
 };
 
-enum Operation : std::uint8_t { kMessageData = 0x02, kBagHeader = 0x03, kChunk = 0x05, kConnection = 0x07 };
+enum Operation : std::uint8_t {
+  kMessageData = 0x02,
+  kBagHeader = 0x03,
+  kBagChunk = 0x05,
+  kConnection = 0x07
+};
 
 Fields fields_of(std::string_view bytes) {
   Fields fields;
@@ -117,7 +122,7 @@ class Ros1Bag final : public RecordBag {
     const std::uint8_t operation = operation_of(record_);
     if (operation == kConnection)
       connections_.emplace(number_field<std::uint32_t>(record_.fields, "conn"), topic_of(record_));
-    if (operation == kChunk) open_chunk(text_field(record_.fields, "compression"));
+    if (operation == kBagChunk) open_chunk(text_field(record_.fields, "compression"));
     return operation == kMessageData && take_message(message);
   }
 

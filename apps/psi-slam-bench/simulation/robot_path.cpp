@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "simulation/simulation_random.h"
 
 namespace psi_slam {
@@ -77,10 +78,6 @@ class Route {
   std::size_t here_ = 0;
   std::size_t before_ = 0;
 };
-
-double distance_m(const TPoint2D& a, const TPoint2D& b) {
-  return portable::hypot(b.x - a.x, b.y - a.y);
-}
 
 }  // namespace
 

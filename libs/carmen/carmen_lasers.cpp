@@ -56,8 +56,7 @@ std::string first_of(const std::vector<std::string>& preferred, const Messages& 
 }
 
 bool same_mount(const TPose2D& a, const TPose2D& b) {
-  return portable::hypot(a.x - b.x, a.y - b.y) <= kSameMount_m &&
-         std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= kSameMount_rad;
+  return distance_m(b, a) <= kSameMount_m && std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= kSameMount_rad;
 }
 
 std::optional<CarmenLaserMessage> readable_laser(CarmenFields& fields) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/portable_math.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -182,7 +183,7 @@ void replace_by_rest(std::vector<ChangedWall>& walls, std::map<std::size_t, Spli
 }  // namespace
 
 double ChangedWall::length() const {
-  return portable::hypot(to.x - from.x, to.y - from.y) + 1;
+  return distance_m(from, to) + 1;
 }
 
 std::vector<ChangedWall> connected_walls(const WallCells& cells, double min_length) {

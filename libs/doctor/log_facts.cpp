@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -54,7 +54,7 @@ OdometryFacts odometry_facts(const std::vector<FrameMark>& marks) {
   for (std::size_t i = 1; i < marks.size(); ++i) {
     const auto& before = marks[i - 1].odom_T_robot;
     const auto& now = marks[i].odom_T_robot;
-    const double step_m = portable::hypot(now.x - before.x, now.y - before.y);
+    const double step_m = distance_m(before, now);
     const double turn_rad = std::abs(mrpt::math::wrapToPi(now.phi - before.phi));
     facts.path_length_m += step_m;
     facts.turned_rad += turn_rad;

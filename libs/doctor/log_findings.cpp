@@ -14,6 +14,7 @@
 #include "doctor/clock_jumps.h"
 #include "doctor/input_doctor.h"
 #include "frames/laser_choice.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -398,7 +399,7 @@ class Judge {
     const LaserMountEstimate& mount = *diagnosis_.mount;
     const TPose2D& stated = facts_.robot_T_laser;
     const double yaw_rad = laser_yaw_rad(mount);
-    const double off_m = portable::hypot(mount.robot_T_laser.x - stated.x, mount.robot_T_laser.y - stated.y);
+    const double off_m = distance_m(stated, mount.robot_T_laser);
     const double off_rad = std::abs(mrpt::math::wrapToPi(yaw_rad - stated.phi));
     if (off_m > std::max(0.03, 4 * mount.deviation_m) ||
         off_rad > std::max(DEG2RAD(0.8), 4 * mount.deviation_rad)) {

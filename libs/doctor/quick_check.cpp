@@ -11,16 +11,16 @@ namespace psi_slam {
 namespace {
 
 constexpr std::size_t kQuickTracks = 30;
-constexpr std::size_t kJumps = 30;
-constexpr std::size_t kRevisits = 60;
+constexpr std::size_t kQuickJumps = 30;
+constexpr std::size_t kQuickRevisits = 60;
 constexpr std::size_t kQuickPairs = 200;
 
 /// Compares odometry with the alignment of a few scans. `scans` are in the order of the marks.
 void compare_odometry_with(const std::vector<const LaserScan*>& scans, LogDiagnosis& diagnosis) {
   const std::vector<FrameMark>& marks = diagnosis.marks;
   const auto tracks = tracks_from(frames_in_motion(marks, kQuickTracks), marks.size());
-  const auto suspects = suspected_jumps(marks, diagnosis.facts.time.median_period_s, kJumps);
-  const auto revisits = revisiting_pairs(marks, 0.5, 0.5, 30, kRevisits);
+  const auto suspects = suspected_jumps(marks, diagnosis.facts.time.median_period_s, kQuickJumps);
+  const auto revisits = revisiting_pairs(marks, 0.5, 0.5, 30, kQuickRevisits);
   const auto pairs = pairs_by_motion(marks, kComparedMotion_m, kComparedTurn_rad, kQuickPairs);
   ScanLibrary library;
   for (const auto& track : tracks) library.want(track);

@@ -71,7 +71,7 @@ constexpr double kFooter_mm = 12;
 constexpr double kTextHeight_mm = 3.5;
 constexpr double kArrow_mm = 8;
 
-std::string decimal(double value) {
+std::string svg_number(double value) {
   return trimmed_text(value, 4);
 }
 
@@ -79,7 +79,7 @@ std::string path_data(const MapLine& line, std::string_view end) {
   std::string data;
   for (const auto& point : line) {
     data += data.empty() ? 'M' : 'L';
-    data += decimal(point.x) + ' ' + decimal(point.y);
+    data += svg_number(point.x) + ' ' + svg_number(point.y);
   }
   return data + std::string(end);
 }
@@ -91,7 +91,7 @@ std::string layer(const std::string& id, const std::string& style, const std::st
 }
 
 std::string attribute(const char* name, double value) {
-  return std::string(" ") + name + "=\"" + decimal(value) + '"';
+  return std::string(" ") + name + "=\"" + svg_number(value) + '"';
 }
 
 std::string text_at(double x, double y, double height, const std::string& content) {
@@ -103,9 +103,9 @@ std::string text_at(double x, double y, double height, const std::string& conten
 /// coordinates. `mm` is the length in the map, in metres, of one millimetre of paper.
 std::string footer(double x, double y, double width_m, double mm, double scale) {
   const auto go = [](const char* command, double dx, double dy) {
-    return command + decimal(dx) + ' ' + decimal(dy);
+    return command + svg_number(dx) + ' ' + svg_number(dy);
   };
-  const auto along = [](const char* command, double length) { return command + decimal(length); };
+  const auto along = [](const char* command, double length) { return command + svg_number(length); };
   const double bar_m = scale_bar_m(width_m, 0.01);
   const double middle = y + kFooter_mm / 2 * mm;
   const double tip = kArrow_mm * mm;
@@ -120,7 +120,7 @@ std::string footer(double x, double y, double width_m, double mm, double scale) 
                            go("l", 0.7 * mm, -1.5 * mm) + go("l", 0.7 * mm, 1.5 * mm);
   return "<path d=\"" + bar + "\"/>\n" +
          text_at(x + bar_m + 2 * mm, middle + kTextHeight_mm / 3 * mm, kTextHeight_mm * mm,
-                 decimal(bar_m) + " m, 1:" + decimal(scale)) +
+                 svg_number(bar_m) + " m, 1:" + svg_number(scale)) +
          "<path id=\"axes\" fill=\"none\" d=\"" + axes + "\"/>\n" +
          text_at(axes_x + tip + mm, axes_y + mm, kTextHeight_mm * mm, "x") +
          text_at(axes_x - 3 * mm, axes_y - tip + mm, kTextHeight_mm * mm, "y");
@@ -157,9 +157,9 @@ std::string map_svg(const MapDrawing& drawing, double scale) {
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
          "<svg xmlns=\"http://www.w3.org/2000/svg\" "
          "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" width=\"" +
-         decimal(width / mm) + "mm\" height=\"" + decimal(height / mm) + "mm\" viewBox=\"" + decimal(left) +
-         ' ' + decimal(top) + ' ' + decimal(width) + ' ' + decimal(height) +
-         "\">\n<title>Floor plan, 1:" + decimal(scale) + "</title>\n<rect" + attribute("x", left) +
+         svg_number(width / mm) + "mm\" height=\"" + svg_number(height / mm) + "mm\" viewBox=\"" +
+         svg_number(left) + ' ' + svg_number(top) + ' ' + svg_number(width) + ' ' + svg_number(height) +
+         "\">\n<title>Floor plan, 1:" + svg_number(scale) + "</title>\n<rect" + attribute("x", left) +
          attribute("y", top) + attribute("width", width) + attribute("height", height) +
          " fill=\"#fff\"/>\n" +
          layer("trajectory",

@@ -10,6 +10,7 @@
 #include "base/number_text.h"
 #include "base/portable_math.h"
 #include "exports/mapped_trajectory.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -287,7 +288,7 @@ double path_length_m(const std::vector<TPose2D>& poses) {
   if (poses.empty()) return 0;
   double length = 0;
   TPose2D from = poses.front();
-  const auto distance = [&](const TPose2D& to) { return portable::hypot(to.x - from.x, to.y - from.y); };
+  const auto distance = [&](const TPose2D& to) { return distance_m(from, to); };
   for (const TPose2D& pose : poses) {
     if (distance(pose) < kStep_m) continue;
     length += distance(pose);

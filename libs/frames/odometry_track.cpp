@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 
 namespace psi_slam {
@@ -20,7 +19,7 @@ bool was_restarted(const TPose2D& last, const TPose2D& now) {
   constexpr double kZero_rad = 0.05;
   constexpr double kLeastJump_m = 1.0;
   constexpr double kFarthestStep_m = 1000.0;
-  if (portable::hypot(now.x - last.x, now.y - last.y) > kFarthestStep_m) return true;
+  if (distance_m(last, now) > kFarthestStep_m) return true;
   return now.norm() < kZero_m && std::abs(wrapToPi(now.phi)) < kZero_rad && last.norm() > kLeastJump_m;
 }
 

@@ -57,8 +57,9 @@ inline Eigen::Matrix2d rotation_matrix(double angle_rad) {
   return matrix;
 }
 
-/// Returns the distance between two points, in metres.
-inline double distance_m(const mrpt::math::TPoint2D& a, const mrpt::math::TPoint2D& b) {
+/// Returns the distance between the positions of two points or poses, in metres.
+template <class A, class B>
+auto distance_m(const A& a, const B& b) {
   return portable::hypot(b.x - a.x, b.y - a.y);
 }
 

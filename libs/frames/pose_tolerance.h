@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 
@@ -19,7 +19,7 @@ struct PoseTolerance {
 /// Returns whether distance and turn between two poses are within the tolerance.
 inline bool is_same_place(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b,
                           const PoseTolerance& tolerance) {
-  return portable::hypot(a.x - b.x, a.y - b.y) <= tolerance.metres &&
+  return distance_m(b, a) <= tolerance.metres &&
          std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= tolerance.radians;
 }
 

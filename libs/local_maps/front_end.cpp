@@ -172,13 +172,11 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
                                         options_.odometry_sigma_rad_per_radian));
   const double elapsed = passed_s / kHalfWeight_s;
   const double weight = 1 / (1 + elapsed * elapsed);
-  motion.disagreement_m =
-      weight * portable::hypot(motion.predicted.x - last_motion_.x, motion.predicted.y - last_motion_.y);
+  motion.disagreement_m = weight * distance_m(last_motion_, motion.predicted);
   motion.disagreement_rad = weight * std::abs(mrpt::math::wrapToPi(motion.predicted.phi - last_motion_.phi));
   motion.wide_disagreement_rad = motion.disagreement_rad;
   // Compared with odometry only: a wrong match must not make the next wrong correction plausible.
-  const double uneven_m = portable::hypot(motion.predicted.x - last_predicted_motion_.x,
-                                          motion.predicted.y - last_predicted_motion_.y);
+  const double uneven_m = distance_m(last_predicted_motion_, motion.predicted);
   motion.correction_sigma_m = portable::hypot(
       motion.sigma_m, options_.prior_per_surprise * std::min(uneven_m, motion.disagreement_m));
   motion.after_gap = constant_velocity_.is_gap(frame.time_us);

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "frames/scan_neighbours.h"
 
 namespace psi_slam {
@@ -35,7 +36,7 @@ Joints joints_of(const std::vector<Point>& points) {
   Joints joints{std::vector<std::uint8_t>(size), std::vector<std::uint8_t>(size)};
   for (std::size_t i = 0; i < size; ++i) {
     const std::size_t next = index_on_ring(static_cast<std::ptrdiff_t>(i) + 1, size);
-    const float gap = portable::hypot(points[i].x - points[next].x, points[i].y - points[next].y);
+    const float gap = distance_m(points[next], points[i]);
     joints.to_next[i] = gap <= max_gaps[i] ? 1 : 0;
     joints.to_previous[next] = gap <= max_gaps[next] ? 1 : 0;
   }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "loop_closure/loop_attempt.h"
 
@@ -70,7 +69,7 @@ bool is_near(std::size_t node, const PlacedLocalMap& local_map, const PoseGraph&
   const mrpt::math::TPose2D& here = graph.pose(node);
   for (std::size_t other = local_map.first_node; other <= local_map.last_node; ++other) {
     const mrpt::math::TPose2D& there = graph.pose(other);
-    if (portable::hypot(there.x - here.x, there.y - here.y) <= reach_m) return true;
+    if (distance_m(here, there) <= reach_m) return true;
   }
   return false;
 }

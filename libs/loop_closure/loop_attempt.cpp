@@ -4,7 +4,7 @@
 #include <chrono>
 #include <utility>
 
-#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
@@ -58,8 +58,7 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   loop.covariance = match.covariance;
   loop.response = match.response;
   loop.ambiguity = match.ambiguity.value_or(0);
-  loop.moved_m = portable::hypot(match.map_T_robot.x - candidate.anchor_T_node.x,
-                                 match.map_T_robot.y - candidate.anchor_T_node.y);
+  loop.moved_m = distance_m(candidate.anchor_T_node, match.map_T_robot);
   verify(loop, scan, keyframes, verification);
   return attempt;
 }

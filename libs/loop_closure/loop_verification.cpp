@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/portable_math.h"
 #include "frames/pose_operations.h"
+#include "frames/position_variance.h"
 #include "loop_closure/range_image.h"
 
 namespace psi_slam {
@@ -17,12 +17,6 @@ using mrpt::math::TPose2D;
 constexpr double kReverseTolerance_m = 0.25;
 constexpr double kNeighbourSpacing_m = 0.3;
 constexpr double kReportedShare = 0.8;  // of min_response()
-
-double largest_sigma_m(const Eigen::Matrix3d& covariance) {
-  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
-  const double half_difference = 0.5 * (covariance(0, 0) - covariance(1, 1));
-  return std::sqrt(mean + portable::hypot(half_difference, covariance(0, 1)));
-}
 
 // Returns the agreement of the neighbouring scans with the local map: on each side, of the nearest one and of
 // those at least kNeighbourSpacing_m of distance and turn from the one compared before. The matched pose and
@@ -61,9 +55,8 @@ RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const KeyframeSt
   double nearest_m = std::numeric_limits<double>::infinity();
   for (std::size_t node = local_map.first_node; node <= local_map.last_node; ++node) {
     const TPose2D anchor_T_other = between(local_T_anchor, keyframes.nodes[node].local_T_robot);
-    const double distance_m =
-        portable::hypot(anchor_T_other.x - loop.anchor_T_node.x, anchor_T_other.y - loop.anchor_T_node.y);
-    if (distance_m < nearest_m) nearest_m = distance_m, nearest = node;
+    const double apart_m = distance_m(loop.anchor_T_node, anchor_T_other);
+    if (apart_m < nearest_m) nearest_m = apart_m, nearest = node;
   }
   const RangeImage image(*keyframes.nodes[loop.node].points);
   RangeImage::Agreement sum;
@@ -89,7 +82,7 @@ std::optional<LoopRefusal> find_objection(LoopRecord& loop, const ScanPoints& sc
   if (loop.response < needed) return LoopRefusal{Reason::kLowResponse, loop.response, needed};
   if (!wide && loop.ambiguity > options.max_ambiguity)
     return LoopRefusal{Reason::kAmbiguous, loop.ambiguity, options.max_ambiguity};
-  const double sigma_m = largest_sigma_m(loop.covariance);
+  const double sigma_m = std::sqrt(largest_position_variance_m2(loop.covariance));
   if (sigma_m > options.max_sigma_m)
     return LoopRefusal{Reason::kUncertainPosition, sigma_m, options.max_sigma_m};
 

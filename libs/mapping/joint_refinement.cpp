@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "matching/point_grid.h"
 
 namespace psi_slam {
@@ -56,7 +56,7 @@ class Round {
       const TPose2D& there = map_T_node_[other];
       const double turn = std::abs(mrpt::math::wrapToPi(there.phi - here.phi));
       if (other == node || turn > options_.max_turn_rad) continue;
-      near.emplace_back(portable::hypot(there.x - here.x, there.y - here.y) + turn / kRadiansPerMetre, other);
+      near.emplace_back(distance_m(here, there) + turn / kRadiansPerMetre, other);
     }
     std::sort(near.begin(), near.end());
     near.resize(std::min(near.size(), options_.references));

@@ -36,11 +36,10 @@ struct Edge {
   Eigen::Matrix3d information;  // in the axes of `from`
 };
 
-// Returns an information matrix along the axes in which its own axes have the heading theta, without the
-// asymmetry of rounding. Edges of g2o files have the axes of their end, those of the graph the axes of their
-// beginning.
-Eigen::Matrix3d turned_symmetric(const Eigen::Matrix3d& information, double theta) {
-  const Eigen::Matrix3d product = turned(information, theta);
+// As in_turned_axes(), without the asymmetry of rounding. The information matrix of an EDGE_SE2 has the axes
+// of the edge's end; those of an EDGE2 and of the graph have the axes of its beginning.
+Eigen::Matrix3d symmetric_in_turned_axes(const Eigen::Matrix3d& information, double angle_rad) {
+  const Eigen::Matrix3d product = in_turned_axes(information, angle_rad);
   return 0.5 * (product + product.transpose());
 }
 
@@ -110,7 +109,8 @@ class Fields {
     if (!is_information_matrix(edge.information))
       throw bad("the information matrix is not positive semi-definite");
     if (edge.from == edge.to) throw bad("an edge links a vertex to itself");
-    if (format.in_axes_of_end) edge.information = turned_symmetric(edge.information, edge.from_T_to.phi);
+    if (format.in_axes_of_end)
+      edge.information = symmetric_in_turned_axes(edge.information, edge.from_T_to.phi);
     return edge;
   }
 
@@ -257,7 +257,7 @@ void write_g2o(const PoseGraph& graph, const std::filesystem::path& path) {
     const Constraint& constraint = graph.constraint(i);
     text += "EDGE_SE2 " + std::to_string(constraint.from) + ' ' + std::to_string(constraint.to);
     append_pose(constraint.from_T_to);
-    Eigen::Matrix3d information = turned_symmetric(constraint.information, -constraint.from_T_to.phi);
+    Eigen::Matrix3d information = symmetric_in_turned_axes(constraint.information, -constraint.from_T_to.phi);
     if (information(2, 2) == 0) information(2, 2) = kNoHeading;
     for (const auto& [row, column] : kG2oEdge.entries) append(text, information(row, column));
     text += '\n';

@@ -30,9 +30,9 @@ inline bool is_information_matrix(const Eigen::Matrix3d& information) {
   return xy * xy <= limit && xt * xt <= limit && yt * yt <= limit && determinant >= -kRounding;
 }
 
-/// Returns a covariance or information matrix of (x, y, theta) along the axes in which the axes of `matrix`
-/// have the heading `angle_rad`.
-inline Eigen::Matrix3d turned(const Eigen::Matrix3d& matrix, double angle_rad) {
+/// Returns R M Rᵀ, where R turns x and y by `angle_rad`: converts a covariance or information matrix of (x,
+/// y, theta) from the axes of a frame b to those of a frame a, in which b has this heading.
+inline Eigen::Matrix3d in_turned_axes(const Eigen::Matrix3d& matrix, double angle_rad) {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   rotation(0, 0) = rotation(1, 1) = portable::cos(angle_rad);
   rotation(1, 0) = portable::sin(angle_rad);

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/portable_math.h"
+#include "frames/pose_operations.h"
+#include "frames/position_variance.h"
 
 namespace psi_slam {
 namespace {
@@ -74,9 +75,7 @@ double extended_cost(const PoseCovariance& at_previous, const GraphLink& link, c
 }  // namespace
 
 double RelativeUncertainty::position_sigma_m() const {
-  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
-  const double difference = 0.5 * (covariance(0, 0) - covariance(1, 1));
-  return std::sqrt(std::max(0.0, mean + portable::hypot(difference, covariance(0, 1))));
+  return std::sqrt(std::max(0.0, largest_position_variance_m2(covariance)));
 }
 
 PathCovarianceSearch::Node& PathCovarianceSearch::node_at(const PoseGraph& graph, std::size_t index) {
@@ -107,8 +106,7 @@ void PathCovarianceSearch::settle(const PoseGraph& graph, std::uint32_t here) {
   const GraphLink& link = graph.links()[node.constraint];
   rotate(link.to == here ? previous : node);
   node.covariance = extended(previous.covariance, link, previous.pose, node.pose, link.to == here);
-  node.chain_m =
-      previous.chain_m + portable::hypot(node.pose.x - previous.pose.x, node.pose.y - previous.pose.y);
+  node.chain_m = previous.chain_m + distance_m(previous.pose, node.pose);
 }
 
 void PathCovarianceSearch::look_around(const PoseGraph& graph, std::uint32_t here, double lever2,

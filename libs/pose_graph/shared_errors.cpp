@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "pose_graph/information_matrix.h"
 #include "pose_graph/marginal_covariance.h"
@@ -23,10 +22,6 @@ using Eigen::Vector3d;
 // Standard deviation of the poses of nodes in a stretch without any constraint of a local map: the stretch is
 // rigid. In metres and radians.
 constexpr double kRigidSigma = 1e-3;
-
-double distance_m(const PoseGraph& graph, std::size_t a, std::size_t b) {
-  return portable::hypot(graph.pose(b).x - graph.pose(a).x, graph.pose(b).y - graph.pose(a).y);
-}
 
 Matrix3d inverse_of(const Matrix3d& matrix) {
   const Matrix3d inverse = matrix.inverse();
@@ -59,7 +54,7 @@ std::optional<Matrix3d> covariance_in_maps(const PoseGraph& graph,
   if (memberships.empty()) return std::nullopt;
   Matrix3d information = Matrix3d::Zero();
   for (const std::size_t i : memberships)
-    information += turned(graph.constraint(i).information, graph.pose(graph.constraint(i).from).phi);
+    information += in_turned_axes(graph.constraint(i).information, graph.pose(graph.constraint(i).from).phi);
   return inverse_of(information / static_cast<double>(memberships.size()));
 }
 
@@ -112,7 +107,8 @@ SharedErrors::SharedErrors(const PoseGraph& graph, const SharedErrorOptions& opt
   for (std::size_t node = 0; node < graph.num_nodes(); ++node) {
     memberships_.push_back(memberships(graph, node));
     placed_.push_back(covariance_in_maps(graph, memberships_.back()));
-    travelled_m_.push_back(node == 0 ? 0 : travelled_m_.back() + distance_m(graph, node - 1, node));
+    travelled_m_.push_back(
+        node == 0 ? 0 : travelled_m_.back() + distance_m(graph.pose(node - 1), graph.pose(node)));
     for (const std::size_t i : memberships_.back()) members_[graph.constraint(i).from].push_back(node);
   }
   measure_local_maps();
@@ -163,7 +159,7 @@ void SharedErrors::link(std::size_t from, std::size_t to, const Matrix3d& covari
   constraint.from = from;
   constraint.to = to;
   constraint.from_T_to = between(model_.pose(from), model_.pose(to));
-  constraint.information = inverse_of(turned(covariance_in_map, -model_.pose(from).phi));
+  constraint.information = inverse_of(in_turned_axes(covariance_in_map, -model_.pose(from).phi));
   model_.add_constraint(constraint);
 }
 
@@ -238,7 +234,7 @@ void SharedErrors::add_loops() {
         std::minmax<std::size_t>({stretch_of_[nearest_member(loop)], stretch_of_[loop.to]});
     if (ends.first == ends.second) continue;
     Loops& loops = between[ends];
-    loops.information += turned(loop.information, graph_.pose(loop.from).phi);
+    loops.information += in_turned_axes(loop.information, graph_.pose(loop.from).phi);
     loops.count += 1;
   }
   for (const auto& [ends, loops] : between) {
@@ -281,7 +277,7 @@ std::optional<Matrix3d> drift_covariance(const PoseGraph& graph, std::size_t nod
                                          const SharedErrorOptions& options) {
   const std::optional<Matrix3d> placed = covariance_in_maps(graph, memberships(graph, node));
   if (node == 0 || !placed || mean.nodes == 0) return std::nullopt;
-  return drift_of_step(distance_m(graph, node - 1, node), *placed, mean, options);
+  return drift_of_step(distance_m(graph.pose(node - 1), graph.pose(node)), *placed, mean, options);
 }
 
 }  // namespace psi_slam

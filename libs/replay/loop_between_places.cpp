@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 
 namespace psi_slam {
@@ -17,7 +16,7 @@ constexpr double kNear_m = 2;
 
 /// Distance of a node from a place, in metres; all distances below kNear_m count as kNear_m.
 double rounded_distance_m(const TPose2D& node, const TPoint2D& place) {
-  return std::max(kNear_m, portable::hypot(node.x - place.x, node.y - place.y));
+  return std::max(kNear_m, distance_m(place, node));
 }
 
 std::size_t newest_node_near(const std::vector<TPose2D>& map_T_node, const TPoint2D& place) {

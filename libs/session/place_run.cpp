@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/portable_math.h"
 #include "frames/discarded_ranges.h"
 #include "frames/pose_operations.h"
 #include "local_maps/front_end.h"
@@ -48,9 +47,9 @@ RunStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& see
   for (std::size_t node = 0; node < mapped.node_frames.size(); ++node) {
     if (!is_placed(mapped.node_frames[node])) continue;
     const TPose2D& there = mapped.frames[mapped.node_frames[node]].map_T_robot;
-    const double distance_m = portable::hypot(there.x - seen.map_T_robot.x, there.y - seen.map_T_robot.y);
-    if (distance_m >= nearest_m) continue;
-    nearest_m = distance_m;
+    const double apart_m = distance_m(seen.map_T_robot, there);
+    if (apart_m >= nearest_m) continue;
+    nearest_m = apart_m;
     start = {node, between(there, map_T_start), seen.start_T_robot};
   }
   return start;

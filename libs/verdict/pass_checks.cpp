@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "matching/point_grid.h"
 
 namespace psi_slam {
@@ -64,10 +65,7 @@ std::vector<std::size_t> views_of_other_passes(std::size_t view, const std::vect
     const MapView& there = views[other];
     if (!are_different_passes(here, there, options.pass_apart_m)) continue;
     const double turn_rad = std::abs(mrpt::math::wrapToPi(there.map_T_robot.phi - here.map_T_robot.phi));
-    near.emplace_back(
-        portable::hypot(there.map_T_robot.x - here.map_T_robot.x, there.map_T_robot.y - here.map_T_robot.y) +
-            turn_rad / kRadiansPerMetre,
-        other);
+    near.emplace_back(distance_m(here.map_T_robot, there.map_T_robot) + turn_rad / kRadiansPerMetre, other);
   }
   std::sort(near.begin(), near.end());
   std::vector<std::size_t> chosen;

@@ -26,5 +26,10 @@ TEST(PoseOperations, interpolation_turns_along_the_shorter_arc) {
   EXPECT_NEAR(middle.phi, -M_PI + 0.1, 1e-12);
 }
 
+TEST(PoseOperations, distance_is_that_of_positions) {
+  EXPECT_EQ(distance_m(mrpt::math::TPoint2D(1, 2), mrpt::math::TPose2D(4, 6, 3)), 5);
+  EXPECT_EQ(distance_m(mrpt::math::TPose2D(4, 6, 3), mrpt::math::TPose2D(1, 2, -1)), 5);
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 namespace psi_slam {
 namespace {
@@ -22,6 +23,16 @@ TEST(PositionVariance, equals_the_largest_eigenvalue) {
       EXPECT_NEAR(largest_position_variance_m2(covariance), by_eigenvalues(covariance), 1e-12)
           << xy << " " << yy;
     }
+}
+
+TEST(PositionVariance, of_a_corridor_is_that_along_it) {
+  Eigen::Matrix3d along_x = Eigen::Vector3d(1, 1e-6, 0.01).asDiagonal();
+  EXPECT_EQ(largest_position_variance_m2(along_x), 1);
+  const double angle_rad = M_PI / 6;
+  const Eigen::Vector3d along(std::cos(angle_rad), std::sin(angle_rad), 0);
+  const Eigen::Vector3d across(-std::sin(angle_rad), std::cos(angle_rad), 0);
+  const Eigen::Matrix3d turned = along * along.transpose() + 1e-6 * across * across.transpose();
+  EXPECT_NEAR(largest_position_variance_m2(turned), 1, 1e-12);
 }
 
 TEST(PositionVariance, is_0_without_uncertainty) {

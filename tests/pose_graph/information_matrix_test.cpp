@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <limits>
 
 #include "test_graphs.h"
@@ -58,6 +59,15 @@ TEST(InformationMatrix, rejects_other_matrices) {
   EXPECT_FALSE(is_information_matrix(matrix));
   matrix(2, 2) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(is_information_matrix(matrix));
+}
+
+TEST(InTurnedAxes, turns_x_and_y_but_not_the_heading) {
+  const Eigen::Matrix3d matrix = Eigen::Vector3d(4, 1, 9).asDiagonal();
+  EXPECT_TRUE(
+      in_turned_axes(matrix, M_PI / 2).isApprox(Eigen::Matrix3d(Eigen::Vector3d(1, 4, 9).asDiagonal())));
+  const Eigen::Matrix3d by_45_deg = in_turned_axes(matrix, M_PI / 4);
+  EXPECT_NEAR(by_45_deg(0, 1), 1.5, 1e-12);  // the long axis points to +x and +y
+  EXPECT_TRUE(in_turned_axes(by_45_deg, -M_PI / 4).isApprox(matrix));
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ ErrorSummary trajectory_error_m(const std::vector<TPose2D>& path, const Trajecto
   for (std::size_t i = 0; i < path.size(); ++i) {
     const TPose2D there = between(path.front(), path[i]);
     const TPose2D truly = between(truth.front().pose, truth[i].pose);
-    errors.push_back(portable::hypot(there.x - truly.x, there.y - truly.y));
+    errors.push_back(distance_m(truly, there));
   }
   return summarize(std::move(errors));
 }

@@ -12,10 +12,10 @@
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
-#include "base/portable_math.h"
 #include "common/bench_command.h"
 #include "compression/compression.h"
 #include "exports/corrected_log.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 #include "simulate/simulate_benchmark.h"
 
@@ -75,7 +75,7 @@ std::string path_svg(const Trajectory& truth) {
   mrpt::math::TPoint2D last(std::numeric_limits<double>::infinity(), 0);
   for (const StampedPose& stamped : truth) {
     const mrpt::math::TPoint2D here(stamped.pose.x, stamped.pose.y);
-    if (portable::hypot(here.x - last.x, here.y - last.y) < kBetweenPoints_m) continue;
+    if (distance_m(last, here) < kBetweenPoints_m) continue;
     last = here;
     points += (points.empty() ? "" : " ") + point_text(here);
   }

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 #include "simulation/simulation_random.h"
 
 namespace psi_slam {
@@ -350,8 +350,7 @@ void enlarge(FloorPlan& plan, double scale) {
 
 double FloorPlan::corridors_m() const {
   double sum_m = 0;
-  for (const Corridor& corridor : corridors)
-    sum_m += portable::hypot(corridor.to.x - corridor.from.x, corridor.to.y - corridor.from.y);
+  for (const Corridor& corridor : corridors) sum_m += distance_m(corridor.from, corridor.to);
   return sum_m;
 }
 

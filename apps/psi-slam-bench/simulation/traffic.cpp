@@ -64,7 +64,7 @@ TrafficNow Traffic::at(double time_s, const TPose2D& world_T_robot) const {
     const bool is_near =
         std::any_of(thing.outline.begin(), thing.outline.end(), [&](const PlanSegment& side) {
           const TPoint2D middle = (side.from + side.to) * 0.5;
-          return portable::hypot(middle.x - world_T_robot.x, middle.y - world_T_robot.y) < kAway_m;
+          return distance_m(world_T_robot, middle) < kAway_m;
         });
     const bool is_there =
         thing.leaves ? time_s < 0.75 * options_.duration_s : time_s > 0.25 * options_.duration_s;

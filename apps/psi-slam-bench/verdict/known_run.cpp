@@ -168,7 +168,7 @@ std::size_t frame_after(const KnownRun& run, std::size_t from, double path_m) {
   for (; i + 1 < run.frames.size() && travelled_m < path_m; ++i) {
     const TPose2D& a = run.world_T_robot[i];
     const TPose2D& b = run.world_T_robot[i + 1];
-    travelled_m += portable::hypot(b.x - a.x, b.y - a.y);
+    travelled_m += distance_m(a, b);
   }
   return i;
 }

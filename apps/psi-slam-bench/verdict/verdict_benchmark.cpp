@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <ctime>
 
-#include "base/portable_math.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 
@@ -25,7 +25,7 @@ VerdictRow judged(const FaultyMap& map) {
   const Suspect& suspect = verdict.hot_spots.front().suspect;
   if (is_false_loop(map.fault) && suspect.kind != Suspect::Kind::kLoop) return row;
   for (const mrpt::math::TPoint2D& place : map.places) {
-    const double away_m = portable::hypot(place.x - suspect.at.x, place.y - suspect.at.y);
+    const double away_m = distance_m(suspect.at, place);
     row.distance_m = std::min(row.distance_m.value_or(away_m), away_m);
   }
   return row;

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Runs the commands of the README and of the pages in share/doc. The ```sh blocks of a page run in order, in a new folder
-# with small simulated logs. Blocks that cannot run are ```console blocks, with the reason in the line above.
+# with small simulated logs. Blocks that cannot run are ```console blocks, with the reason in the line above. Each filter of
+# tests on a page must select a test.
 #
 #     documentation_test.sh SOURCE BUILD [PAGE...]     # default: all pages with sh or console blocks
 set -euo pipefail
@@ -24,6 +25,15 @@ check_reasons() {
     /^```console$/ && before !~ /^<!-- not run .*-->$/ {
       print page ":" NR ": this console block has no reason. Add a line <!-- not run ...: ... --> above it"; wrong = 1 }
     { before = $0 } END { exit wrong }' "$1"
+}
+
+# check_filters FILE: fails if a filter for GoogleTest on the page selects no test.
+check_filters() {
+  local program filter
+  while read -r program filter; do
+    [[ $("$build/tests/$program" --gtest_list_tests --gtest_filter="${filter//\'/}") == *$'\n  '* ]] ||
+      { echo "documentation_test.sh: $1: $program has no test that fits $filter" >&2; return 1; }
+  done < <(grep -oE "[a-z_]+_tests --gtest_filter=('[^']+'|[^\` ]+)" "$source/$1" | sed 's/--gtest_filter=//')
 }
 
 # Makes the files that the pages use: a log with its relations, and a folder with one log of the benchmark.
@@ -60,5 +70,6 @@ fi
 write_logs
 for page in "$@"; do
   check_reasons "$source/$page"
+  check_filters "$page"
   run_page "$page"
 done

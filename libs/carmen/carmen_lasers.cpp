@@ -10,11 +10,11 @@
 #include <memory>
 #include <utility>
 
-#include "base/portable_math.h"
 #include "base/text_parts.h"
 #include "compression/line_reader.h"
 #include "frames/laser_readings.h"
 #include "frames/pose_operations.h"
+#include "frames/pose_tolerance.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -29,8 +29,8 @@ const std::vector<std::string> kOtherMessages{"RAWLASER3", "RAWLASER4"};
 constexpr std::size_t kAllLines = std::numeric_limits<std::size_t>::max();
 constexpr double kEnoughPath_m = 3.0;
 constexpr double kEnoughTurn_rad = 1.0;
-constexpr double kSameMount_m = 0.002;  // poses in logs are rounded to a micrometre or a millimetre
-constexpr double kSameMount_rad = 0.002;
+constexpr PoseTolerance kSameMount{0.002,
+                                   0.002};  // poses in logs are rounded to a micrometre or a millimetre
 // Maximum range as a fraction of the largest reading. This maximum lies below all codes for "no return" of a
 // laser, such as 81.83 and 81.91 m.
 constexpr double kBelowNoReturn = 0.97;
@@ -53,10 +53,6 @@ std::string first_of(const std::vector<std::string>& preferred, const Messages& 
   for (const std::string& name : preferred)
     if (found.count(name) != 0) return name;
   return {};
-}
-
-bool same_mount(const TPose2D& a, const TPose2D& b) {
-  return distance_m(b, a) <= kSameMount_m && std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= kSameMount_rad;
 }
 
 std::optional<CarmenLaserMessage> readable_laser(CarmenFields& fields) {
@@ -236,10 +232,10 @@ std::optional<TPose2D> mount_by_robotlaser(const CarmenText& text, std::string_v
     if (!laser) continue;
     const TPose2D robot_T_laser = between(laser->odom_T_robot, laser->odom_T_laser);
     if (!is_possible_mount(robot_T_laser)) return std::nullopt;
-    if (mount && !same_mount(*mount, robot_T_laser)) return std::nullopt;
+    if (mount && !is_same_place(*mount, robot_T_laser, kSameMount)) return std::nullopt;
     if (!mount) mount = robot_T_laser;
     if (last_robot) {
-      path_m += portable::hypot(laser->odom_T_robot.x - last_robot->x, laser->odom_T_robot.y - last_robot->y);
+      path_m += distance_m(*last_robot, laser->odom_T_robot);
       turn_rad += std::abs(mrpt::math::wrapToPi(laser->odom_T_robot.phi - last_robot->phi));
     }
     last_robot = laser->odom_T_robot;
@@ -296,7 +292,7 @@ CarmenLasers::Candidates CarmenLasers::usual_candidates(const Messages& found) {
     if (message.empty()) continue;
     const auto mount = stated_mount(text_, message, options_);
     const bool can_join = mount && std::all_of(mounts.begin(), mounts.end(), [&](const auto& other) {
-                            return other && !same_mount(*mount, *other);
+                            return other && !is_same_place(*mount, *other, kSameMount);
                           });
     if (chosen.empty() || can_join) {
       chosen.push_back(message);

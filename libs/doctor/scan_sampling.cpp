@@ -21,6 +21,11 @@ constexpr double kSameHeading_rad = 0.35;
 constexpr double kElsewhere_m = 0.05;
 constexpr double kElsewhere_rad = 0.05;
 
+// Distance by odometry between two frames.
+double odometry_m(const FrameMark& a, const FrameMark& b) {
+  return distance_m(a.odom_T_robot, b.odom_T_robot);
+}
+
 template <class Item>
 std::vector<Item> thinned(const std::vector<Item>& items, std::size_t most) {
   if (items.size() <= most) return items;
@@ -31,8 +36,7 @@ std::vector<Item> thinned(const std::vector<Item>& items, std::size_t most) {
 
 std::vector<double> ways_m(const std::vector<FrameMark>& marks) {
   std::vector<double> ways(marks.size(), 0);
-  for (std::size_t i = 1; i < marks.size(); ++i)
-    ways[i] = ways[i - 1] + distance_m(marks[i - 1].odom_T_robot, marks[i].odom_T_robot);
+  for (std::size_t i = 1; i < marks.size(); ++i) ways[i] = ways[i - 1] + odometry_m(marks[i - 1], marks[i]);
   return ways;
 }
 
@@ -40,8 +44,7 @@ std::vector<double> ways_m(const std::vector<FrameMark>& marks) {
 std::size_t next_elsewhere(const std::vector<FrameMark>& marks, const std::vector<double>& headings_rad,
                            std::size_t frame) {
   std::size_t next = frame + 1;
-  while (next < marks.size() &&
-         distance_m(marks[frame].odom_T_robot, marks[next].odom_T_robot) < kElsewhere_m &&
+  while (next < marks.size() && odometry_m(marks[frame], marks[next]) < kElsewhere_m &&
          std::abs(headings_rad[next] - headings_rad[frame]) < kElsewhere_rad)
     ++next;
   return next;
@@ -135,12 +138,10 @@ std::vector<FramePair> pairs_by_turn(const std::vector<FrameMark>& marks, double
   std::vector<FramePair> pairs;
   for (std::size_t first = 0; first < marks.size();) {
     std::size_t second = first + 1;
-    while (second < marks.size() &&
-           distance_m(marks[first].odom_T_robot, marks[second].odom_T_robot) <= distance &&
+    while (second < marks.size() && odometry_m(marks[first], marks[second]) <= distance &&
            std::abs(headings[second] - headings[first]) < min_turn_rad)
       ++second;
-    const bool found = second < marks.size() &&
-                       distance_m(marks[first].odom_T_robot, marks[second].odom_T_robot) <= distance &&
+    const bool found = second < marks.size() && odometry_m(marks[first], marks[second]) <= distance &&
                        std::abs(headings[second] - headings[first]) <= max_turn_rad;
     if (found) pairs.push_back({first, second});
     first = found ? second : next_elsewhere(marks, headings, first);
@@ -166,7 +167,7 @@ std::vector<FramePair> revisiting_pairs(const std::vector<FrameMark>& marks, dou
         const auto cell = visited.find(cell_key(here.x + dx, here.y + dy, distance));
         if (cell == visited.end()) continue;
         for (const std::size_t before : cell->second) {
-          const double apart = distance_m(marks[before].odom_T_robot, marks[i].odom_T_robot);
+          const double apart = odometry_m(marks[before], marks[i]);
           const double turn = std::abs(mrpt::math::wrapToPi(here.phi - marks[before].odom_T_robot.phi));
           if (ways[i] - ways[before] < way_m || apart > nearest_m || turn > turn_rad) continue;
           nearest_m = apart;
@@ -189,8 +190,7 @@ std::vector<std::vector<std::size_t>> full_turns(const std::vector<FrameMark>& m
   std::vector<std::vector<std::size_t>> turns;
   for (std::size_t first = 0; first < marks.size() && turns.size() < most;) {
     std::size_t last = first;
-    for (std::size_t i = first + 1;
-         i < marks.size() && distance_m(marks[first].odom_T_robot, marks[i].odom_T_robot) <= distance; ++i) {
+    for (std::size_t i = first + 1; i < marks.size() && odometry_m(marks[first], marks[i]) <= distance; ++i) {
       if (off_full_turn(first, i) > kSameHeading_rad) continue;
       if (last == first || off_full_turn(first, i) < off_full_turn(first, last)) last = i;
     }

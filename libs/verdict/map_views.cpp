@@ -8,8 +8,8 @@
 #include <functional>
 #include <utility>
 
-#include "base/portable_math.h"
 #include "frames/discarded_ranges.h"
+#include "frames/pose_operations.h"
 #include "local_maps/scan_filter.h"
 
 namespace psi_slam {
@@ -70,7 +70,7 @@ std::vector<MapView> map_views(const MappingResult& result, const MapViewOptions
       travelled_m = 0;
       before = nullptr;
     }
-    if (before != nullptr) travelled_m += portable::hypot(here.x - before->x, here.y - before->y);
+    if (before != nullptr) travelled_m += distance_m(*before, here);
     before = &here;
     const MapView* last = views.empty() || views.back().run != run ? nullptr : &views.back();
     if (last != nullptr && travelled_m - last->travelled_m < options.step_m &&

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "../localization/degraded_map.h"
+#include "frames/pose_operations.h"
 #include "localization/localization_report.h"
 #include "localization/reference_map.h"
 #include "psi_slam/mapping_session.h"
@@ -65,10 +66,6 @@ double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
                    values.end());
   return values[values.size() / 2];
-}
-
-double distance_m(const TPose2D& a, const TPose2D& b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
 }
 
 /// Both halves of a log, and the true poses in the map of the first half.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "frames/pose_operations.h"
 #include "localization/localizer_options.h"
 #include "localization/reference_map.h"
 #include "psi_slam/grid_map.h"
@@ -45,10 +46,6 @@ inline TrueRun run_through(std::uint64_t plan, std::uint64_t run, double path_m)
 
 inline mrpt::maps::COccupancyGridMap2D map_of(const TrueRun& run) {
   return *draw_grid_map(run.frames, run.world_T_robot);
-}
-
-inline double distance_m(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
 }
 
 inline std::vector<LocalizationStep> localize(Localizer& localizer, const std::vector<Frame>& frames) {

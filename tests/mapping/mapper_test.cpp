@@ -16,16 +16,13 @@
 #include <vector>
 
 #include "../local_maps/simulated_drive.h"
+#include "frames/pose_operations.h"
 #include "same_map.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
-
-double distance_m(const TPose2D& a, const TPose2D& b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
-}
 
 // A run once around the corridor and along its first part again, with biased and noisy odometry.
 const SimulatedDrive& office_drive() {

@@ -19,6 +19,7 @@
 #include <cmath>
 
 #include "base/file_checksum.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/mapping_session.h"
 #include "room_log.h"
 #include "session/recorded_settings.h"
@@ -33,10 +34,6 @@ using mrpt::math::TPose2D;
 
 std::filesystem::path past_session(const std::string& name) {
   return std::filesystem::path(PSI_SLAM_PAST_SESSIONS) / name;
-}
-
-double distance_m(const TPose2D& a, const TPose2D& b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
 }
 
 TEST(PastSessions, version_1_is_read_as_it_was_written) {
@@ -75,7 +72,7 @@ TEST(PastSessions, version_1_gives_the_same_map) {
   EXPECT_EQ(unjoined_log(result), std::nullopt);
   EXPECT_LT(distance_m(result.frames[54].map_T_robot, room_pose(2 * M_PI * 54 / 50) - room_pose(0)), 0.01);
   EXPECT_LT(distance_m(result.frames[102].map_T_robot, room_pose(2 * M_PI * 59 / 40) - room_pose(0)), 0.015);
-  EXPECT_LT(distance_m(result.frames[102].map_T_robot, {0.4067, 7.9528, 0}), 0.015)
+  EXPECT_LT(distance_m(result.frames[102].map_T_robot, TPose2D(0.4067, 7.9528, 0)), 0.015)
       << "the map is the same as when the session was recorded";
 }
 
@@ -95,7 +92,7 @@ TEST(PastSessions, version_2_has_two_lasers_and_gives_the_same_map) {
   load_recorded(bound, input.recording()->facts, file);
   MappingSession session(input, bound.settings);
   session.run(std::atomic<bool>(false));
-  EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, {2.1716, 1.7227, 0}), 0.01);
+  EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, TPose2D(2.1716, 1.7227, 0)), 0.01);
 }
 
 TEST(PastSessions, version_3_has_faults_of_each_log_and_gives_the_same_map) {
@@ -124,7 +121,7 @@ TEST(PastSessions, version_3_has_faults_of_each_log_and_gives_the_same_map) {
   session.run(std::atomic<bool>(false));
   EXPECT_THAT(session.warnings(),
               testing::ElementsAre(testing::HasSubstr("first.log:57"), testing::HasSubstr("first.log:21")));
-  EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, {0.4085, 7.9527, 0}), 0.015)
+  EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, TPose2D(0.4085, 7.9527, 0)), 0.015)
       << "the map is the same as when the session was recorded";
 }
 
@@ -148,7 +145,7 @@ TEST(PastSessions, version_4_has_headings_by_a_gyroscope_and_gives_the_same_map)
   load_recorded(bound, input.recording()->facts, file);
   MappingSession session(input, bound.settings);
   session.run(std::atomic<bool>(false));
-  EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, {2.3553, 2.2963, 0}), 0.01)
+  EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, TPose2D(2.3553, 2.2963, 0)), 0.01)
       << "the map is the same as when the session was recorded";
 }
 

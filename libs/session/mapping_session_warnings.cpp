@@ -10,6 +10,7 @@
 #include "psi_slam/version.h"
 #include "session/mapping_session_members.h"
 #include "session/session_input.h"
+#include "session/work_clock.h"
 
 namespace psi_slam {
 

@@ -168,7 +168,9 @@ class ExactSearch::BranchAndBound {
   void search(std::vector<Block> blocks, BestPose& best) {
     std::vector<Block> children;
     for (std::size_t level = 0; level < levels_.size() && !blocks.empty(); ++level) {
-      descend(*std::max_element(blocks.begin(), blocks.end(), lower_bound_first), level, best);
+      const auto most_promising = std::max_element(blocks.begin(), blocks.end(), lower_bound_first);
+      descend(*most_promising, level, best);
+      if (level + 1 == levels_.size()) blocks.erase(most_promising);  // all its poses are scored
       blocks.erase(std::remove_if(blocks.begin(), blocks.end(),
                                   [&](const Block& block) { return block.bound < best.least(); }),
                    blocks.end());

@@ -22,21 +22,20 @@ namespace {
 constexpr std::size_t kMostColours = 256;
 
 /// Numbers the colours of an image.
+template <int kChannels>
 class Palette {
  public:
-  explicit Palette(int channels) : channels_(channels) {}
-
   /// Returns the number of the pixel's colour; nothing if the colour is new and there are kMostColours.
   std::optional<std::uint8_t> number_of(const std::uint8_t* pixel) {
     std::uint32_t colour = 0;
-    for (int i = 0; i < channels_; ++i) colour = colour << 8U | pixel[i];
+    for (int i = 0; i < kChannels; ++i) colour = colour << 8U | pixel[i];
     if (colour == last_) return number_;
     const auto found = numbers_.find(colour);
     if (found == numbers_.end() && numbers_.size() == kMostColours) return std::nullopt;
     number_ = found != numbers_.end() ? found->second : static_cast<std::uint8_t>(numbers_.size());
     if (found == numbers_.end()) {
       numbers_.emplace(colour, number_);
-      colours_.insert(colours_.end(), pixel, pixel + channels_);
+      colours_.insert(colours_.end(), pixel, pixel + kChannels);
     }
     last_ = colour;
     return number_;
@@ -47,39 +46,39 @@ class Palette {
   const std::vector<std::uint8_t>& colours() const { return colours_; }
 
  private:
-  int channels_;
   std::unordered_map<std::uint32_t, std::uint8_t> numbers_;  ///< key: the channels of a colour
   std::vector<std::uint8_t> colours_;
   std::optional<std::uint32_t> last_;  ///< neighbours mostly have the same colour
   std::uint8_t number_ = 0;
 };
 
-/// Returns nothing if the image has more than kMostColours.
-std::optional<Palette> palette_of(const cv::Mat& image) {
-  Palette palette(image.channels());
-  for (int y = 0; y < image.rows; ++y) {
-    const std::uint8_t* pixel = image.ptr(y);
-    for (int x = 0; x < image.cols; ++x, pixel += image.channels())
-      if (!palette.number_of(pixel)) return std::nullopt;
-  }
+/// Numbers the colours of a continuous image. Returns nothing if there are more than kMostColours.
+template <int kChannels>
+std::optional<Palette<kChannels>> palette_of(const cv::Mat& image) {
+  Palette<kChannels> palette;
+  const std::uint8_t* const end = image.data + kChannels * image.total();
+  for (const std::uint8_t* pixel = image.data; pixel != end; pixel += kChannels)
+    if (!palette.number_of(pixel)) return std::nullopt;
   return palette;
 }
 
 /// Overwrites the first bytes of a continuous image with the numbers of its colours. The byte for a
 /// pixel is never after its first byte, so no pixel is overwritten before it is read.
-void replace_by_numbers(Palette& palette, cv::Mat& image) {
+template <int kChannels>
+void replace_by_numbers(Palette<kChannels>& palette, cv::Mat& image) {
   const std::uint8_t* pixel = image.data;
-  for (std::size_t i = 0; i < image.total(); ++i, pixel += image.channels())
-    image.data[i] = palette.number_of(pixel).value();
+  std::uint8_t* const numbers = image.data;
+  const std::size_t pixels = image.total();
+  for (std::size_t i = 0; i < pixels; ++i, pixel += kChannels) numbers[i] = palette.number_of(pixel).value();
 }
 
-std::string encoded(Palette palette, cv::Mat& image) {
-  const int channels = image.channels();
+template <int kChannels>
+std::string encoded(Palette<kChannels> palette, cv::Mat& image) {
   png_image png = {};
   png.version = PNG_IMAGE_VERSION;
   png.width = static_cast<png_uint_32>(image.cols);
   png.height = static_cast<png_uint_32>(image.rows);
-  png.format = PNG_FORMAT_FLAG_COLORMAP | (channels == 4 ? PNG_FORMAT_BGRA : PNG_FORMAT_BGR);
+  png.format = PNG_FORMAT_FLAG_COLORMAP | (kChannels == 4 ? PNG_FORMAT_BGRA : PNG_FORMAT_BGR);
   png.colormap_entries = static_cast<png_uint_32>(palette.size());
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   // Most of this is not touched, and so takes no memory.
@@ -97,14 +96,20 @@ std::string encoded(const cv::Mat& image) {
   return {bytes.begin(), bytes.end()};
 }
 
+template <int kChannels>
+std::string with_palette_if_possible(cv::Mat& image) {
+  std::optional<Palette<kChannels>> palette = palette_of<kChannels>(image);
+  return palette ? encoded(*std::move(palette), image) : encoded(image);
+}
+
 }  // namespace
 
 std::string png_bytes(cv::Mat&& image) {
   if (image.type() != CV_8UC3 && image.type() != CV_8UC4)
     throw std::invalid_argument("png_bytes: the image has other channels than three or four of 8 bits");
   if (!image.isContinuous()) image = image.clone();
-  std::optional<Palette> palette = palette_of(image);
-  std::string bytes = palette ? encoded(*std::move(palette), image) : encoded(image);
+  const std::string bytes =
+      image.channels() == 3 ? with_palette_if_possible<3>(image) : with_palette_if_possible<4>(image);
   if (bytes.empty())
     throw SystemFailure("cannot encode the map as a PNG image. Use larger cells with map.resolution_m");
   return bytes;

@@ -31,7 +31,6 @@ PlacedScan placed(const ScoreGrid& grid, const ScanPoints& scan, const mrpt::mat
 RefinementKernel refinement_kernel_for(InstructionSet set) {
   if (!can_use(set)) return nullptr;
 #ifdef PSI_SLAM_X86_KERNELS
-  if (set == InstructionSet::kAvx2) return refinement_kernel_avx2();
   if (set == InstructionSet::kAvx512) return refinement_kernel_avx512();
 #endif
   return refinement_kernel_baseline();

@@ -6,8 +6,7 @@ namespace psi_slam {
 SumKernel sum_kernel_for(InstructionSet set) {
   if (!can_use(set)) return nullptr;
 #ifdef PSI_SLAM_X86_KERNELS
-  if (set == InstructionSet::kAvx2) return sum_kernel_avx2();
-  if (set == InstructionSet::kAvx512) return sum_kernel_avx512();
+  if (set != InstructionSet::kBaseline) return sum_kernel_avx2();
 #endif
   return sum_kernel_baseline();
 }

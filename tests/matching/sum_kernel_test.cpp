@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <random>
-#include <set>
 #include <vector>
 
 namespace psi_slam {
@@ -127,10 +126,9 @@ TEST(SumKernel, the_one_in_use_is_the_widest_of_this_machine) {
   EXPECT_EQ(sum_kernel(), sum_kernel_for(sets.back()));
 }
 
-TEST(SumKernel, sets_have_code_of_their_own) {
-  std::set<SumKernel> kernels;
-  for (const InstructionSet set : sets_of_this_machine()) kernels.insert(sum_kernel_for(set));
-  EXPECT_EQ(kernels.size(), sets_of_this_machine().size());
+TEST(SumKernel, avx2_has_code_of_its_own) {
+  if (sets_of_this_machine().size() == 1) GTEST_SKIP() << "this machine has the baseline only";
+  EXPECT_NE(sum_kernel_for(InstructionSet::kAvx2), sum_kernel_for(InstructionSet::kBaseline));
 }
 
 }  // namespace

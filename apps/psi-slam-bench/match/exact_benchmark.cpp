@@ -3,34 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "base/number_text.h"
-#include "base/random_draws.h"
+#include "common/least_time.h"
+#include "kernels/kernel_benchmark.h"
 #include "match/depth_first_search.h"
 #include "matching/make_matcher.h"
-#include "matching/sum_kernel.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
 
 constexpr double kThresholds[] = {0.4, 0.5, 0};
-
-/// Returns the least processor time of `repeats` calls of `work`, in milliseconds.
-template <class Work>
-double least_ms(std::size_t repeats, const Work& work) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < repeats; ++i) {
-    const std::clock_t start = std::clock();
-    work();
-    least = std::min(least, 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-  }
-  return least;
-}
 
 void add_time(SearchTimes& times, double time_ms, double share) {
   times.mean_ms += share * time_ms;
@@ -51,26 +37,6 @@ bool equal(const MatchResult& match, const SearchLattice& lattice, const DepthFi
   const mrpt::math::TPose2D pose = lattice.pose(reference.best->pose);
   return match.response == lattice.response(reference.best->sum) && match.lattice_pose.x == pose.x &&
          match.lattice_pose.y == pose.y && match.lattice_pose.phi == pose.phi;
-}
-
-/// Measures how many scores the sum kernel adds in a nanosecond, for a scan of 160 points anywhere in a score
-/// grid of 0.25 MB, as large as one of Intel.
-double kernel_scores_per_ns(std::size_t repeats) {
-  constexpr std::size_t kPoints = 160;
-  constexpr int kHeight = 8;
-  constexpr std::ptrdiff_t kRow = 500;
-  constexpr std::size_t kCalls = 2000;
-  const std::vector<std::uint8_t> cells(kRow * kRow, 1);
-  RandomDraws draws(1, "kernel", 0);
-  std::vector<std::int32_t> offsets;
-  for (std::size_t i = 0; i < kPoints; ++i)
-    offsets.push_back(static_cast<std::int32_t>(draws.index(cells.size() - kRow * (kHeight + 1))));
-  std::vector<std::uint32_t> sums(kSumLanes * kHeight, 0);
-  const double time_ms = least_ms(repeats, [&] {
-    for (std::size_t call = 0; call < kCalls; ++call)
-      sum_kernel()(cells.data(), kRow, offsets.data(), kPoints, kSumLanes, kHeight, sums.data(), kSumLanes);
-  });
-  return static_cast<double>(kCalls * kPoints * kSumLanes * kHeight) / (1e6 * time_ms);
 }
 
 }  // namespace
@@ -116,7 +82,7 @@ ExactBenchmark run_exact_benchmark(const std::vector<BenchmarkLog>& logs,
                                    const ExactBenchmarkOptions& options, const ProgressObserver& observer) {
   ExactBenchmark benchmark;
   benchmark.logs = identities_of(logs);
-  benchmark.scores_per_ns = kernel_scores_per_ns(options.repeats);
+  benchmark.scores_per_ns = sum_kernel_scores_per_ns(options.repeats);
   CaseOptions how;
   how.count = options.cases;
   how.seed = options.seed;

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "kernels/kernel_benchmark.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "command_fixture.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+TEST(KernelBenchmark, measures_each_kernel) {
+  const KernelBenchmark benchmark = run_kernel_benchmark({1});
+  EXPECT_GT(benchmark.reading_bytes_per_ns, 0);
+  std::set<std::string> kernels;
+  std::set<std::string> of_baseline;
+  std::set<InstructionSet> sets;
+  for (const KernelRow& row : benchmark.rows) {
+    kernels.insert(row.kernel);
+    sets.insert(row.set);
+    if (row.set == InstructionSet::kBaseline) of_baseline.insert(row.kernel);
+    EXPECT_GT(row.bytes, 160) << row.kernel;
+    EXPECT_GT(row.call_ns, 0) << row.kernel;
+    EXPECT_DOUBLE_EQ(row.limit_ns, row.bytes / benchmark.reading_bytes_per_ns) << row.kernel;
+  }
+  EXPECT_EQ(kernels.size(), 7U);
+  EXPECT_EQ(of_baseline, kernels);
+  EXPECT_EQ(*sets.rbegin(), widest_instruction_set());
+}
+
+TEST(KernelReport, shows_rates_and_shares_of_the_limit) {
+  KernelBenchmark benchmark;
+  benchmark.reading_bytes_per_ns = 100;
+  benchmark.rows = {{"place points", InstructionSet::kAvx2, 2560, 64, 25.6}};
+  const BenchReport report = kernel_report(benchmark, {}, "a machine");
+  EXPECT_EQ(report.page, "kernels.md");
+  EXPECT_THAT(report.markdown, AllOf(HasSubstr("| place points | AVX2 | 2560 | 64 | 40.0 | 40 % |"),
+                                     HasSubstr("100 bytes per nanosecond")));
+  const auto json = nlohmann::json::parse(report.json);
+  EXPECT_EQ(json["schema"], "psi-slam-kernels");
+  EXPECT_EQ(json["rows"][0]["share_of_limit"], 0.4);
+  EXPECT_THAT(report.csv, HasSubstr("bytes_per_ns"));
+}
+
+using KernelsCommand = BenchCommand;
+
+TEST_F(KernelsCommand, needs_no_logs) {
+  EXPECT_EQ(run_program({"kernels", "--repeats", "1"}), 0) << err_.str();
+  EXPECT_THAT(out_.str(), HasSubstr("| sum scores of 16 x 8 poses | baseline |"));
+}
+
+TEST_F(KernelsCommand, wrong_usage_gives_one_sentence_and_exit_code_2) {
+  EXPECT_THAT(refusal_of({"kernels", "--repeats", "0"}), HasSubstr("--repeats"));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -31,12 +31,14 @@ BackEndThread::~BackEndThread() {
 
 void BackEndThread::hand_over(TrackedFrame tracked) {
   ++handed_over_;
+  // Most frames have no node and little work. The thread sees to them when the next node wakes it, or take().
+  const bool is_urgent = tracked.step.node.has_value();
   {
     std::unique_lock<std::mutex> lock(mutex_);
     waiting_.push_back(std::move(tracked));
     if (!thread_.joinable() && !failure_) work_off(lock);
   }
-  changed_.notify_all();
+  if (is_urgent) changed_.notify_all();
 }
 
 bool BackEndThread::is_ready() const {
@@ -46,6 +48,7 @@ bool BackEndThread::is_ready() const {
 
 BackEndStep BackEndThread::take() {
   std::unique_lock<std::mutex> lock(mutex_);
+  if (done_.empty()) changed_.notify_all();
   changed_.wait(lock, [&] { return !done_.empty() || failure_; });
   if (done_.empty()) std::rethrow_exception(failure_);
   BackEndStep step = std::move(done_.front());

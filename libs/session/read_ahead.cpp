@@ -33,8 +33,9 @@ std::optional<Frame> ReadAhead::next() {
   }
   std::optional<Frame> frame = std::move(ahead_.front().frame);
   ahead_.pop_front();
+  const bool has_room = ahead_.size() == capacity_ / 2;
   lock.unlock();
-  changed_.notify_all();
+  if (has_room) changed_.notify_all();
   return frame;
 }
 
@@ -49,7 +50,9 @@ void ReadAhead::read_all() {
     Read read = read_one();
     more = read.frame.has_value();
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return stop_ || ahead_.size() < capacity_; });
+    // Waits for room for many frames, because to wake a thread takes longer than to read a frame.
+    if (ahead_.size() == capacity_)
+      changed_.wait(lock, [this] { return stop_ || ahead_.size() <= capacity_ / 2; });
     if (stop_) return;
     ahead_.push_back(std::move(read));
     lock.unlock();

@@ -230,10 +230,10 @@ class FrontEnd {
   std::optional<MatchResult> search_widely(FrontEndStep& step, const Motion& motion, double poor_response);
   /// Decides whether to apply the correction of odometry by a match. Returns nothing if it is applied.
   /// Otherwise returns the pose held to the prediction in the direction of the correction. The information of
-  /// this pose is zero in that direction.
+  /// this pose is zero in that direction. `matched_score` is the score of the match for the judged points.
   std::optional<RefinedPose> held_to_odometry(const ScoreGrid& grid, const ScanPoints& points,
                                               const ScanPoints& judged, const RefinedPose& matched,
-                                              const PosePrior& prior);
+                                              double matched_score, const PosePrior& prior);
   void propagate_covariances(const FrontEndStep& step, const Motion& motion);
   void end_local_maps(FrontEndStep& step, std::size_t count);
   bool moved_enough(const mrpt::math::TPose2D& local_T_robot) const;

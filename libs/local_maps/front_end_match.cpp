@@ -207,11 +207,14 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   } else {
     const RefinedPose predicted =
         refine(grid, points, best_prior.map_T_robot, options_.refinement, best_prior);
-    if (judged_score(grid, judged, predicted) >=
-        options_.prediction_share * judged_score(grid, judged, chosen))
+    const double predicted_score = judged_score(grid, judged, predicted);
+    double score = judged_score(grid, judged, chosen);
+    if (predicted_score >= options_.prediction_share * score) {
       chosen = predicted;
+      score = predicted_score;
+    }
     if (motion.length_m > 0) {
-      if (const auto held = held_to_odometry(grid, points, judged, chosen, best_prior)) chosen = *held;
+      if (const auto held = held_to_odometry(grid, points, judged, chosen, score, best_prior)) chosen = *held;
     } else {
       doubtful_corrections_.add_unjudged();  // perhaps a stalled encoder
     }
@@ -224,7 +227,7 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
 
 std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, const ScanPoints& points,
                                                       const ScanPoints& judged, const RefinedPose& matched,
-                                                      const PosePrior& prior) {
+                                                      double matched_score, const PosePrior& prior) {
   constexpr double kSmallestCorrection_m = 1e-3;
   constexpr double kHeldSigma_m = 5e-3;
   const TPose2D& pose = matched.map_T_robot;
@@ -238,7 +241,7 @@ std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, con
   tight.information.topLeftCorner<2, 2>() += along * along.transpose() / (kHeldSigma_m * kHeldSigma_m);
   RefinedPose held = refine(grid, points, TPose2D(prior.map_T_robot.x, prior.map_T_robot.y, pose.phi),
                             options_.refinement, tight);
-  if (judged_score(grid, judged, held) < options_.held_share * judged_score(grid, judged, matched)) {
+  if (judged_score(grid, judged, held) < options_.held_share * matched_score) {
     const CorrectionScores rest =
         scores_without_best_spot(grid, judged.points.empty() ? points : judged, pose, held.map_T_robot);
     if (rest.held < options_.held_share * rest.matched) {

@@ -5,6 +5,11 @@
 #include <utility>
 
 namespace psi_slam {
+namespace {
+
+constexpr std::size_t kMostWaiting = 32;  // frames without a node before they wake the thread
+
+}  // namespace
 
 BackEndThread::BackEndThread(GraphBuilder& builder, bool own_thread, ThreadPriority priority)
     : builder_(builder) {
@@ -31,13 +36,13 @@ BackEndThread::~BackEndThread() {
 
 void BackEndThread::hand_over(TrackedFrame tracked) {
   ++handed_over_;
-  // Most frames have no node and little work. The thread sees to them when the next node wakes it, or take().
-  const bool is_urgent = tracked.step.node.has_value();
-  {
-    std::unique_lock<std::mutex> lock(mutex_);
-    waiting_.push_back(std::move(tracked));
-    if (!thread_.joinable() && !failure_) work_off(lock);
-  }
+  const bool has_node = tracked.step.node.has_value();
+  std::unique_lock<std::mutex> lock(mutex_);
+  waiting_.push_back(std::move(tracked));
+  if (!thread_.joinable() && !failure_) work_off(lock);
+  // Frames without a node have little work, so they need not wake the thread one by one.
+  const bool is_urgent = has_node || waiting_.size() >= kMostWaiting;
+  lock.unlock();
   if (is_urgent) changed_.notify_all();
 }
 
@@ -48,7 +53,7 @@ bool BackEndThread::is_ready() const {
 
 BackEndStep BackEndThread::take() {
   std::unique_lock<std::mutex> lock(mutex_);
-  if (done_.empty()) changed_.notify_all();
+  if (done_.empty()) changed_.notify_all();  // frames without a node did not wake the thread
   changed_.wait(lock, [&] { return !done_.empty() || failure_; });
   if (done_.empty()) std::rethrow_exception(failure_);
   BackEndStep step = std::move(done_.front());

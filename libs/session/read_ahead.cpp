@@ -33,9 +33,10 @@ std::optional<Frame> ReadAhead::next() {
   }
   std::optional<Frame> frame = std::move(ahead_.front().frame);
   ahead_.pop_front();
-  const bool has_room = ahead_.size() == capacity_ / 2;
+  // The reader waits only if the queue is full, so the queue passes through this size before it is empty.
+  const bool wakes_reader = ahead_.size() == capacity_ / 2;
   lock.unlock();
-  if (has_room) changed_.notify_all();
+  if (wakes_reader) changed_.notify_all();
   return frame;
 }
 
@@ -50,7 +51,7 @@ void ReadAhead::read_all() {
     Read read = read_one();
     more = read.frame.has_value();
     std::unique_lock lock(mutex_);
-    // Waits for room for many frames, because to wake a thread takes longer than to read a frame.
+    // Waits for room for many frames, because to wake a thread can take longer than to read a frame.
     if (ahead_.size() == capacity_)
       changed_.wait(lock, [this] { return stop_ || ahead_.size() <= capacity_ / 2; });
     if (stop_) return;

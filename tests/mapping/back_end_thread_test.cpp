@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "../local_maps/simulated_drive.h"
@@ -187,6 +189,30 @@ TEST(BackEndThread, counts_the_frames_that_wait) {
   for (const Frame& frame : rounds()) mapper.add(frame);
   EXPECT_GT(mapper.missed_deadlines(), 0U) << "without latency, every loop search is waited for";
   EXPECT_LE(mapper.missed_deadlines(), rounds().size());
+}
+
+TEST(BackEndThread, many_frames_without_a_node_wake_the_thread) {
+  GraphBuilder builder{MapperOptions()};
+  BackEndThread thread(builder, true);
+  thread.hand_over({});
+  thread.take();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the thread waits now
+  for (int frame = 0; frame < 1000; ++frame) thread.hand_over({});
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (!thread.is_ready() && std::chrono::steady_clock::now() < give_up)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(thread.is_ready());
+}
+
+TEST(BackEndThread, a_frame_without_a_node_can_be_taken_at_once) {
+  GraphBuilder builder{MapperOptions()};
+  BackEndThread thread(builder, true);
+  for (std::size_t frame = 0; frame < 100; ++frame) {
+    TrackedFrame tracked;
+    tracked.frame = frame;
+    thread.hand_over(std::move(tracked));
+    EXPECT_EQ(thread.take().frame, frame);
+  }
 }
 
 TEST(BackEndThread, may_be_destroyed_while_frames_wait) {

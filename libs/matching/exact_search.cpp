@@ -83,6 +83,13 @@ bool lower_bound_first(const Block& a, const Block& b) {
   return a.bound < b.bound;
 }
 
+// Returns whether a block is among blocks of its level.
+bool is_among(const std::vector<Block>& blocks, const Block& block) {
+  return std::any_of(blocks.begin(), blocks.end(), [&](const Block& one) {
+    return one.layer == block.layer && one.row == block.row && one.column == block.column;
+  });
+}
+
 }  // namespace
 
 class ExactSearch::BranchAndBound {
@@ -167,13 +174,16 @@ class ExactSearch::BranchAndBound {
   // all blocks whose bounds reach its sum. Repeats this with their children, level by level.
   void search(std::vector<Block> blocks, BestPose& best) {
     std::vector<Block> children;
+    std::vector<Block> scored;  // blocks of the last level
     for (std::size_t level = 0; level < levels_.size() && !blocks.empty(); ++level) {
+      const bool is_last = level + 1 == levels_.size();
+      const auto is_closed = [&](const Block& block) {
+        return block.bound < best.least() || (is_last && is_among(scored, block));
+      };
       const auto most_promising = std::max_element(blocks.begin(), blocks.end(), lower_bound_first);
-      descend(*most_promising, level, best);
-      if (level + 1 == levels_.size()) blocks.erase(most_promising);  // all its poses are scored
-      blocks.erase(std::remove_if(blocks.begin(), blocks.end(),
-                                  [&](const Block& block) { return block.bound < best.least(); }),
-                   blocks.end());
+      if (!is_closed(*most_promising))
+        if (const auto reached = descend(*most_promising, level, best)) scored.push_back(*reached);
+      blocks.erase(std::remove_if(blocks.begin(), blocks.end(), is_closed), blocks.end());
       children.clear();
       for (auto first = blocks.cbegin(); first != blocks.cend();) {
         const auto last = std::find_if(first, blocks.cend(), [&](const Block& block) {
@@ -186,14 +196,18 @@ class ExactSearch::BranchAndBound {
     }
   }
 
-  void descend(Block block, std::size_t level, BestPose& best) {
+  // Descends from a block to the most promising of its children, and so on. Returns the block of the last
+  // level that it scored; nothing if no child of a block reached best.least().
+  std::optional<Block> descend(Block block, std::size_t level, BestPose& best) {
     std::vector<Block> children;
-    for (; level < levels_.size(); ++level) {
+    for (; level + 1 < levels_.size(); ++level) {
       children.clear();
       expand_row(&block, &block + 1, level, best, children);
-      if (children.empty()) return;
+      if (children.empty()) return std::nullopt;
       block = *std::max_element(children.begin(), children.end(), lower_bound_first);
     }
+    score_row(&block, &block + 1, best);
+    return block;
   }
 
   // Expands blocks of one row of a level, ordered by columns: appends the children whose bounds reach

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The body of the refinement kernel, with GCC's vector types: eight points at a time. It is compiled once for
-// each instruction set. All functions have internal linkage and call no templates of the standard library,
+// The body of the refinement kernel, with GCC's vector types: eight points at a time. It is compiled for
+// the baseline and for AVX-512. All functions have internal linkage and call no templates of the standard library,
 // because the linker must not merge code for different instruction sets.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The body of the sum kernel, with GCC's vector types. It is compiled once for each instruction set. All
+// The body of the sum kernel, with GCC's vector types. It is compiled for the baseline and for AVX2. All
 // functions have internal linkage and call no templates of the standard library, because the linker must not
 // merge code for different instruction sets.
 #pragma once

@@ -108,7 +108,7 @@ std::string png_bytes(cv::Mat&& image) {
   if (image.type() != CV_8UC3 && image.type() != CV_8UC4)
     throw std::invalid_argument("png_bytes: the image has other channels than three or four of 8 bits");
   if (!image.isContinuous()) image = image.clone();
-  const std::string bytes =
+  std::string bytes =
       image.channels() == 3 ? with_palette_if_possible<3>(image) : with_palette_if_possible<4>(image);
   if (bytes.empty())
     throw SystemFailure("cannot encode the map as a PNG image. Use larger cells with map.resolution_m");

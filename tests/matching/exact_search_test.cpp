@@ -107,6 +107,18 @@ void expect_equal_outcomes(const SearchLattice& lattice, const std::string& wher
       << where << ", next: " << to_text(fast_next.best) << ", not " << to_text(next.best);
 }
 
+TEST(BranchAndBound, scores_each_pose_once) {
+  std::mt19937_64 random(40);
+  const ScoreGrid grid = random_grid(random, 30, 30, 256);
+  const ScanPoints scan = random_points(random, 15, 0.5);
+  // Far from the grid, all sums are 0, so no block can be left out.
+  const SearchLattice lattice(grid, scan, {500, -700, 0}, window_of_steps(3, 3, 20, 0.05));
+  constexpr int kPoses = 7 * 7;
+  constexpr int kBlocks = 1 + 4 + 4;  // one of 8 x 8, its four quarters, and these again on the first descent
+  EXPECT_GE(branch_and_bound_search(lattice, 0).evaluations, 41 * kPoses);
+  EXPECT_LE(branch_and_bound_search(lattice, 0).evaluations, 41 * (kPoses + kBlocks));
+}
+
 TEST(BranchAndBound, equals_the_exhaustive_search_on_random_grids) {
   std::mt19937_64 random(41);
   std::uniform_int_distribution<int> steps(1, 30);

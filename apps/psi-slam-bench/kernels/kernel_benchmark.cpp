@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "kernels/kernel_benchmark.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <numeric>
 
 #include "common/least_time.h"
+#include "kernels/reading_speed.h"
 #include "matching/point_kernels.h"
 #include "matching/refinement_kernel.h"
 #include "matching/score_grid.h"
@@ -21,10 +22,14 @@ constexpr int kSide = 500;  // of the score grid, in cells
 constexpr double kResolution_m = 0.05;
 constexpr float kRadius_m = 10;
 constexpr float kRadius_cells = 200;
-constexpr std::size_t kNear = 36;     // points among which the nearest are sought, a usual number
-constexpr std::size_t kCalls = 2000;  // that are measured together
+constexpr std::size_t kNear = 36;               // points among which the nearest are sought, a usual number
+constexpr std::size_t kGridBytes = 1000 * 256;  // rounded up
+constexpr std::size_t kFewBytes = 16 * 256;     // of points and results
+constexpr std::size_t kCalls = 2000;            // that are measured together
 constexpr InstructionSet kSets[] = {InstructionSet::kBaseline, InstructionSet::kAvx2,
                                     InstructionSet::kAvx512};
+
+using NearestKeys = std::array<std::int64_t, NeighbourKeys::kBlock>;
 
 /// A scan from the middle of a round room, and the score grid of its wall.
 struct RoundRoom {
@@ -89,26 +94,32 @@ Kernel own_kernel(Kernel (*kernel_for)(InstructionSet), InstructionSet set) {
 struct TimedKernel {
   const char* name;
   std::size_t bytes;
+  std::size_t memory_bytes;  ///< size of the memory that the kernel works in
   std::function<std::function<void()>(InstructionSet)> call_for;
 };
 
+std::function<void()> sum_call(const RoundRoom& room, SumKernel kernel, int height) {
+  return [&room, kernel, height,
+          found = std::vector<std::uint32_t>(kSumLanes * static_cast<std::size_t>(height), 0)]() mutable {
+    const ScoreLevel& cells = room.grid.finest();
+    kernel(cells.cell(0, 0), cells.row_bytes(), room.offsets.data(), kPoints, kSumLanes, height, found.data(),
+           kSumLanes);
+  };
+}
+
 TimedKernel timed_sum(const RoundRoom& room, const char* name, int height) {
   const std::size_t sums = kSumLanes * static_cast<std::size_t>(height);
-  return {name, kPoints * (sums + sizeof(std::int32_t)) + 2 * sums * sizeof(std::uint32_t),
-          [&room, height, sums](InstructionSet set) -> std::function<void()> {
+  return {name, kPoints * (sums + sizeof(std::int32_t)) + 2 * sums * sizeof(std::uint32_t), kGridBytes,
+          [&room, height](InstructionSet set) -> std::function<void()> {
             const SumKernel kernel = own_kernel(&sum_kernel_for, set);
             if (kernel == nullptr) return {};
-            return [&room, kernel, height, found = std::vector<std::uint32_t>(sums, 0)]() mutable {
-              const ScoreLevel& cells = room.grid.finest();
-              kernel(cells.cell(0, 0), cells.row_bytes(), room.offsets.data(), kPoints, kSumLanes, height,
-                     found.data(), kSumLanes);
-            };
+            return sum_call(room, kernel, height);
           }};
 }
 
 TimedKernel timed_refinement(const RoundRoom& room) {
   constexpr std::size_t kCells = 16;  // of a cubic interpolation
-  return {"refine", kPoints * (kCells + 4 * sizeof(float)),
+  return {"compare points with the grid", kPoints * (kCells + 4 * sizeof(float)), kGridBytes,
           [&room](InstructionSet set) -> std::function<void()> {
             const RefinementKernel kernel = own_kernel(&refinement_kernel_for, set);
             if (kernel == nullptr) return {};
@@ -128,14 +139,14 @@ TimedKernel timed_refinement(const RoundRoom& room) {
 /// One of the point kernels: `call(kernels)` calls one of them.
 template <class Call>
 TimedKernel timed_point_kernel(const char* name, std::size_t bytes, const Call& call) {
-  return {name, bytes, [call](InstructionSet set) -> std::function<void()> {
+  return {name, bytes, kFewBytes, [call](InstructionSet set) -> std::function<void()> {
             const PointKernels* kernels = own_kernel(&point_kernels_for, set);
             if (kernels == nullptr) return {};
             return [call, kernels] { call(*kernels); };
           }};
 }
 
-std::vector<TimedKernel> timed_kernels(RoundRoom& room, std::vector<std::int64_t>& keys,
+std::vector<TimedKernel> timed_kernels(RoundRoom& room, NearestKeys& keys,
                                        const std::vector<std::uint32_t>& indices) {
   SquareSearch search;
   search.middle.x0 = search.middle.y0 = kSide / 2.0F;
@@ -162,14 +173,15 @@ std::vector<TimedKernel> timed_kernels(RoundRoom& room, std::vector<std::int64_t
                                kernels.find_squares(search, room.x_cells.data(), room.y_cells.data(), kPoints,
                                                     room.squares.data());
                              }),
-          timed_point_kernel(
-              "find the 8 nearest of 36 points", kNear * (2 * sizeof(float) + sizeof(std::uint32_t)),
-              [&](const PointKernels& kernels) {
-                keys.assign(NeighbourKeys::kBlock, INT64_MAX);
-                kernels.merge_nearest(room.x_cells[kNear / 2], room.y_cells[kNear / 2],
-                                      {room.x_cells.data(), room.y_cells.data(), indices.data(), kNear},
-                                      {keys.data(), 1});
-              })};
+          timed_point_kernel("find the 8 nearest of 36 points",
+                             kNear * (2 * sizeof(float) + sizeof(std::uint32_t)) + 2 * sizeof(NearestKeys),
+                             [&](const PointKernels& kernels) {
+                               keys.fill(INT64_MAX);
+                               kernels.merge_nearest(
+                                   room.x_cells[kNear / 2], room.y_cells[kNear / 2],
+                                   {room.x_cells.data(), room.y_cells.data(), indices.data(), kNear},
+                                   {keys.data(), 1});
+                             })};
 }
 
 }  // namespace
@@ -177,33 +189,23 @@ std::vector<TimedKernel> timed_kernels(RoundRoom& room, std::vector<std::int64_t
 double sum_kernel_scores_per_ns(std::size_t repeats) {
   constexpr int kHeight = 8;
   const RoundRoom room;
-  const double ns = call_ns(repeats, timed_sum(room, "", kHeight).call_for(widest_instruction_set()));
-  return static_cast<double>(kPoints * kSumLanes * kHeight) / ns;
-}
-
-double reading_bytes_per_ns(std::size_t repeats) {
-  const std::vector<std::uint8_t> bytes(std::size_t{kSide} * kSide, 1);
-  std::size_t found = 0;
-  const double ns = call_ns(repeats, [&] {
-    if (std::memchr(bytes.data(), 0, bytes.size()) != nullptr) ++found;
-  });
-  return static_cast<double>(bytes.size()) / ns;
+  return static_cast<double>(kPoints * kSumLanes * kHeight) /
+         call_ns(repeats, sum_call(room, sum_kernel(), kHeight));
 }
 
 KernelBenchmark run_kernel_benchmark(const KernelBenchmarkOptions& options) {
   RoundRoom room;
-  std::vector<std::int64_t> keys;
+  NearestKeys keys{};
   std::vector<std::uint32_t> indices(kNear);
   std::iota(indices.begin(), indices.end(), 0);
   KernelBenchmark benchmark;
-  benchmark.reading_bytes_per_ns = reading_bytes_per_ns(options.repeats);
-  for (const TimedKernel& kernel : timed_kernels(room, keys, indices))
+  for (const TimedKernel& kernel : timed_kernels(room, keys, indices)) {
+    const double limit = reading_bytes_per_ns(kernel.memory_bytes, options.repeats);
     for (const InstructionSet set : kSets)
-      if (const auto call = kernel.call_for(set)) {
-        const auto bytes = static_cast<double>(kernel.bytes);
-        benchmark.rows.push_back({kernel.name, set, bytes, call_ns(options.repeats, call),
-                                  bytes / benchmark.reading_bytes_per_ns});
-      }
+      if (const auto call = kernel.call_for(set))
+        benchmark.rows.push_back(
+            {kernel.name, set, static_cast<double>(kernel.bytes), call_ns(options.repeats, call), limit});
+  }
   return benchmark;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures the kernels of the matchers, each compiled for several instruction sets, against the fastest
-// reading of the same bytes.
+// Measures the kernels of the matchers, which are compiled for several instruction sets, against the speed at
+// which the processor reads memory.
 #pragma once
 
 #include <cstddef>
@@ -21,23 +21,21 @@ struct KernelBenchmarkOptions {
 struct KernelRow {
   std::string kernel;
   InstructionSet set = InstructionSet::kBaseline;
-  double bytes = 0;     ///< bytes that a call reads and writes, each as often as an instruction touches it
-  double call_ns = 0;   ///< processor time of a call
-  double limit_ns = 0;  ///< time in which as many bytes can be read
+  double bytes = 0;    ///< bytes that a call reads and writes, each as often as an instruction touches it
+  double call_ns = 0;  ///< processor time of a call
+  double reading_bytes_per_ns = 0;  ///< limit: see reading_bytes_per_ns(), for memory as large as it works in
+
+  double bytes_per_ns() const { return bytes / call_ns; }
+  double share_of_limit() const { return bytes_per_ns() / reading_bytes_per_ns; }
 };
 
 struct KernelBenchmark {
-  double reading_bytes_per_ns = 0;  ///< see reading_bytes_per_ns()
-  std::vector<KernelRow> rows;      ///< by kernel, then by instruction set
+  std::vector<KernelRow> rows;  ///< by kernel, then by instruction set
 };
 
 /// Scores that the sum kernel adds in a nanosecond when all its lanes are used: for a block of 16 x 8 shifts
 /// of a scan on a circle, in a score grid of 0.25 MB, as large as one of Intel.
 double sum_kernel_scores_per_ns(std::size_t repeats);
-
-/// Bytes that the C library reads in a nanosecond, in order and in the widest pieces, from memory as large as
-/// that score grid: it looks for a byte that is not there.
-double reading_bytes_per_ns(std::size_t repeats);
 
 KernelBenchmark run_kernel_benchmark(const KernelBenchmarkOptions& options);
 

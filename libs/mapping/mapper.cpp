@@ -62,9 +62,10 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   result_.frames.push_back(record);
   if (step.node) add_node(step);
   // With a latency, the pose does not depend on this scan's own loops.
-  const bool is_early = options_.latency_nodes > 0;
+  const bool is_early = latency_nodes() > 0;
   if (is_early) give_pose();
   draw(step);
+  if (!step.node) step.points.reset();  // the back end needs those of nodes only
   back_end_.hand_over({result_.frames.size() - 1, odometry_m, std::move(step)});
   if (!is_early) give_pose();
   const FrameRecord& added = result_.frames.back();
@@ -99,16 +100,18 @@ void Mapper::Implementation::draw(FrontEndStep& step) {
 }
 
 // Takes the results of the back end that are due: those up to the node `latency_nodes` before the newest
-// node. The poses of later frames follow these results and no others, whether or not the back end is ahead.
+// node. The poses of later frames follow these results and no others, whether or not the back end is ahead,
+// except with run_ahead().
 void Mapper::Implementation::take_due_results() {
   const std::vector<std::size_t>& nodes = result_.node_frames;
-  const std::size_t latency = options_.latency_nodes;
+  const std::size_t latency = latency_nodes();
   // Results that came early complete the records of earlier frames at once, so that they do not pile up.
   while (latency > 0 && back_end_.in_work() > 0 && back_end_.is_ready()) complete_record(back_end_.take());
+  if (run_ahead_nodes_) apply_corrections(nodes.size());
   if (latency > 0 && (!result_.frames.back().node || nodes.size() <= latency)) return;
   const std::size_t due_nodes = nodes.size() - latency;
   take_results(latency == 0 ? result_.frames.size() : nodes[due_nodes - 1] + 1);
-  apply_corrections(due_nodes);
+  apply_corrections(run_ahead_nodes_ ? nodes.size() : due_nodes);
 }
 
 // Completes the records of the frames before `end`, and waits for their results if necessary.
@@ -413,8 +416,8 @@ const std::vector<TPose2D>& Mapper::node_poses() const {
 std::optional<Eigen::Matrix3d> Mapper::newest_covariance() const {
   return implementation_->newest_covariance();
 }
-void Mapper::set_latency(std::size_t nodes) {
-  implementation_->set_latency(nodes);
+void Mapper::run_ahead(std::optional<std::size_t> nodes) {
+  implementation_->run_ahead(nodes);
 }
 std::size_t Mapper::missed_deadlines() const {
   return implementation_->missed_deadlines();

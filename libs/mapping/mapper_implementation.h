@@ -20,7 +20,7 @@ class Mapper::Implementation {
   explicit Implementation(const MapperOptions& options);
 
   void set_pose_observer(PoseObserver observer) { pose_observer_ = std::move(observer); }
-  void set_latency(std::size_t nodes) { options_.latency_nodes = nodes; }
+  void run_ahead(std::optional<std::size_t> nodes) { run_ahead_nodes_ = nodes; }
   const FrameRecord& add(Frame frame);
   void begin_run(const RunStart& start);
   LoopEditOutcome edit(const LoopEdit& edit);
@@ -65,6 +65,7 @@ class Mapper::Implementation {
   void draw(FrontEndStep& step);
   void give_pose();
   void record_local_map(const PlacedLocalMap& finished);
+  std::size_t latency_nodes() const { return run_ahead_nodes_.value_or(options_.latency_nodes); }
   void take_due_results();
   void take_results(std::size_t end);
   void complete_record(BackEndStep&& done);
@@ -85,9 +86,10 @@ class Mapper::Implementation {
   FrontEnd front_end_;
   GraphBuilder builder_;
   BackEndThread back_end_;
-  std::deque<Correction> corrections_;  ///< corrections by the back end that are not yet due
-  bool waited_ = false;                 ///< whether add() has waited for the back end
-  std::size_t missed_deadlines_ = 0;    ///< number of calls of add() that waited for the back end
+  std::optional<std::size_t> run_ahead_nodes_;  ///< see Mapper::run_ahead()
+  std::deque<Correction> corrections_;          ///< corrections by the back end that are not yet due
+  bool waited_ = false;                         ///< whether add() has waited for the back end
+  std::size_t missed_deadlines_ = 0;            ///< number of calls of add() that waited for the back end
   std::vector<LoopEdit> waiting_edits_;
   std::vector<std::string> impossible_edits_;  ///< one sentence for each waiting edit that became impossible
   FixedKnowledge knowledge_;

@@ -28,9 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Least latency of run() with several threads, because nobody reads its poses meanwhile. It bounds the memory
-// of nodes and corrections that wait.
-constexpr std::size_t kLatencyOfRun_nodes = 100;
+// Number of nodes that run() may be ahead of the back end, because nobody reads its poses meanwhile. It
+// bounds the memory of nodes and local maps that wait.
+constexpr std::size_t kRunAhead_nodes = 1000;
 
 bool has_return(const Frame& frame) {
   bool any = false;
@@ -236,12 +236,10 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
 }
 
 void MappingSession::run(const std::atomic<bool>& stop) {
-  const std::size_t latency_nodes = m_->settings.mapper.latency_nodes;
-  const bool runs_ahead = m_->mapper && worker_threads(m_->settings.run) > 1;
-  if (runs_ahead) m_->mapper->set_latency(std::max(latency_nodes, kLatencyOfRun_nodes));
+  if (m_->mapper && worker_threads(m_->settings.run) > 1) m_->mapper->run_ahead(kRunAhead_nodes);
   while (step() && !stop) {
   }
-  if (runs_ahead) m_->mapper->set_latency(latency_nodes);
+  if (m_->mapper) m_->mapper->run_ahead(std::nullopt);
   finish(stop);
 }
 

@@ -81,7 +81,7 @@ TEST(BackEndThread, the_poses_while_mapping_do_not_depend_on_the_thread) {
   EXPECT_EQ(without.missed_deadlines, 0U);
 }
 
-TEST(BackEndThread, the_finished_map_does_not_depend_on_changes_of_the_latency) {
+TEST(BackEndThread, the_finished_map_does_not_depend_on_running_ahead) {
   MapperOptions options;
   options.back_end_thread = true;
   options.back_end.final_search.passes = 1;
@@ -89,7 +89,8 @@ TEST(BackEndThread, the_finished_map_does_not_depend_on_changes_of_the_latency) 
   Mapper mapper(options);
   const std::vector<Frame>& frames = rounds();
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (i % 100 == 0) mapper.set_latency(i % 300 == 0 ? 50 : i % 300 == 100 ? 0 : 3);
+    if (i % 100 == 0)
+      mapper.run_ahead(i % 300 == 0 ? std::optional(50) : i % 300 == 100 ? std::optional(0) : std::nullopt);
     mapper.add(frames[i]);
   }
   expect_same_map(at_once().result, mapper.finish());

@@ -76,8 +76,10 @@ class Mapper {
   /// active_local_maps(), newest_covariance() and missed_deadlines().
   void set_pose_observer(PoseObserver observer);
 
-  /// Replaces MapperOptions::latency_nodes from the next frame on. The finished map does not depend on it.
-  void set_latency(std::size_t nodes);
+  /// Lets add() run up to `nodes` nodes ahead of the back end instead of MapperOptions::latency_nodes, and
+  /// corrects the map as soon as results arrive. So the poses of records before finish() depend on the speed
+  /// of the threads; the finished map does not. Empty: back to the latency of the options.
+  void run_ahead(std::optional<std::size_t> nodes);
 
   /// Maps one frame and returns its record. Call it for all frames in the order of the log. finish()
   /// completes the record. The reference is valid until the next call of a non-const function.

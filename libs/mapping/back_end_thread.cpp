@@ -7,7 +7,7 @@
 namespace psi_slam {
 namespace {
 
-constexpr std::size_t kMostWaiting = 32;  // frames without a node before they wake the thread
+constexpr std::size_t kWakingFrames = 32;  // number of waiting frames without a node that wake the thread
 
 }  // namespace
 
@@ -41,14 +41,14 @@ void BackEndThread::hand_over(TrackedFrame tracked) {
   waiting_.push_back(std::move(tracked));
   if (!thread_.joinable() && !failure_) work_off(lock);
   // Frames without a node have little work, so they need not wake the thread one by one.
-  const bool is_urgent = has_node || waiting_.size() >= kMostWaiting;
+  const bool is_urgent = has_node || waiting_.size() >= kWakingFrames;
   lock.unlock();
   if (is_urgent) changed_.notify_all();
 }
 
 bool BackEndThread::is_ready() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return !done_.empty();
+  return !done_.empty() || failure_;
 }
 
 BackEndStep BackEndThread::take() {

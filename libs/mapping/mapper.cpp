@@ -100,18 +100,18 @@ void Mapper::Implementation::draw(FrontEndStep& step) {
 }
 
 // Takes the results of the back end that are due: those up to the node `latency_nodes` before the newest
-// node. The poses of later frames follow these results and no others, whether or not the back end is ahead,
-// except with run_ahead().
+// node. The poses of later frames follow these results and no others, whether or not the back end is ahead.
+// With run_ahead(), they follow all results that have arrived.
 void Mapper::Implementation::take_due_results() {
   const std::vector<std::size_t>& nodes = result_.node_frames;
   const std::size_t latency = latency_nodes();
   // Results that came early complete the records of earlier frames at once, so that they do not pile up.
   while (latency > 0 && back_end_.in_work() > 0 && back_end_.is_ready()) complete_record(back_end_.take());
-  if (run_ahead_nodes_) apply_corrections(nodes.size());
+  if (runs_ahead()) apply_corrections(nodes.size());
   if (latency > 0 && (!result_.frames.back().node || nodes.size() <= latency)) return;
   const std::size_t due_nodes = nodes.size() - latency;
   take_results(latency == 0 ? result_.frames.size() : nodes[due_nodes - 1] + 1);
-  apply_corrections(run_ahead_nodes_ ? nodes.size() : due_nodes);
+  apply_corrections(runs_ahead() ? nodes.size() : due_nodes);
 }
 
 // Completes the records of the frames before `end`, and waits for their results if necessary.
@@ -297,7 +297,7 @@ void Mapper::Implementation::refine_poses(FinalProgress& progress) {
 }
 
 void Mapper::Implementation::end_log() {
-  wait();
+  runs_ahead() ? catch_up() : wait();  // so that no pose depends on the speed of the threads any more
   for (const PlacedLocalMap& finished : front_end_.finish()) {
     builder_.remember(finished);
     record_local_map(finished);

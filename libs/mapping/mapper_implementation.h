@@ -65,7 +65,8 @@ class Mapper::Implementation {
   void draw(FrontEndStep& step);
   void give_pose();
   void record_local_map(const PlacedLocalMap& finished);
-  std::size_t latency_nodes() const { return run_ahead_nodes_.value_or(options_.latency_nodes); }
+  bool runs_ahead() const { return run_ahead_nodes_ && !pose_observer_; }
+  std::size_t latency_nodes() const { return runs_ahead() ? *run_ahead_nodes_ : options_.latency_nodes; }
   void take_due_results();
   void take_results(std::size_t end);
   void complete_record(BackEndStep&& done);

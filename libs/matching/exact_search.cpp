@@ -174,15 +174,14 @@ class ExactSearch::BranchAndBound {
   // all blocks whose bounds reach its sum. Repeats this with their children, level by level.
   void search(std::vector<Block> blocks, BestPose& best) {
     std::vector<Block> children;
-    std::vector<Block> scored;  // blocks of the last level
+    std::vector<Block> scored;  // blocks of the last level whose poses were scored by descents
     for (std::size_t level = 0; level < levels_.size() && !blocks.empty(); ++level) {
       const bool is_last = level + 1 == levels_.size();
       const auto is_closed = [&](const Block& block) {
         return block.bound < best.least() || (is_last && is_among(scored, block));
       };
       const auto most_promising = std::max_element(blocks.begin(), blocks.end(), lower_bound_first);
-      if (!is_closed(*most_promising))
-        if (const auto reached = descend(*most_promising, level, best)) scored.push_back(*reached);
+      if (!is_closed(*most_promising)) descend(*most_promising, level, best, scored);
       blocks.erase(std::remove_if(blocks.begin(), blocks.end(), is_closed), blocks.end());
       children.clear();
       for (auto first = blocks.cbegin(); first != blocks.cend();) {
@@ -196,18 +195,19 @@ class ExactSearch::BranchAndBound {
     }
   }
 
-  // Descends from a block to the most promising of its children, and so on. Returns the block of the last
-  // level that it scored; nothing if no child of a block reached best.least().
-  std::optional<Block> descend(Block block, std::size_t level, BestPose& best) {
+  // Descends from a block to the most promising of its children, and so on while one reaches best.least().
+  // Scores the poses of the block of the last level, and appends that block to `scored`.
+  void descend(Block block, std::size_t level, BestPose& best, std::vector<Block>& scored) {
     std::vector<Block> children;
     for (; level + 1 < levels_.size(); ++level) {
       children.clear();
       expand_row(&block, &block + 1, level, best, children);
-      if (children.empty()) return std::nullopt;
+      if (children.empty()) return;
       block = *std::max_element(children.begin(), children.end(), lower_bound_first);
     }
+    if (is_among(scored, block)) return;
     score_row(&block, &block + 1, best);
-    return block;
+    scored.push_back(block);
   }
 
   // Expands blocks of one row of a level, ordered by columns: appends the children whose bounds reach

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/scope_exit.h"
 #include "doctor/gyroscope_check.h"
 #include "doctor/quick_check.h"
 #include "exports/zone_files.h"
@@ -28,8 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Number of nodes that run() may be ahead of the back end, because nobody reads its poses meanwhile. It
-// bounds the memory of nodes and local maps that wait.
+// Number of nodes that run() may be ahead of the back end. It bounds the memory of nodes and local maps that
+// wait, and the time until run() stops.
 constexpr std::size_t kRunAhead_nodes = 1000;
 
 bool has_return(const Frame& frame) {
@@ -237,9 +238,11 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
 
 void MappingSession::run(const std::atomic<bool>& stop) {
   if (m_->mapper && worker_threads(m_->settings.run) > 1) m_->mapper->run_ahead(kRunAhead_nodes);
+  const ScopeExit end([this] {
+    if (m_->mapper) m_->mapper->run_ahead(std::nullopt);
+  });
   while (step() && !stop) {
   }
-  if (m_->mapper) m_->mapper->run_ahead(std::nullopt);
   finish(stop);
 }
 

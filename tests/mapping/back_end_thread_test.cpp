@@ -96,6 +96,26 @@ TEST(BackEndThread, the_finished_map_does_not_depend_on_running_ahead) {
   expect_same_map(at_once().result, mapper.finish());
 }
 
+TEST(BackEndThread, running_ahead_corrects_the_map_at_the_next_frame) {
+  for (const bool is_observed : {false, true}) {
+    MapperOptions options;
+    options.latency_nodes = 100'000;
+    options.back_end_thread = false;  // so that all results have arrived
+    Mapper mapper(options);
+    mapper.run_ahead(1000);
+    if (is_observed) mapper.set_pose_observer([](const FrameRecord&) {});
+    for (const Frame& frame : rounds()) mapper.add(frame);
+    const std::vector<TPose2D>& expected = at_once().map_T_node[rounds().size() - 2];
+    double largest_m = 0;
+    for (std::size_t node = 0; node < expected.size(); ++node)
+      largest_m = std::max(largest_m, std::hypot(mapper.node_poses()[node].x - expected[node].x,
+                                                 mapper.node_poses()[node].y - expected[node].y));
+    EXPECT_EQ(largest_m < 1e-9, !is_observed) << largest_m;
+    mapper.end_log();
+    EXPECT_EQ(mapper.node_poses() == mapper.graph().poses(), !is_observed);
+  }
+}
+
 // Pose of the front end's frame in the map when the frame was added.
 TPose2D map_T_local(const LiveRun& live, std::size_t frame) {
   const TPose2D& local_T_robot = live.result.frames[frame].front_end_T_robot;
@@ -173,6 +193,7 @@ TEST(BackEndThread, passes_exceptions_on) {
     thread.hand_over({});
     EXPECT_EQ(thread.take().frame, 0U);
     EXPECT_THROW(thread.take(), std::exception);
+    EXPECT_TRUE(thread.is_ready()) << "take() need not wait to throw";
     EXPECT_THROW(thread.take(), std::exception);
   }
 }

@@ -107,7 +107,7 @@ void expect_equal_outcomes(const SearchLattice& lattice, const std::string& wher
       << where << ", next: " << to_text(fast_next.best) << ", not " << to_text(next.best);
 }
 
-TEST(BranchAndBound, scores_each_pose_once) {
+TEST(BranchAndBound, does_not_score_the_block_of_a_descent_again) {
   std::mt19937_64 random(40);
   const ScoreGrid grid = random_grid(random, 30, 30, 256);
   const ScanPoints scan = random_points(random, 15, 0.5);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numeric>
 
+#include "base/portable_math.h"
 #include "common/least_time.h"
 #include "kernels/reading_speed.h"
 #include "matching/point_kernels.h"
@@ -36,8 +37,8 @@ struct RoundRoom {
   RoundRoom() : grid(0, 0, kResolution_m, kSide, kSide), cells(kPoints), offsets(kPoints), squares(kPoints) {
     for (std::size_t i = 0; i < kPoints; ++i) {
       const double angle = 2 * M_PI * static_cast<double>(i) / kPoints;
-      const auto x = static_cast<float>(std::cos(angle));
-      const auto y = static_cast<float>(std::sin(angle));
+      const auto x = static_cast<float>(portable::cos(angle));
+      const auto y = static_cast<float>(portable::sin(angle));
       points.insert(points.end(), {kRadius_m * x, kRadius_m * y});
       normals.insert(normals.end(), {-x, -y});
       x_cells.push_back(kRadius_cells * x);
@@ -45,8 +46,9 @@ struct RoundRoom {
     }
     for (int y = 0; y < kSide; ++y)
       for (int x = 0; x < kSide; ++x) {
-        const double from_wall = std::hypot(x - kSide / 2, y - kSide / 2) - double{kRadius_cells};
-        *grid.finest().cell(x, y) = static_cast<std::uint8_t>(255 * std::exp(-0.5 * from_wall * from_wall));
+        const double from_wall = portable::hypot(x - kSide / 2.0, y - kSide / 2.0) - double{kRadius_cells};
+        *grid.finest().cell(x, y) =
+            static_cast<std::uint8_t>(255 * portable::exp(-0.5 * from_wall * from_wall));
       }
     placement.x0 = placement.y0 = kSide / 2.0;
     placement.cosine = 1 / kResolution_m;

@@ -76,9 +76,10 @@ class Mapper {
   /// active_local_maps(), newest_covariance() and missed_deadlines().
   void set_pose_observer(PoseObserver observer);
 
-  /// Lets add() run up to `nodes` nodes ahead of the back end instead of MapperOptions::latency_nodes, and
-  /// corrects the map as soon as results arrive. So the poses of records before finish() depend on the speed
-  /// of the threads; the finished map does not. Empty: back to the latency of the options.
+  /// Lets add() run up to `nodes` nodes ahead of the back end, and corrects the map as soon as results
+  /// arrive. So the poses of records before finish() depend on the speed of the threads; the finished map
+  /// does not. An empty value restores MapperOptions::latency_nodes, which also holds while there is a pose
+  /// observer.
   void run_ahead(std::optional<std::size_t> nodes);
 
   /// Maps one frame and returns its record. Call it for all frames in the order of the log. finish()
@@ -86,7 +87,8 @@ class Mapper {
   ///
   /// With MapperOptions::latency_nodes, the results of the back end for a node arrive that many nodes later:
   /// Psi and the loops of its record, and their correction of the map. If they are not ready then, add()
-  /// waits for them. Everything that add() returns depends only on the frames and the options.
+  /// waits for them. Unless add() may run_ahead(), everything that it returns depends only
+  /// on the frames and the options.
   const FrameRecord& add(Frame frame);
 
   /// Begins another run, whose first frame is near `start`. At least one frame must have been added. Loops

@@ -160,8 +160,8 @@ class MappingSession {
   void finish();
 
   /// Maps at least one scan, continues to the end of the log or until `stop` is true, then calls finish().
-  /// Meanwhile, with several threads, loops correct the poses of mapper() and of the pose observer at least
-  /// 100 nodes later.
+  /// Meanwhile, with several threads and without a pose observer, loops correct the poses of mapper() as soon
+  /// as they are found, see Mapper::run_ahead().
   void run(const std::atomic<bool>& stop);
 
   /// Continues the finished map with another run through the same building, which begins at `start` (see

@@ -29,8 +29,8 @@ const std::vector<std::string> kOtherMessages{"RAWLASER3", "RAWLASER4"};
 constexpr std::size_t kAllLines = std::numeric_limits<std::size_t>::max();
 constexpr double kEnoughPath_m = 3.0;
 constexpr double kEnoughTurn_rad = 1.0;
-constexpr PoseTolerance kSameMount{0.002,
-                                   0.002};  // poses in logs are rounded to a micrometre or a millimetre
+// Poses in logs are rounded to a micrometre or a millimetre.
+constexpr PoseTolerance kSameMount{0.002, 0.002};
 // Maximum range as a fraction of the largest reading. This maximum lies below all codes for "no return" of a
 // laser, such as 81.83 and 81.91 m.
 constexpr double kBelowNoReturn = 0.97;

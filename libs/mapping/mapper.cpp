@@ -107,10 +107,9 @@ void Mapper::Implementation::take_due_results() {
   const std::size_t latency = latency_nodes();
   // Results that came early complete the records of earlier frames at once, so that they do not pile up.
   while (latency > 0 && back_end_.in_work() > 0 && back_end_.is_ready()) complete_record(back_end_.take());
-  if (runs_ahead()) apply_corrections(nodes.size());
-  if (latency > 0 && (!result_.frames.back().node || nodes.size() <= latency)) return;
-  const std::size_t due_nodes = nodes.size() - latency;
-  take_results(latency == 0 ? result_.frames.size() : nodes[due_nodes - 1] + 1);
+  const bool is_due = latency == 0 || (result_.frames.back().node && nodes.size() > latency);
+  const std::size_t due_nodes = is_due ? nodes.size() - latency : 0;
+  if (is_due) take_results(latency == 0 ? result_.frames.size() : nodes[due_nodes - 1] + 1);
   apply_corrections(runs_ahead() ? nodes.size() : due_nodes);
 }
 
@@ -297,7 +296,8 @@ void Mapper::Implementation::refine_poses(FinalProgress& progress) {
 }
 
 void Mapper::Implementation::end_log() {
-  runs_ahead() ? catch_up() : wait();  // so that no pose depends on the speed of the threads any more
+  wait();
+  if (runs_ahead()) catch_up();  // from now on, poses do not depend on the speed of the threads
   for (const PlacedLocalMap& finished : front_end_.finish()) {
     builder_.remember(finished);
     record_local_map(finished);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The body of the refinement kernel, with GCC's vector types: eight points at a time. It is compiled for
-// the baseline and for AVX-512. All functions have internal linkage and call no templates of the standard library,
-// because the linker must not merge code for different instruction sets.
+// the baseline and for AVX-512. All functions have internal linkage and call no templates of the standard
+// library, because the linker must not merge code for different instruction sets.
 #pragma once
 
 #include <cstring>

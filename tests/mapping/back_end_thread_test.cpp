@@ -172,6 +172,12 @@ TEST(BackEndThread, waiting_completes_the_records) {
   EXPECT_EQ(mapper.graph().num_nodes(), mapper.node_poses().size());
 }
 
+TrackedFrame frame_without_node(std::size_t number) {
+  TrackedFrame tracked;
+  tracked.frame = number;
+  return tracked;
+}
+
 // A step that no builder accepts: its node is in a local map whose anchor is not in the graph.
 TrackedFrame impossible_frame() {
   TrackedFrame tracked;
@@ -230,9 +236,7 @@ TEST(BackEndThread, a_frame_without_a_node_can_be_taken_at_once) {
   GraphBuilder builder{MapperOptions()};
   BackEndThread thread(builder, true);
   for (std::size_t frame = 0; frame < 100; ++frame) {
-    TrackedFrame tracked;
-    tracked.frame = frame;
-    thread.hand_over(std::move(tracked));
+    thread.hand_over(frame_without_node(frame));
     EXPECT_EQ(thread.take().frame, frame);
   }
 }
@@ -240,11 +244,7 @@ TEST(BackEndThread, a_frame_without_a_node_can_be_taken_at_once) {
 TEST(BackEndThread, may_be_destroyed_while_frames_wait) {
   GraphBuilder builder{MapperOptions()};
   BackEndThread thread(builder, true);
-  for (std::size_t frame = 0; frame < 1000; ++frame) {
-    TrackedFrame tracked;
-    tracked.frame = frame;
-    thread.hand_over(std::move(tracked));
-  }
+  for (std::size_t frame = 0; frame < 1000; ++frame) thread.hand_over(frame_without_node(frame));
   EXPECT_EQ(thread.in_work(), 1000U);
 }
 

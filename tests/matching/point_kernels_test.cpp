@@ -19,7 +19,7 @@ constexpr std::size_t kCounts[] = {0, 1, 3, 7, 8, 9, 15, 16, 17, 31, 33, 180, 10
 
 std::vector<const PointKernels*> kernels_of_this_machine() {
   std::vector<const PointKernels*> kernels;
-  for (const InstructionSet set : {InstructionSet::kBaseline, InstructionSet::kAvx2, InstructionSet::kAvx512})
+  for (const InstructionSet set : kInstructionSets)
     if (const PointKernels* found = point_kernels_for(set)) kernels.push_back(found);
   return kernels;
 }

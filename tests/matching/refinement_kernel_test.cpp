@@ -14,9 +14,6 @@
 namespace psi_slam {
 namespace {
 
-constexpr InstructionSet kAllSets[] = {InstructionSet::kBaseline, InstructionSet::kAvx2,
-                                       InstructionSet::kAvx512};
-
 std::array<double, 11> in_a_row(const ScoreSums& sums) {
   return {sums.squares, sums.scores,  sums.xx, sums.xy, sums.yy, sums.x_phi,
           sums.y_phi,   sums.phi_phi, sums.x,  sums.y,  sums.phi};
@@ -110,7 +107,7 @@ TEST(RefinementKernel, gives_the_same_bytes_with_every_set) {
   for (std::size_t count = 0; count < 200; ++count) {
     const Problem problem(random, count, count % 2 == 0);
     const auto expected = in_a_row(problem.by_kernel(InstructionSet::kBaseline));
-    for (const InstructionSet set : kAllSets) {
+    for (const InstructionSet set : kInstructionSets) {
       if (refinement_kernel_for(set) == nullptr) continue;
       ASSERT_EQ(in_a_row(problem.by_kernel(set)), expected)
           << "set " << static_cast<int>(set) << ", " << count;
@@ -124,7 +121,7 @@ TEST(RefinementKernel, gives_points_far_away_the_score_0) {
   const ScoreSums before = problem.by_kernel(InstructionSet::kBaseline);
   problem.scan.points.emplace_back(-1e6F, 0.0F);
   problem.scan.points.emplace_back(1e30F, -1e30F);
-  for (const InstructionSet set : kAllSets) {
+  for (const InstructionSet set : kInstructionSets) {
     if (refinement_kernel_for(set) == nullptr) continue;
     const ScoreSums after = problem.by_kernel(set);
     std::array<double, 11> sums = in_a_row(after), expected = in_a_row(before);

@@ -10,12 +10,9 @@
 namespace psi_slam {
 namespace {
 
-constexpr InstructionSet kAllSets[] = {InstructionSet::kBaseline, InstructionSet::kAvx2,
-                                       InstructionSet::kAvx512};
-
 std::vector<InstructionSet> sets_of_this_machine() {
   std::vector<InstructionSet> sets;
-  for (const InstructionSet set : kAllSets)
+  for (const InstructionSet set : kInstructionSets)
     if (sum_kernel_for(set) != nullptr) sets.push_back(set);
   return sets;
 }

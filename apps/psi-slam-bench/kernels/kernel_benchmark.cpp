@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "base/portable_math.h"
-#include "common/least_time.h"
+#include "common/processor_time.h"
 #include "kernels/reading_speed.h"
 #include "matching/point_kernels.h"
 #include "matching/refinement_kernel.h"
@@ -27,8 +27,6 @@ constexpr std::size_t kNear = 36;               // points among which the neares
 constexpr std::size_t kGridBytes = 1000 * 256;  // rounded up
 constexpr std::size_t kFewBytes = 16 * 256;     // of points and results
 constexpr std::size_t kCalls = 2000;            // that are measured together
-constexpr InstructionSet kSets[] = {InstructionSet::kBaseline, InstructionSet::kAvx2,
-                                    InstructionSet::kAvx512};
 
 using NearestKeys = std::array<std::int64_t, NeighbourKeys::kBlock>;
 
@@ -85,7 +83,7 @@ double call_ns(std::size_t repeats, const std::function<void()>& call) {
 template <class Kernel>
 Kernel own_kernel(Kernel (*kernel_for)(InstructionSet), InstructionSet set) {
   const Kernel kernel = kernel_for(set);
-  for (const InstructionSet smaller : kSets) {
+  for (const InstructionSet smaller : kInstructionSets) {
     if (smaller == set) break;
     if (kernel_for(smaller) == kernel) return nullptr;
   }
@@ -203,7 +201,7 @@ KernelBenchmark run_kernel_benchmark(const KernelBenchmarkOptions& options) {
   KernelBenchmark benchmark;
   for (const TimedKernel& kernel : timed_kernels(room, keys, indices)) {
     const double limit = reading_bytes_per_ns(kernel.memory_bytes, options.repeats);
-    for (const InstructionSet set : kSets)
+    for (const InstructionSet set : kInstructionSets)
       if (const auto call = kernel.call_for(set))
         benchmark.rows.push_back(
             {kernel.name, set, static_cast<double>(kernel.bytes), call_ns(options.repeats, call), limit});

@@ -9,7 +9,7 @@
 #endif
 
 #include "base/instruction_set.h"
-#include "common/least_time.h"
+#include "common/processor_time.h"
 
 namespace psi_slam {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/number_text.h"
-#include "common/least_time.h"
+#include "common/processor_time.h"
 #include "kernels/kernel_benchmark.h"
 #include "match/depth_first_search.h"
 #include "matching/make_matcher.h"

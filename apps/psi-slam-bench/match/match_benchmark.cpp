@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -13,6 +12,7 @@
 
 #include "base/number_text.h"
 #include "base/portable_math.h"
+#include "common/processor_time.h"
 #include "frames/pose_operations.h"
 #include "matching/make_matcher.h"
 #include "psi_slam/user_error.h"
@@ -294,9 +294,7 @@ void run_cases(const std::vector<LoopCase>& cases, const std::vector<MatchCandid
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       const std::size_t at = (i + k) % candidates.size();
       const Matcher& matcher = *candidates[at].matcher;
-      const std::clock_t start = std::clock();
-      matches[at] = matcher.match(problem);
-      times_ms[at] = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+      times_ms[at] = processor_ms([&] { matches[at] = matcher.match(problem); });
     }
     for (std::size_t k = 0; k < candidates.size(); ++k)
       series.rows[k].tally.add(loop_case, judge(loop_case, matches[k], matches.front(), accepted_response),

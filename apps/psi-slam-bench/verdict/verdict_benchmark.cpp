@@ -2,17 +2,16 @@
 #include "verdict/verdict_benchmark.h"
 
 #include <algorithm>
-#include <ctime>
 
+#include "common/processor_time.h"
 #include "frames/pose_operations.h"
 
 namespace psi_slam {
 
 VerdictRow judged(const FaultyMap& map) {
-  const std::clock_t begin = std::clock();
-  const MapVerdict verdict = judge_map(map.result);
+  MapVerdict verdict;
   VerdictRow row;
-  row.judge_ms = 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  row.judge_ms = processor_ms([&] { verdict = judge_map(map.result); });
   row.log = map.log;
   row.fault = map.fault;
   row.seed = map.seed;

@@ -82,6 +82,8 @@ PathCovarianceSearch::Node& PathCovarianceSearch::node_at(const PoseGraph& graph
   Node& node = nodes_.at(index);
   if (node.run == run_) return node;
   ++seen_;
+  // Begins to fetch the list of constraints, which lies anywhere in memory, before look_around() needs it.
+  __builtin_prefetch(graph.constraints_of(index).data());
   node = Node();
   node.run = run_;
   const mrpt::math::TPose2D& pose = graph.poses()[index];

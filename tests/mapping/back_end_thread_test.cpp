@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -94,6 +95,43 @@ TEST(BackEndThread, the_finished_map_does_not_depend_on_running_ahead) {
     mapper.add(frames[i]);
   }
   expect_same_map(at_once().result, mapper.finish());
+}
+
+// Maps two runs with edits of loops in the first run, in the second one and after the map was finished.
+MappingResult edited_runs(bool ahead) {
+  const auto accepted =
+      std::find_if(at_once().result.loops.begin(), at_once().result.loops.end(), [](const LoopRecord& loop) {
+        return loop.verdict == LoopVerdict::kAccepted && loop.frame < rounds().size() * 9 / 10;
+      });
+  if (accepted == at_once().result.loops.end()) throw std::logic_error("the drive has no such loop");
+  const LoopEdit deleted{LoopEdit::Kind::kDelete, accepted->frame, accepted->local_map};
+  const std::size_t second_run = accepted->frame + 20;
+  MapperOptions options;
+  options.back_end_thread = ahead;
+  options.back_end.final_search.passes = 1;
+  options.back_end.joint_refinement.rounds = 0;
+  Mapper mapper(options);
+  if (ahead) mapper.run_ahead(1000);
+  EXPECT_EQ(mapper.edit(deleted).state, LoopEditOutcome::State::kWaits);
+  for (std::size_t i = 0; i < second_run; ++i) mapper.add(rounds()[i]);
+  mapper.begin_run({mapper.node_poses().size() - 1, {}, {}});
+  for (std::size_t i = second_run; i < rounds().size(); ++i) {
+    mapper.add(rounds()[i]);
+    if (i != second_run + 40) continue;
+    EXPECT_EQ(mapper.edit({LoopEdit::Kind::kRestore, deleted.frame, deleted.local_map}).state,
+              LoopEditOutcome::State::kDone);
+  }
+  mapper.reopen(mapper.finish({}, Mapper::AfterFinish::kReopen));
+  EXPECT_EQ(mapper.edit(deleted).state, LoopEditOutcome::State::kDone);
+  return mapper.finish();
+}
+
+TEST(BackEndThread, edits_and_a_second_run_do_not_depend_on_running_ahead) {
+  const MappingResult expected = edited_runs(false);
+  expect_same_map(expected, edited_runs(true));
+  ASSERT_EQ(expected.later_run_frames.size(), 1U);
+  EXPECT_TRUE(std::any_of(expected.loops.begin(), expected.loops.end(),
+                          [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kDeleted; }));
 }
 
 TEST(BackEndThread, running_ahead_corrects_the_map_at_the_next_frame) {

@@ -13,8 +13,8 @@
 namespace psi_slam {
 namespace {
 
-// At the beginning of a run whose place is unknown, every second node searches only this many local maps, the
-// newest before the interruption, because the robot is often still there. The other nodes search all.
+// At the beginning of a run whose place is unknown, every second node searches only this many local maps: the
+// newest before the interruption. The robot is often still there. The other nodes search all.
 constexpr std::size_t kNewestMaps = 2;
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();

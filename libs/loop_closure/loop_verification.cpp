@@ -18,8 +18,8 @@ constexpr double kReverseTolerance_m = 0.25;
 constexpr double kNeighbourSpacing_m = 0.3;
 constexpr double kReportedShare = 0.8;  // of min_response()
 
-// Returns the agreement of the neighbouring scans with the local map: on each side, of the nearest one and of
-// those at least kNeighbourSpacing_m of distance and turn from the one compared before. The matched pose and
+// Returns the agreement of the neighbouring scans with the local map. On each side, these are the nearest one
+// and those at least kNeighbourSpacing_m of distance and turn from the one before. The matched pose and
 // the front end's motion place these scans. If the match is true, these scans fit the local map too.
 LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeStore& keyframes,
                                          double neighbourhood_m) {

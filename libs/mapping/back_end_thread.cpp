@@ -77,16 +77,14 @@ void BackEndThread::work_off(std::unique_lock<std::mutex>& lock) {
   const TrackedFrame tracked = std::move(waiting_.front());
   waiting_.pop_front();
   lock.unlock();
-  BackEndStep step;
-  std::exception_ptr failure;
   try {
-    step = builder_.add(tracked);
+    BackEndStep step = builder_.add(tracked);
+    lock.lock();
+    done_.push_back(std::move(step));
   } catch (...) {
-    failure = std::current_exception();
+    if (!lock.owns_lock()) lock.lock();
+    failure_ = std::current_exception();
   }
-  lock.lock();
-  failure_ = failure;
-  if (!failure) done_.push_back(std::move(step));
 }
 
 }  // namespace psi_slam

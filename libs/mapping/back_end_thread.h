@@ -25,8 +25,8 @@ class BackEndThread {
   BackEndThread(const BackEndThread&) = delete;
   BackEndThread& operator=(const BackEndThread&) = delete;
 
-  /// Adds a frame to those that wait. A few frames without a node wait for the next node or for take(). The
-  /// builder may then only be used if in_work() is 0.
+  /// Adds a frame to those that wait. A few frames without a node wait for the next node or for take(). Until
+  /// in_work() is 0, only this class may use the builder.
   void hand_over(TrackedFrame tracked);
 
   /// Number of frames that were handed over and whose results were not taken.

@@ -3,6 +3,7 @@
 #include "mapping/mapper_implementation.h"
 
 #include <algorithm>
+#include <exception>
 #include <string>
 #include <utility>
 
@@ -63,17 +64,18 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   if (step.node) add_node(step);
   // With a latency, the pose does not depend on this scan's own loops.
   const bool is_early = latency_nodes() > 0;
-  if (is_early) give_pose();
+  std::exception_ptr failure;  // thrown after the back end has the frame, so that frames can follow
+  if (is_early) failure = give_pose();
   draw(step);
   if (!step.node) step.points.reset();  // the back end needs those of nodes only
   back_end_.hand_over({result_.frames.size() - 1, odometry_m, std::move(step)});
-  if (!is_early) give_pose();
-  const FrameRecord& added = result_.frames.back();
-  if (added.node && !waiting_edits_.empty()) {
+  if (!is_early) failure = give_pose();
+  if (failure) std::rethrow_exception(failure);
+  if (result_.frames.back().node && can_serve_waiting_edits()) {
     wait();
     serve_waiting_edits();
   }
-  return added;
+  return result_.frames.back();
 }
 
 // Records the node of a step.
@@ -83,13 +85,18 @@ void Mapper::Implementation::add_node(const FrontEndStep& step) {
   map_T_node_.push_back(compose(map_T_local_, step.local_T_robot));
 }
 
-// Places the newest frame in the map and tells its pose.
-void Mapper::Implementation::give_pose() {
-  take_due_results();
-  if (waited_) ++missed_deadlines_;
-  FrameRecord& added = result_.frames.back();
-  added.map_T_robot = compose(map_T_local_, added.front_end_T_robot);
-  if (pose_observer_) pose_observer_(added);
+// Places the newest frame in the map and tells its pose. Returns what the observer or the back end threw.
+std::exception_ptr Mapper::Implementation::give_pose() {
+  try {
+    take_due_results();
+    if (waited_) ++missed_deadlines_;
+    FrameRecord& added = result_.frames.back();
+    added.map_T_robot = compose(map_T_local_, added.front_end_T_robot);
+    if (pose_observer_) pose_observer_(added);
+    return {};
+  } catch (...) {
+    return std::current_exception();
+  }
 }
 
 // Draws the newest frame into the local maps, and records the local maps that it finished.
@@ -129,6 +136,8 @@ void Mapper::Implementation::complete_record(BackEndStep&& done) {
   for (const std::size_t interruption : done.joined)
     result_.interruptions[interruption].found_frame = done.frame;
   if (!done.node) return;
+  // All corrections are applied at once then, and this one replaces the poses of those before.
+  if (runs_ahead() && !done.map_T_node.empty()) corrections_.clear();
   corrections_.push_back({*done.node, done.map_T_local, std::move(done.map_T_node), done.covariance});
   if (!options_.close_loops) return;
   const NodeLoops& loops = done.loops;
@@ -166,11 +175,10 @@ void Mapper::Implementation::wait() {
   take_results(back_end_.taken() + back_end_.in_work());
 }
 
-// Waits for the back end and applies all its results, for a change by hand or a new run.
+// Waits for the back end and applies all its results.
 void Mapper::Implementation::catch_up() {
   wait();
   corrections_.clear();
-  covariance_.reset();  // that of the next node has the change
   map_T_local_ = builder_.map_T_local();
   map_T_node_ = builder_.graph().poses();
 }
@@ -216,6 +224,7 @@ void Mapper::Implementation::begin_unplaced_run() {
 
 void Mapper::Implementation::begin_run() {
   catch_up();
+  covariance_.reset();  // the next node's covariance includes the start of the run
   front_end_.begin_run();
   result_.later_run_frames.push_back(result_.frames.size());
 }
@@ -297,7 +306,10 @@ void Mapper::Implementation::refine_poses(FinalProgress& progress) {
 
 void Mapper::Implementation::end_log() {
   wait();
-  if (runs_ahead()) catch_up();  // from now on, poses do not depend on the speed of the threads
+  if (runs_ahead()) {  // from now on, poses do not depend on the speed of the threads
+    apply_corrections(result_.node_frames.size());
+    catch_up();
+  }
   for (const PlacedLocalMap& finished : front_end_.finish()) {
     builder_.remember(finished);
     record_local_map(finished);

@@ -43,9 +43,18 @@ LoopEditOutcome Mapper::Implementation::judge(const LoopEdit& edit,
 
 LoopEditOutcome Mapper::Implementation::carry_out(const LoopEdit& edit) {
   auto [outcome, joined] = builder_.carry_out(edit, *result_.frames[edit.frame].node);
+  if (outcome.state == State::kImpossible) return outcome;
   for (const std::size_t interruption : joined) result_.interruptions[interruption].found_frame = edit.frame;
   catch_up();
+  covariance_.reset();  // the next node's covariance includes the change
   return outcome;
+}
+
+// Returns whether the scan and the local map of a waiting edit exist. Does not wait for the back end.
+bool Mapper::Implementation::can_serve_waiting_edits() const {
+  return std::any_of(waiting_edits_.begin(), waiting_edits_.end(), [&](const LoopEdit& waiting) {
+    return waiting.frame < result_.frames.size() && waiting.local_map < result_.local_maps.size();
+  });
 }
 
 // Carries out the waiting edits whose scan and local map now exist. Keeps the other edits waiting.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deque>
+#include <exception>
 #include <map>
 #include <optional>
 #include <string>
@@ -63,7 +64,7 @@ class Mapper::Implementation {
   void thin_standstill(const FrontEndStep& step);
   void add_node(const FrontEndStep& step);
   void draw(FrontEndStep& step);
-  void give_pose();
+  std::exception_ptr give_pose();
   void record_local_map(const PlacedLocalMap& finished);
   bool runs_ahead() const { return run_ahead_nodes_ && !pose_observer_; }
   std::size_t latency_nodes() const { return runs_ahead() ? *run_ahead_nodes_ : options_.latency_nodes; }
@@ -76,6 +77,7 @@ class Mapper::Implementation {
   void begin_unplaced_run();
   void lay_unjoined_runs_aside();
   LoopEditOutcome carry_out(const LoopEdit& edit);
+  bool can_serve_waiting_edits() const;
   void serve_waiting_edits();
   std::vector<std::string> unmet_edits() const;
   void finish_loops(FinalProgress& progress);

@@ -102,9 +102,13 @@ class Moments {
   std::string complaint(const std::string& source, TimeUs time_us) const {
     std::string text =
         sentence_start(source) + "the log has no scan at " + time_text(time_us) + ", expected a time ";
-    for (std::size_t i = 0; i < runs_.size(); ++i)
-      text += std::string(i == 0 ? "" : " or ") + "from " + time_text(frames_[runs_[i].begin].time_us) +
-              " to " + time_text(frames_[runs_[i].end - 1].time_us);
+    const char* before = "";
+    for (const FrameSpan& run : runs_) {
+      if (run.begin == run.end) continue;  // no scan was added since the run began
+      text += before + ("from " + time_text(frames_[run.begin].time_us)) + " to " +
+              time_text(frames_[run.end - 1].time_us);
+      before = " or ";
+    }
     return text + ". Correct the time; trajectory.csv lists those of the scans";
   }
 

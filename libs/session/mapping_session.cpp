@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -76,8 +77,7 @@ MappingSession::MappingSession(const SessionInput& input, const Settings& settin
   m_->settings_text = settings_file_text(settings);
   m_->settings_warnings = std::move(settings_warnings);
   m_->edits = input.edits();
-  // All that may be refused is checked before the input is opened: a stream that is read ends only with its
-  // source.
+  // Settings and edits are checked before the input is opened, because only its source can end a stream.
   check(settings);
   m_->check_knowledge({});
   if (!settings.prior.map.empty()) m_->prior.emplace(settings);
@@ -118,9 +118,18 @@ bool MappingSession::step() {
     const bool is_recorded = m_->recording && m_->scans < m_->recording->frames.size();
     std::optional<Frame> to_journal;
     if (m_->journal && !is_recorded) to_journal = *frame;
-    m_->mapper->add(*std::move(frame));
-    m_->make_due_edits({EditTime::Kind::kAfterScan, m_->scans++});
-    if (to_journal) m_->journal->add(*std::move(to_journal), m_->facts());
+    std::exception_ptr failure;
+    try {
+      m_->mapper->add(*std::move(frame));
+    } catch (...) {  // if the observer of poses threw, the scan is mapped
+      failure = std::current_exception();
+    }
+    if (m_->mapper->log().size() > m_->scans) {
+      const std::size_t scan = m_->scans++;
+      if (to_journal) m_->journal->add(*std::move(to_journal), m_->facts());
+      m_->make_due_edits({EditTime::Kind::kAfterScan, scan});
+    }
+    if (failure) std::rethrow_exception(failure);
   }
   m_->report(m_->source->progress());
   return true;
@@ -197,12 +206,20 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   m.update_journal();
   m.mapper->end_log();
   m.make_due_edits({EditTime::Kind::kEnd, 0});
+  std::exception_ptr failure;  // of the observer; thrown when the map is finished
+  const auto off_the_clock = [&](const auto& report) {
+    clock.stop();  // the observer may pause the run
+    try {
+      report();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    clock.resume();
+  };
   const auto progress = [&](double share) {
     const bool goes_on = !stop;
-    clock.stop();
-    m.report(share);  // the observer may pause the run
-    clock.resume();
-    return goes_on;
+    off_the_clock([&] { m.report(share); });
+    return goes_on && !failure;
   };
   FixedKnowledge knowledge = m.edits.knowledge();
   std::optional<std::string> refusal;
@@ -210,9 +227,7 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   if (m.prior) {
     prior_clock.time([&] { refusal = m.prior->place(*m.mapper, knowledge, progress); });
     if (!m.prior->is_interrupted()) progress(1);
-    clock.stop();
-    m.begin(SessionProgress::Phase::kFinalSearch);
-    clock.resume();
+    off_the_clock([&] { m.begin(SessionProgress::Phase::kFinalSearch); });
   }
   m.mapper->set_knowledge(std::move(knowledge));
   m.result = m.mapper->finish(progress, m.after_finish);
@@ -234,6 +249,7 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
       std::any_of(m.logs.begin(), m.logs.end(), [](const RecordedLog& log) { return log.scans_left; });
   m.result.broken_off = m.broken_off;
   m.stages_of_mapping = m.result.stages.size();
+  if (failure) std::rethrow_exception(failure);
 }
 
 void MappingSession::run(const std::atomic<bool>& stop) {

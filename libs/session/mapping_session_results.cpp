@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a mapping session leaves behind: the exported map and the session file.
+// Exports the map and saves the session.
 #include <algorithm>
 #include <mutex>
 #include <utility>

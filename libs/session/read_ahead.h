@@ -44,7 +44,8 @@ class ReadAhead : public FrameSource {
   };
 
   void read_all();
-  Read read_one() noexcept;
+  Read read_one();
+  Read take();
 
   std::unique_ptr<FrameSource> source_;
   const std::size_t capacity_;
@@ -55,9 +56,10 @@ class ReadAhead : public FrameSource {
   mutable std::mutex mutex_;  ///< protects the members below
   std::condition_variable changed_;
   std::deque<Read> ahead_;
+  std::exception_ptr failure_;  ///< failure of the thread itself, such as a lack of memory
   bool stop_ = false;
 
-  std::thread thread_;
+  std::thread thread_;  ///< not started if the system provides no further thread
 };
 
 }  // namespace psi_slam

@@ -134,6 +134,43 @@ TEST(BackEndThread, edits_and_a_second_run_do_not_depend_on_running_ahead) {
                           [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kDeleted; }));
 }
 
+TEST(BackEndThread, an_edit_that_cannot_be_made_yet_is_not_waited_for) {
+  MapperOptions options;
+  options.latency_nodes = 1000;
+  options.back_end_thread = true;
+  Mapper mapper(options);
+  EXPECT_EQ(mapper.edit({LoopEdit::Kind::kDelete, 0, 999}).state, LoopEditOutcome::State::kWaits);
+  for (std::size_t i = 0; i < 40; ++i) mapper.add(rounds()[i]);
+  EXPECT_EQ(mapper.frames()[39].eta, 0) << "the result of the newest frame was taken early";
+}
+
+TEST(BackEndThread, an_observer_that_throws_loses_no_frame) {
+  for (const std::size_t latency : {0U, 1U, 7U})
+    for (const bool thread : {false, true}) {
+      SCOPED_TRACE(latency);
+      MapperOptions options;
+      options.latency_nodes = latency;
+      options.back_end_thread = thread;
+      options.back_end.final_search.passes = 1;
+      options.back_end.joint_refinement.rounds = 0;
+      Mapper mapper(options);
+      std::size_t told = 0;
+      mapper.set_pose_observer([&](const FrameRecord&) {
+        if (told++ % 10 < 2) throw std::runtime_error("the observer fails");
+      });
+      std::size_t failures = 0;
+      for (const Frame& frame : rounds()) {
+        try {
+          mapper.add(frame);
+        } catch (const std::runtime_error&) {
+          ++failures;
+        }
+      }
+      EXPECT_GT(failures, 50U);
+      expect_same_map(at_once().result, mapper.finish());
+    }
+}
+
 TEST(BackEndThread, running_ahead_corrects_the_map_at_the_next_frame) {
   for (const bool is_observed : {false, true}) {
     MapperOptions options;

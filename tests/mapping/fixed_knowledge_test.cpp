@@ -22,6 +22,7 @@ using testing::Contains;
 using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double kDegree = M_PI / 180;
 
@@ -158,6 +159,18 @@ TEST(FixedKnowledge, what_cannot_be_used_gets_a_sentence) {
   EXPECT_EQ(result.knowledge.left_out, 3U);
   EXPECT_EQ(result.graph.root(), 0U);
   EXPECT_EQ(result.graph.pose(0), TPose2D(0, 0, 0));
+}
+
+TEST(FixedKnowledge, a_time_without_scan_is_named_after_a_run_without_scans) {
+  FixedKnowledge knowledge;
+  knowledge.poses.push_back(known_pose(10));
+  knowledge.poses.back().time_us = 5'000'000;
+  Mapper mapper(options());
+  for (std::size_t i = 0; i < 20; ++i) mapper.add(corridor_drive().frames[i]);
+  mapper.begin_run({});
+  mapper.set_knowledge(knowledge);
+  EXPECT_THAT(mapper.finish().contradictions,
+              ElementsAre(AllOf(HasSubstr("the log has no scan at 5.000000 s"), Not(HasSubstr(" or ")))));
 }
 
 TEST(FixedKnowledge, a_reopened_map_can_be_finished_with_other_knowledge) {

@@ -8,7 +8,9 @@
 #include "evaluation/relations_metric.h"
 #include "exports/mapped_trajectory.h"
 #include "log_files.h"
+#include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
+#include "same_map.h"
 #include "shared_logs.h"
 
 namespace psi_slam {
@@ -31,8 +33,11 @@ class InterruptedLog : public testing::Test {
     relations_ = read_relations(*relations);
   }
 
-  static MappingResult map_of(const std::vector<Frame>& frames) {
-    Mapper mapper;
+  static MappingResult map_of(const std::vector<Frame>& frames, bool ahead = false) {
+    MapperOptions options;
+    options.back_end_thread = ahead;
+    Mapper mapper(options);
+    if (ahead) mapper.run_ahead(1000);
     for (const Frame& frame : frames) mapper.add(frame);
     return mapper.finish();
   }
@@ -72,6 +77,7 @@ TEST_F(InterruptedLog, finds_a_robot_again_that_was_carried_elsewhere) {
   ASSERT_EQ(result.interruptions.size(), 1U);
   const Interruption& interruption = result.interruptions.front();
   ASSERT_TRUE(interruption.found_frame);
+  expect_same_map(result, map_of(frames_, true));
   std::size_t whole_maps = 0;
   for (const LoopRecord& loop : result.loops) {
     if (loop.window.theta_rad < 3) continue;

@@ -207,6 +207,19 @@ TEST_F(MapperEditsTest, a_restored_loop_is_as_the_mapper_found_it) {
   }
 }
 
+TEST_F(MapperEditsTest, an_impossible_edit_changes_no_pose) {
+  MapperOptions options;
+  options.latency_nodes = 100'000;
+  Mapper mapper(options);
+  for (const Frame& frame : round_drive().frames) mapper.add(frame);
+  const std::vector<TPose2D> before = mapper.node_poses();
+  ASSERT_NE(before, mapper.graph().poses()) << "no correction waits, so nothing is tested";
+  const std::size_t last = mapper.frames().size() - 1;
+  const std::size_t node_frame = mapper.frames()[last].node ? last : mapper.keyframes().nodes.back().frame;
+  EXPECT_EQ(mapper.edit({Kind::kRestore, node_frame, 0}).state, State::kImpossible);
+  EXPECT_EQ(mapper.node_poses(), before);
+}
+
 TEST_F(MapperEditsTest, explains_impossible_edits) {
   map_all();
   mapper_.end_log();

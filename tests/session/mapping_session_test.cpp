@@ -19,9 +19,11 @@
 #include "report/output_folder.h"
 #include "report/report_html.h"
 #include "room_log.h"
+#include "same_map.h"
 #include "same_results.h"
 #include "session/drawn_map.h"
 #include "session/edit_journal.h"
+#include "session/session_file.h"
 #include "session/session_input.h"
 #include "session/settings.h"
 #include "temporary_folder.h"
@@ -119,6 +121,49 @@ TEST_F(MappingSessionTest, a_stop_cuts_the_final_search_short) {
   const RunSummary summary = session.export_to(output());
   EXPECT_TRUE(summary.interrupted);
   EXPECT_TRUE(summary.final_search_cut_short);
+}
+
+TEST_F(MappingSessionTest, an_observer_that_throws_ends_the_final_search) {
+  MappingSession session(log(room_log_lines()), settings_);
+  session.set_observer([&](const SessionProgress& progress) {
+    if (progress.phase == Phase::kFinalSearch && progress.share > 0) throw std::runtime_error("no more");
+  });
+  EXPECT_THROW(session.run(go_on_), std::runtime_error);
+  EXPECT_TRUE(session.finished());
+  EXPECT_TRUE(session.result().interrupted);
+  EXPECT_EQ(session.result().frames.size(), 150U);
+  EXPECT_TRUE(session.export_to(output()).interrupted);
+}
+
+TEST_F(MappingSessionTest, an_observer_of_poses_that_throws_loses_no_scan) {
+  const auto path = log(room_log_lines());
+  MappingSession undisturbed(path, settings_);
+  undisturbed.run(go_on_);
+  {
+    MappingSession session(path, settings_);
+    session.start_journal(folder_.path() / "journal");
+    std::size_t told = 0;
+    session.set_pose_observer([&](const FrameRecord&) {
+      if (told++ % 10 < 2) throw std::runtime_error("no more");
+    });
+    EXPECT_THROW(session.step(), std::runtime_error);
+    session.save(folder_.path() / "one_scan");
+    std::size_t failures = 1;
+    for (bool more = true; more;) {
+      try {
+        more = session.step();
+      } catch (const std::runtime_error&) {
+        ++failures;
+      }
+    }
+    EXPECT_EQ(failures, 30U);
+    session.save(folder_.path() / "all_scans");
+    session.finish();
+    expect_same_map(undisturbed.result(), session.result());
+  }
+  EXPECT_THAT(read_session_file(folder_.path() / "one_scan").frames, SizeIs(1));
+  EXPECT_THAT(read_session_file(folder_.path() / "all_scans").frames, SizeIs(150));
+  EXPECT_THAT(read_session_file(folder_.path() / "journal").frames, SizeIs(150));
 }
 
 TEST_F(MappingSessionTest, a_stop_after_the_end_does_not_mark_the_result) {

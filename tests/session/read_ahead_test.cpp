@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/read_ahead.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include <chrono>
 #include <future>
+#include <thread>
 
 #include "psi_slam/user_error.h"
 #include "soon.h"
@@ -25,6 +27,7 @@ class CountedFrames : public FrameSource {
   }
 
   double progress() const override { return static_cast<double>(given_) / static_cast<double>(count_); }
+  std::vector<std::string> assumptions() const override { return {"the laser sees ahead"}; }
 
  private:
   std::size_t count_;
@@ -65,10 +68,19 @@ TEST(ReadAhead, gives_all_frames_in_order_with_the_progress_of_those_taken) {
 }
 
 TEST(ReadAhead, throws_the_sources_error_after_the_frames_before_it) {
-  ReadAhead ahead(std::make_unique<CountedFrames>(5, true), 100);
-  for (int i = 0; i < 5; ++i) EXPECT_TRUE(ahead.next().has_value());
-  EXPECT_THROW(ahead.next(), UserError);
-  EXPECT_THROW(ahead.next(), UserError);
+  for (const std::size_t capacity : {1, 2, 3, 100}) {
+    ReadAhead ahead(std::make_unique<CountedFrames>(5, true), capacity);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the reader waits for room
+    for (int i = 0; i < 5; ++i) EXPECT_TRUE(ahead.next().has_value());
+    EXPECT_THROW(ahead.next(), UserError);
+    EXPECT_THROW(ahead.next(), UserError);
+    EXPECT_EQ(ahead.progress(), 1);
+  }
+}
+
+TEST(ReadAhead, states_what_the_source_assumes_before_its_first_frame) {
+  EXPECT_THAT(ReadAhead(std::make_unique<CountedFrames>(5, false)).assumptions(),
+              testing::ElementsAre("the laser sees ahead"));
 }
 
 TEST(ReadAhead, is_ready_once_a_frame_or_the_end_is_read) {

@@ -55,6 +55,9 @@ struct LoopEditOutcome {
 };
 
 /// Maps scans, with or without odometry, one by one into a pose graph.
+///
+/// Call all functions, const ones too, from one thread at a time. References that they return are valid until
+/// the next call of a non-const function. Then the back end may change these objects.
 class Mapper {
  public:
   /// Creates a mapper with the default options.
@@ -73,22 +76,23 @@ class Mapper {
   /// Sets an observer that add() calls before it draws the scan into local maps. Drawing takes a part of the
   /// time of add(), and often less is left until the next scan. With latency_nodes = 0, the observer is
   /// called after the loops of the frame are closed. The observer may only call frames(),
-  /// active_local_maps(), newest_covariance() and missed_deadlines().
+  /// active_local_maps(), newest_covariance() and missed_deadlines(). If it throws, add() passes the
+  /// exception on after it has mapped the frame.
   void set_pose_observer(PoseObserver observer);
 
   /// Lets add() run up to `nodes` nodes ahead of the back end, and corrects the map as soon as results
   /// arrive. So the poses of records before finish() depend on the speed of the threads; the finished map
-  /// does not. An empty value restores MapperOptions::latency_nodes, which also holds while there is a pose
-  /// observer.
+  /// does not. An empty value restores MapperOptions::latency_nodes. Poses no longer depend on the speed
+  /// after as many further nodes, or after end_log(). While there is a pose observer, run_ahead() has no
+  /// effect.
   void run_ahead(std::optional<std::size_t> nodes);
 
   /// Maps one frame and returns its record. Call it for all frames in the order of the log. finish()
-  /// completes the record. The reference is valid until the next call of a non-const function.
+  /// completes the record.
   ///
-  /// With MapperOptions::latency_nodes, the results of the back end for a node arrive that many nodes later:
-  /// Psi and the loops of its record, and their correction of the map. If they are not ready then, add()
-  /// waits for them. Unless add() may run_ahead(), everything that it returns depends only
-  /// on the frames and the options.
+  /// Loops of a node correct the map exactly MapperOptions::latency_nodes nodes later. If they are not found
+  /// by then, add() waits for them. Psi and the loops in the record of that node may be complete before.
+  /// Unless add() may run_ahead(), the returned pose depends only on the frames and the options.
   const FrameRecord& add(Frame frame);
 
   /// Begins another run, whose first frame is near `start`. At least one frame must have been added. Loops
@@ -116,17 +120,18 @@ class Mapper {
   /// Functions that remain available after finish().
   enum class AfterFinish {
     kNothing,  ///< only graph() may be called afterwards
-    kReopen,   ///< reopen() may be called too; needs the memory of a second graph
+    kReopen,   ///< reopen() and judge() may be called too; needs the memory of a second graph
   };
   /// Finishes the map: final loop search, optimisation and joint refinement of all scans. What is known from
   /// outside enters the optimisation. If it states a frame, the map is moved there. `progress` gets the
   /// completed share of the work, in [0, 1]. If it returns false, the remaining steps are skipped, and
-  /// MappingResult::final_search_cut_short is true.
+  /// MappingResult::final_search_cut_short is true. It must not throw.
   MappingResult finish(const std::function<bool(double)>& progress = {},
                        AfterFinish after = AfterFinish::kNothing);
 
-  /// Restores the state before finish(). Then loops can be edited, and the map can be finished again. Needs a
-  /// call of finish() with AfterFinish::kReopen; pass its return value as `result`.
+  /// Restores the graph and the loops before finish(), but not the poses of frames(). Then loops can be
+  /// edited, and the map can be finished again. Needs a call of finish() with AfterFinish::kReopen; pass its
+  /// return value as `result`.
   void reopen(MappingResult&& result);
 
   /// Pose of the robot in the map at the last frame; the zero pose before the first frame.
@@ -135,14 +140,14 @@ class Mapper {
   /// end, unlike graph().
   const std::vector<mrpt::math::TPose2D>& node_poses() const;
   /// Covariance of (x, y, yaw) of the pose of the last frame relative to the first pose, in the axes of the
-  /// map: m^2, m rad, rad^2. Accounts for the loops whose results have arrived. Empty before the first
-  /// results, unless MapperOptions::estimates_covariance is set, and if the constraints do not determine the
-  /// pose.
+  /// map: m^2, m rad, rad^2. Accounts for the loops whose results have arrived. Empty without
+  /// MapperOptions::estimates_covariance, and if the constraints do not determine the pose. Empty also until
+  /// the first result after the start, an edit or a new run.
   std::optional<Eigen::Matrix3d> newest_covariance() const;
-  /// Number of calls of add() that waited for a result of the back end.
+  /// Number of calls of add() that waited for a result of the back end before the pose was known.
   std::size_t missed_deadlines() const;
-  /// Waits until the back end has worked off all frames, and completes their records. graph(), loops() and
-  /// keyframes() wait likewise.
+  /// Waits until the back end has worked off all frames, and completes their records. graph(), loops(),
+  /// keyframes(), judge(), edit(), begin_run() and end_log() wait likewise.
   void wait() const;
   /// Pose graph so far.
   const PoseGraph& graph() const;

@@ -59,7 +59,8 @@ struct FrameRecord {
   std::int64_t loop_evaluations = 0;  ///< number of poses scored to close loops
   std::int64_t evaluations = 0;       ///< number of poses scored by loop closing and the front end
 
-  double front_end_ms = 0;      ///< time of matching and of insertion into the local maps
+  /// Time of matching and of insertion into the local maps; with several threads, into the older one.
+  double front_end_ms = 0;
   double loop_matching_ms = 0;  ///< time of loop matching, summed over matches that may run in parallel
   double loop_closing_ms = 0;   ///< wall time of loop closing, with candidates and verification
   double pose_graph_ms = 0;     ///< time of optimising the graph
@@ -93,7 +94,7 @@ struct Interruption {
 
 /// Time spent in one stage of the work, over all its calls.
 struct StageTiming {
-  std::string name;       ///< label of the stage, such as "match and insert scan"
+  std::string name;       ///< label of the stage, such as "match scan"
   std::size_t calls = 0;  ///< number of calls
   double mean_ms = 0;     ///< mean time of a call
   double std_ms = 0;      ///< standard deviation of the time of a call

@@ -5,12 +5,12 @@
 ///
 ///     psi_slam::Configuration configuration;
 ///     psi_slam::MappingSession session("my.log", configuration);
-///     while (session.step()) {}              // or: session.run(stop)
+///     while (session.step()) {}
 ///     session.finish();
 ///     session.export_to("out");
 ///
 /// The class depends on neither windows nor signals. To stop early, call finish() instead of step(): the map
-/// then holds the scans that were read.
+/// then holds the scans that were read. run(stop) does the same as the loop and finish().
 #pragma once
 
 #include <atomic>
@@ -83,8 +83,9 @@ class MappingSession {
   MappingSession(const MappingSession&) = delete;
   MappingSession& operator=(const MappingSession&) = delete;
 
-  /// Sets the function that is called after every scan, at the start of every phase and sometimes within a
-  /// phase. The function runs in the thread that drives the session.
+  /// Sets the function that is called after every scan, at the start of every phase but the first, and
+  /// sometimes within a phase. The function runs in the thread that drives the session. If it throws while
+  /// finish() runs, finish() skips the remaining steps, and throws the exception when the map is finished.
   void set_observer(Observer observer);
   /// Sets the function that is called as soon as the pose of a scan is known, see
   /// Mapper::set_pose_observer().
@@ -152,9 +153,9 @@ class MappingSession {
   /// Undoes finish(). Needs stay_open(). Call finish() again afterwards.
   void reopen();
 
-  /// Ends the mapping and makes result(). Sets result().interrupted if readable scans of the log were left
-  /// unread or if `stop` became true and cut the final search, or the search in the prior map, short. Throws
-  /// UserError if no scan has a return.
+  /// Ends the mapping and makes result(). If `stop` becomes true, cuts the search in the prior map and the
+  /// final search short. Sets result().interrupted then, and if readable scans of the log were left unread.
+  /// Throws UserError if no scan has a return.
   void finish(const std::atomic<bool>& stop);
   /// Ends the mapping like finish(stop), with a final search that cannot be cut short.
   void finish();
@@ -190,8 +191,8 @@ class MappingSession {
   void start_journal(const std::filesystem::path& file);
   /// Ends the journal, if there is one, and deletes its file, unless a saved session has replaced it.
   void remove_journal();
-  /// Why the journal could not be written the last time, a sentence without full stop; empty if it was
-  /// written. Writing is tried again until it works, so that the journal becomes complete.
+  /// Returns why the journal could not be written the last time, as a sentence without full stop. Empty if it
+  /// was written. Writing is tried again until it works, so that the journal becomes complete.
   std::optional<std::string> journal_failure() const;
 
   /// Writes the mapped scans, all edits and settings to a session file. If only a part of a recorded session

@@ -31,37 +31,11 @@ constexpr double kBeamsPerMetre = 60;  // of cell, for one free interval
 constexpr double kOneCell_m = 0.05;    // size of the cells near which beams count in full
 constexpr float kMostOfVisit = 12;     // weight of free intervals
 constexpr float kReturn = 0.9F;        // free weight after which a hit counts as a return; less is forgotten
-constexpr double kLeastFree = 1;       // weight that refutes a cell of a single visit
-constexpr double kFreePerVisit = 0.7;  // and for each further visit
-constexpr double kFreePerReturn = 1;
-constexpr double kFreeOfSurface =
-    3;  // share by which these grow for a cell that is always part of a large surface
-constexpr double kPatch_m = 0.25;         // reach of the cells that are judged together
-constexpr double kMostRefuted = 1.5;      // by which one cell counts in its patch
-constexpr double kLeastOfPatch = 0.4;     // mean refutation around a cell that is refuted itself
 constexpr double kStraightReach_m = 0.3;  // reach of the cells whose line gives the normal
 constexpr double kStraightRatio = 0.1;    // of the variances across and along a straight obstacle
-constexpr double kRim_m = 0.15;           // reach of the cells that vanish with a thing
-constexpr double kLeastOfRim = 0.3;       // refutation of a cell that vanishes with a thing
-constexpr float kLeastCrossed = 1;        // or weight of the beams that crossed it without an end in it
-constexpr std::uint32_t kRimSlack = 3;    // intervals by which it may have been seen longer
-constexpr double kShareOfThing =
-    0.35;  // or share of the obstacles around it that vanish and were hit as long
-constexpr double kSurfaceGap_m = 0.25;     // largest distance between the ends of neighbouring beams
-constexpr double kSurfaceSpacings = 4;     // or multiple of the distance between the beams there
-constexpr std::int64_t kSurfaceShare = 8;  // one in so many hits makes a long thing a surface
-constexpr double kLargeSurface_m = 1.5;
-constexpr double kLink_m = 0.3;  // gap within one thing
+constexpr double kSurfaceGap_m = 0.25;    // largest distance between the ends of neighbouring beams
+constexpr double kSurfaceSpacings = 4;    // or multiple of the distance between the beams there
 constexpr std::uint16_t kMostCount = 60'000;
-
-std::int64_t cells_in(double length_m, double resolution_m) {
-  return static_cast<std::int64_t>(std::ceil(length_m / resolution_m - 1e-9));
-}
-
-/// Returns whether [first, last] lies within [other_first, other_last], with kRimSlack intervals more.
-bool is_within(std::uint32_t first, std::uint32_t last, std::uint32_t other_first, std::uint32_t other_last) {
-  return first + kRimSlack >= other_first && last <= other_last + kRimSlack;
-}
 
 /// Returns the mean angle between neighbouring beams, or 0 for a single beam.
 double beam_gap_rad(const Fan& fan) {
@@ -103,18 +77,6 @@ MovingThings::MovingThings(const COccupancyGridMap2D& grid, const GridLayout& la
 }
 
 template <class Visit>
-void MovingThings::for_each_around(std::int64_t x, std::int64_t y, std::int64_t reach,
-                                   const Visit& visit) const {
-  const std::int64_t y_end = std::min(y + reach, layout_.height - 1);
-  const std::int64_t x_end = std::min(x + reach, layout_.width - 1);
-  for (std::int64_t at_y = std::max<std::int64_t>(y - reach, 0); at_y <= y_end; ++at_y)
-    for (std::int64_t at_x = std::max<std::int64_t>(x - reach, 0); at_x <= x_end; ++at_x) {
-      const std::int32_t found = obstacles_.find(static_cast<std::size_t>(at_y * layout_.width + at_x));
-      if (found >= 0) visit(found);
-    }
-}
-
-template <class Visit>
 void MovingThings::for_each_near(std::int64_t x, std::int64_t y, const Visit& visit) const {
   const double most = std::max(kNear_m / layout_.resolution_m, kNearCells);
   for_each_around(x, y, near_, [&](std::int32_t found) {
@@ -146,7 +108,7 @@ void MovingThings::find_normal(Sightings& cell) const {
   double xx = 0;
   double xy = 0;
   double yy = 0;
-  for_each_around(cell.x, cell.y, cells_in(kStraightReach_m, layout_.resolution_m), [&](std::int32_t found) {
+  for_each_around(cell.x, cell.y, cells_in(kStraightReach_m), [&](std::int32_t found) {
     const Sightings& other = cells_[static_cast<std::size_t>(found)];
     const double dx = other.x - cell.x;
     const double dy = other.y - cell.y;
@@ -337,115 +299,6 @@ void MovingThings::see_free(Sightings& cell) {
   cell.free += weight;
   cell.free_of_visit += weight;
   cell.free_since_hit += weight;
-}
-
-/// Returns the share of the free weight that refutes a cell, at most kMostRefuted.
-double MovingThings::refuted(const Sightings& cell) {
-  const double surface = static_cast<double>(cell.surface) / std::max<double>(1, cell.hits);
-  const double needed = kLeastFree + kFreePerVisit * (cell.visits - 1) + kFreePerReturn * cell.returns;
-  return std::min(kMostRefuted, static_cast<double>(cell.free) / (needed * (1 + kFreeOfSurface * surface)));
-}
-
-/// Judges a cell together with the obstacles around it that were seen occupied from before its first hit
-/// until after its last.
-bool MovingThings::is_moving(const Sightings& cell) const {
-  if (cell.hits == 0) return false;
-  double sum = 0;
-  int count = 0;
-  for_each_around(cell.x, cell.y, cells_in(kPatch_m, layout_.resolution_m), [&](std::int32_t found) {
-    const Sightings& other = cells_[static_cast<std::size_t>(found)];
-    if (other.hits == 0 || other.first_hit > cell.first_hit || other.last_hit < cell.last_hit) return;
-    sum += refuted(other);
-    ++count;
-  });
-  return sum >= count || (refuted(cell) >= 1 && sum >= kLeastOfPatch * count);
-}
-
-/// Finds the connected parts of the cells that count as moving. Resets those parts that are longer than a
-/// person, a cart or a door and that beams hit as a large surface in an eighth of the intervals.
-void MovingThings::keep_large_surfaces(std::vector<bool>& is_moving) const {
-  const std::int64_t link = cells_in(kLink_m, layout_.resolution_m);
-  std::vector<bool> is_found(cells_.size());
-  for (std::size_t first = 0; first < cells_.size(); ++first) {
-    if (!is_moving[first] || is_found[first]) continue;
-    is_found[first] = true;
-    std::vector<std::size_t> part{first};
-    std::int64_t surface = 0;
-    std::int64_t hits = 0;
-    Sightings low = cells_[first];
-    Sightings high = low;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      const Sightings& cell = cells_[part[i]];
-      surface += cell.surface;
-      hits += cell.hits;
-      low.x = std::min(low.x, cell.x);
-      low.y = std::min(low.y, cell.y);
-      high.x = std::max(high.x, cell.x);
-      high.y = std::max(high.y, cell.y);
-      for_each_around(cell.x, cell.y, link, [&](std::int32_t found) {
-        const auto next = static_cast<std::size_t>(found);
-        if (!is_moving[next] || is_found[next]) return;
-        is_found[next] = true;
-        part.push_back(next);
-      });
-    }
-    const double length_m = layout_.resolution_m * portable::hypot(static_cast<double>(high.x - low.x + 1),
-                                                                   static_cast<double>(high.y - low.y + 1));
-    if (length_m <= kLargeSurface_m || kSurfaceShare * surface <= hits) continue;
-    for (const std::size_t cell : part) is_moving[cell] = false;
-  }
-}
-
-/// Adds the cells at the rim of moving things, which few beams refute or which are close to a wall: beams saw
-/// them occupied only while they saw a neighbour that moved. Adds the rest of a thing, too: cells
-/// around which enough obstacles moved.
-void MovingThings::add_rims(std::vector<bool>& is_moving) const {
-  const std::int64_t reach = cells_in(kRim_m, layout_.resolution_m);
-  const std::int64_t patch = cells_in(kPatch_m, layout_.resolution_m);
-  std::vector<std::size_t> rim;
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const Sightings& cell = cells_[i];
-    if (is_moving[i] || cell.hits == 0) continue;
-    const bool is_doubtful = refuted(cell) >= kLeastOfRim;
-    const bool is_crossed = cell.first_end != 0 && cell.crossed_before + cell.crossed_after >= kLeastCrossed;
-    const auto hit_with = [&](const Sightings& thing) {
-      return is_within(cell.first_hit, cell.last_hit, thing.first_hit, thing.last_hit);
-    };
-    const auto ended_with = [&](const Sightings& thing) {
-      return cell.first_end != 0 && thing.first_end != 0 &&
-             is_within(cell.first_end, cell.last_end, thing.first_end, thing.last_end);
-    };
-    bool is_of_thing = false;
-    if (is_doubtful || is_crossed)
-      for_each_around(cell.x, cell.y, reach, [&](std::int32_t found) {
-        const Sightings& thing = cells_[static_cast<std::size_t>(found)];
-        is_of_thing =
-            is_of_thing || (is_moving[static_cast<std::size_t>(found)] &&
-                            ((is_doubtful && hit_with(thing)) || (is_crossed && ended_with(thing))));
-      });
-    if (!is_of_thing && cell.first_end != 0) {
-      int around = 0;
-      int moving = 0;
-      for_each_around(cell.x, cell.y, patch, [&](std::int32_t found) {
-        const auto other = static_cast<std::size_t>(found);
-        ++around;
-        if (is_moving[other] && ended_with(cells_[other])) ++moving;
-      });
-      is_of_thing = moving >= kShareOfThing * around;
-    }
-    if (is_of_thing) rim.push_back(i);
-  }
-  for (const std::size_t i : rim) is_moving[i] = true;
-}
-
-void MovingThings::remove_from(COccupancyGridMap2D& grid) {
-  end_interval();
-  std::vector<bool> is_moving(cells_.size());
-  for (std::size_t i = 0; i < cells_.size(); ++i) is_moving[i] = this->is_moving(cells_[i]);
-  keep_large_surfaces(is_moving);
-  add_rims(is_moving);
-  for (std::size_t i = 0; i < cells_.size(); ++i)
-    if (is_moving[i]) grid.getRow(cells_[i].y)[cells_[i].x] = cell_value(kPassEvidence);
 }
 
 }  // namespace psi_slam

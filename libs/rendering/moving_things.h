@@ -31,6 +31,9 @@
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -82,6 +85,13 @@ class MovingThings {
     float crossed_after = 0;       ///< and after last_end
   };
 
+  static constexpr double kLargeSurface_m = 1.5;  ///< length of a surface that may be a wall
+
+  /// Returns the number of cells that reach as far as a length.
+  std::int64_t cells_in(double length_m) const {
+    return static_cast<std::int64_t>(std::ceil(length_m / layout_.resolution_m - 1e-9));
+  }
+
   void list_obstacles(const mrpt::maps::COccupancyGridMap2D& grid);
   void find_normal(Sightings& cell) const;
   void mark_hits(const Fan& fan, const CellBox& map);
@@ -120,5 +130,17 @@ class MovingThings {
   TimeUs interval_start_us_ = 0;
   mrpt::math::TPoint2D interval_start_;  ///< position of the robot at the start of the interval
 };
+
+template <class Visit>
+void MovingThings::for_each_around(std::int64_t x, std::int64_t y, std::int64_t reach,
+                                   const Visit& visit) const {
+  const std::int64_t y_end = std::min(y + reach, layout_.height - 1);
+  const std::int64_t x_end = std::min(x + reach, layout_.width - 1);
+  for (std::int64_t at_y = std::max<std::int64_t>(y - reach, 0); at_y <= y_end; ++at_y)
+    for (std::int64_t at_x = std::max<std::int64_t>(x - reach, 0); at_x <= x_end; ++at_x) {
+      const std::int32_t found = obstacles_.find(static_cast<std::size_t>(at_y * layout_.width + at_x));
+      if (found >= 0) visit(found);
+    }
+}
 
 }  // namespace psi_slam

@@ -28,7 +28,8 @@ int run_program(const CLI::App& app, std::ostream& out, std::ostream& err, const
     return out ? code : fail("cannot write to standard output", failed);
   } catch (const CLI::Success& asked) {  // --help, --version
     app.exit(asked, out, err);
-    return kExitDone;
+    out.flush();
+    return out ? kExitDone : fail("cannot write to standard output", failed);
   } catch (const CLI::ParseError& error) {
     return fail(std::string(error.what()) + " (see " + parsed_words(app) + " --help)",
                 kExitWrongUsageOrInput);

@@ -43,10 +43,6 @@ int explain_options(const CommandLine& line, const Streams& streams);
 
 // Steps that several commands share.
 
-/// Throws UserError if the file of --save-session or --journal cannot be written, or if it exists without
-/// --force. A session that is resumed may be overwritten.
-void check_sessions_to_write(const CommandLine& line);
-
 /// Warns of a journal whose last chunk is incomplete.
 void warn_of_lost_end(const SessionRecording& recording, const Streams& streams);
 

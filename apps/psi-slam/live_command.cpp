@@ -4,6 +4,7 @@
 
 #include "base/scope_exit.h"
 #include "commands.h"
+#include "files_to_write.h"
 #include "live/later_scans.h"
 #include "live_mapping.h"
 #include "live_run.h"
@@ -56,7 +57,7 @@ int map_live(const CommandLine& line, const Streams& streams) {
   const Streams texts{poses ? streams.err : streams.out, streams.err, streams.err_is_terminal};
   check_journal(line);
   OutputFolder::check(line.output, line.force);
-  check_sessions_to_write(line);
+  check_files_to_write(line);
   LiveRun run(texts, streams.err_is_terminal && !line.quiet,
               "mapping the scans that came before, then finishing the map. Interrupt again to finish it "
               "without more loops");

@@ -12,6 +12,7 @@
 #include "exports/interruptions.h"
 #include "exports/run_summary.h"
 #include "exports/unmatched_scans.h"
+#include "files_to_write.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/user_error.h"
 #include "report/output_folder.h"
@@ -71,29 +72,7 @@ RunSummary export_after(const std::string& failure, MappingSession& session, con
   }
 }
 
-/// Throws UserError if the session or journal `file` cannot be written. An empty `file` is not written.
-void require_writable(const std::string& option, const std::filesystem::path& file,
-                      const std::string& if_exists, const CommandLine& line) {
-  namespace fs = std::filesystem;
-  if (file.empty()) return;
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  const std::string where = option + ' ' + file.string() + ": ";
-  std::error_code ignored;
-  if (fs::is_directory(file, ignored)) throw UserError(where + "is a folder, expected a file");
-  if (!fs::is_directory(folder, ignored))
-    throw UserError(where + "the folder " + folder.string() + " does not exist: create it first");
-  const bool resumed = !line.resume.empty() && fs::equivalent(file, line.resume, ignored);
-  if (fs::exists(file, ignored) && !line.force && !resumed)
-    throw UserError(where + "the file exists. " + if_exists);
-}
-
 }  // namespace
-
-void check_sessions_to_write(const CommandLine& line) {
-  require_writable("--save-session", line.save_session, "Replace it with --force", line);
-  require_writable("--journal", line.journal,
-                   "Resume it with psi-slam --resume " + line.journal + ", or replace it with --force", line);
-}
 
 void warn_of_lost_end(const SessionRecording& recording, const Streams& streams) {
   if (recording.lost_end) streams.err << "psi-slam: " << *recording.lost_end << '\n';
@@ -193,12 +172,12 @@ int map_log(const CommandLine& line, const Streams& streams) {
   if (!line.edits.empty()) edits = EditJournal::read(line.edits);
   OutputFolder::check(line.output, line.force);
   check_prior_apart(bound.settings, line.output);
-  check_sessions_to_write(line);
+  check_files_to_write(line);
   calibrate(input, bound.settings, line, signals, streams);
   MappingSession session(input, bound.settings);
   if (!line.edits.empty()) session.add_edits(edits);
-  if (!line.journal.empty()) session.start_journal(line.journal);
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
+  if (!line.journal.empty()) session.start_journal(line.journal);
   std::optional<ProgressLine> progress_line;
   watch(session, signals, line, streams, progress_line);
   session.run(signals.came());

@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "exports/zone_files.h"
+#include "files_to_write.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"
 #include "session/map_frame.h"
@@ -126,7 +127,7 @@ int merge_runs(const CommandLine& line, const Streams& streams) {
   if (!line.start.empty()) parse_start(line.start);
   OutputFolder::check(line.output, line.force);
   check_prior_apart(bound.settings, line.output);
-  check_sessions_to_write(line);
+  check_files_to_write(line);
   const InterruptSignals signals;
   for (SessionInput& input : inputs) calibrate(input, bound.settings, line, signals, streams);
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);

@@ -90,6 +90,10 @@ int run_sweep_command(const SweepArguments& arguments, const SweepWorkers& worke
   const fs::path folder = arguments.output;
   if (folder.empty()) throw UserError("name the folder for the results: -o DIR (see psi-slam sweep --help)");
   std::error_code failed;
+  if (fs::is_directory(folder, failed) && !fs::is_empty(folder, failed) &&
+      !fs::is_directory(folder / "runs", failed))
+    throw UserError("the output folder " + folder.string() +
+                    " is not empty and holds no sweep. Name a new folder, or that of a sweep");
   fs::create_directories(folder / "runs", failed);
   if (failed) throw UserError("cannot make the folder " + folder.string() + ": " + failed.message());
   const SweepPlan plan = plan_sweep(arguments.request, sha256_of_file(program));

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/output_folder.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <regex>
+#include <set>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -29,6 +33,9 @@ void check_no_file_in_the_way(const fs::path& path) {
   fs::path part;
   for (const fs::path& name : path) {
     part /= name;
+    if (fs::is_symlink(part, ignored) && !fs::exists(part, ignored))
+      throw UserError("cannot write to the folder " + path.string() + ": " + part.string() +
+                      " is a link to a place that does not exist. Name another folder");
     if (fs::exists(part, ignored) && !fs::is_directory(part, ignored))
       throw UserError("cannot write to the folder " + path.string() + ": " + part.string() +
                       " is a file, not a folder. Name another folder");
@@ -40,6 +47,15 @@ bool holds_only_leftovers(const fs::path& folder, std::error_code& error) {
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
     if (!is_partial_name(entry->path().filename().string())) return false;
   return true;
+}
+
+/// Locks a folder. Throws UserError if another OutputFolder has locked it. Some file systems know no locks.
+std::shared_ptr<const Descriptor> lock_of(const fs::path& folder) {
+  auto lock = std::make_shared<Descriptor>(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (lock->is_open() && ::flock(lock->number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw UserError("another run is writing to the output folder " + folder.string() +
+                    ". Wait until it ends, or name another folder");
+  return lock;
 }
 
 /// Writes the corrected log of a single log. For several merged logs, whose times may overlap, writes a
@@ -92,10 +108,18 @@ OutputFolder OutputFolder::prepare(const fs::path& path, bool force, const std::
   check(path, force, force_text);
   std::error_code error;
   fs::create_directories(path, error);
-  if (error && !fs::is_directory(path))
+  if (std::error_code ignored; error && !fs::is_directory(path, ignored))
     throw UserError("cannot create the output folder " + path.string() + ": " + error.message());
+  OutputFolder folder(path);
+  folder.lock_ = lock_of(path);
   check(path, force, force_text);
-  return OutputFolder(path);
+  return folder;
+}
+
+bool OutputFolder::is_result(const std::string& name) {
+  static const std::set<std::string> kRequired{"trajectory.tum", "trajectory.csv", "graph.g2o",  "frames.csv",
+                                               "loops.csv",      "summary.json",   "report.html"};
+  return kRequired.count(name) > 0 || is_optional_result(name);
 }
 
 void OutputFolder::replace_results(const std::function<void(const OutputFolder&)>& write) const {

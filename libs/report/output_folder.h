@@ -16,9 +16,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 
+#include "base/descriptor.h"
 #include "exports/map_files.h"
 #include "exports/mapped_trajectory.h"
 #include "exports/run_summary.h"
@@ -31,9 +33,9 @@ class OutputFolder {
  public:
   /// Creates the folder and its parents. An existing folder must be empty unless `force` is given, which
   /// replaces the files of a run and keeps all others. Temporary files that a killed program left do not
-  /// count. Throws UserError if the folder is not empty, is a file, or cannot be created or written to. Call
-  /// it before mapping, so that the user sees the error at once. `force_text` tells the user how to give
-  /// `force`.
+  /// count. Throws UserError if the folder is not empty, is a file, or cannot be created or written to, and
+  /// while another OutputFolder of this path exists, in any process. Call it before mapping, so that the user
+  /// sees the error at once. `force_text` tells the user how to give `force`.
   static OutputFolder prepare(const std::filesystem::path& path, bool force,
                               const std::string& force_text = "--force");
 
@@ -46,11 +48,16 @@ class OutputFolder {
   /// SystemFailure naming the file that cannot be written.
   void replace_results(const std::function<void(const OutputFolder& temporary)>& write) const;
 
+  /// Returns whether results may have a file of this name.
+  static bool is_result(const std::string& name);
+
   const std::filesystem::path& path() const { return path_; }
 
  private:
   explicit OutputFolder(std::filesystem::path path) : path_(std::move(path)) {}
   std::filesystem::path path_;
+  /// Locks the folder for this process, until the last copy of this object is gone.
+  std::shared_ptr<const Descriptor> lock_;
 };
 
 /// Returns tasks that write the files for which no grid map is needed, each file atomically: trajectories,

@@ -175,7 +175,7 @@ SavedSession MappingSession::save(const fs::path& file) const {
   const SessionFacts facts = m_->facts();
   write_session_file(file, facts, frames);
   SavedSession saved{frames.size(), ""};
-  if (facts.logs.back().sha256.empty())
+  if (facts.logs.back().sha256.empty() && !m_->log_path.empty())
     saved.remark = "The session holds all scans that were mapped, but " + facts.logs.back().name +
                    " is no longer readable or became shorter, so the session cannot be resumed from it";
   return saved;

@@ -29,6 +29,9 @@ std::string all_bytes(const fs::path& path) {
     throw UserError(path.string() + " does not exist, expected a session. Check the path");
   if (fs::is_directory(path, ignored))
     throw UserError(path.string() + " is a folder, expected a session. Check the path");
+  if (!fs::is_regular_file(path, ignored))
+    throw UserError(path.string() +
+                    " is a pipe or a device, expected a session. Save its data in a file first");
   try {
     return file_bytes(path);
   } catch (const std::system_error& error) {
@@ -68,6 +71,8 @@ SessionRecording read_whole_session(std::string_view bytes, const fs::path& path
 }  // namespace
 
 bool is_session_file(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return false;  // to open a pipe can take for ever
   std::ifstream file(path, std::ios::binary);
   static_assert(kMagic.size() == kJournalMagic.size());
   std::string begin(kMagic.size(), '\0');

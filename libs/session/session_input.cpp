@@ -46,14 +46,14 @@ class RecordedSource : public FrameSource {
     if (first_) first_->imu_heading_rad.reset();  // the headings of two logs are unrelated
     const std::vector<Frame>& frames = recording_->frames;
     if (!first_ || frames.empty() || first_->time_us > frames.back().time_us) return;
-    const char* const why =
-        recording_->facts.logs.back().sha256.empty()
-            ? " cannot be compared with the log of the session (which was unreadable when it was saved)"
-            : " is not the log of the session (their checksums differ)";
+    const char* const why = recording_->facts.logs.back().sha256.empty()
+                                ? " cannot be compared with the log of the session (which was live, or "
+                                  "unreadable when it was saved)"
+                                : " is not the log of the session (their checksums differ)";
     throw UserError(path_.string() + why + " and does not continue it: its first scan is at " +
                     format_seconds(first_->time_us) + " s, the session's last scan at " +
                     format_seconds(frames.back().time_us) +
-                    " s. Resume with the log of the session, or with one that follows it");
+                    " s. Resume without a log, with the log of the session, or with one that follows it");
   }
 
   std::optional<Frame> next() override {

@@ -207,6 +207,7 @@ TEST_F(LiveApp, saves_the_session_and_leaves_no_journal) {
   const AppProcess process(live({"--stdin", "-q", "--save-session", saved.string()}), folder_.path(),
                            [&] { ::dup2(::open(log_.c_str(), O_RDONLY), STDIN_FILENO); });
   EXPECT_EQ(process.finish().code, 0) << err();
+  EXPECT_EQ(err().find("cannot be resumed"), std::string::npos) << err();
   EXPECT_FALSE(std::filesystem::exists(journal()));
   EXPECT_EQ(read_session_file(saved).frames.size(), kScans);
   ASSERT_EQ(run_app({"--resume", saved.string(), "-q", "-o", folder("resumed").string()}).code, 0);

@@ -40,7 +40,7 @@ std::size_t number_of_rounds(double round_s) {
 }
 
 /// Sums over all rounds.
-struct Figures {
+struct HoursOfTracking {
   std::size_t scans = 0;
   std::size_t tracked = 0;
   std::size_t wrong = 0;           ///< fitting poses farther than 0.5 m from those of the map
@@ -56,7 +56,7 @@ class CarriedRobot {
   CarriedRobot(const MappingResult& mapped, Localizer& localizer) : mapped_(mapped), localizer_(localizer) {}
 
   /// Replays the scans [begin, end) of the log. Times continue from those before.
-  void replay(std::size_t begin, std::size_t end, Figures& figures) {
+  void replay(std::size_t begin, std::size_t end, HoursOfTracking& figures) {
     constexpr double kWrong_m = 0.5;
     const Frame& first = mapped_.log[begin];
     const TPose2D odom_T_log_odom = compose(odom_T_robot_, inverse(first.odom_T_robot));
@@ -107,7 +107,7 @@ TEST(LocalizeForHours, keeps_the_memory_and_finds_the_robot_again_and_again) {
   const std::size_t scans = mapped.log.size();
   const double round_s = seconds(mapped.log.back().time_us - mapped.log.front().time_us + 3 * kCarried_us);
   const std::size_t rounds = number_of_rounds(round_s);
-  Figures figures;
+  HoursOfTracking figures;
   CarriedRobot robot(mapped, localizer);
   const auto begin = std::chrono::steady_clock::now();
   for (std::size_t round = 0; round < rounds; ++round) {

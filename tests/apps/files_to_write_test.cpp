@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// No output of psi-slam may replace an input or another output.
+#include "files_to_write.h"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include "../session/room_log.h"
+#include "app_run.h"
+#include "report/output_folder.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class FilesToWrite : public testing::Test {
+ protected:
+  FilesToWrite() : log_(write_lines(file("room.log"), room_log_lines(20)).string()) {}
+
+  std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  /// Expects that the arguments are refused with this sentence, and that no file of the test changes.
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& sentence) const {
+    SCOPED_TRACE(sentence);
+    std::map<fs::path, std::string> before;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_.path()))
+      if (fs::is_regular_file(entry.symlink_status())) before[entry.path()] = bytes_of(entry.path());
+    const AppRun run = run_app(arguments);
+    EXPECT_EQ(run.code, 2);
+    EXPECT_THAT(run.err, HasSubstr(sentence));
+    for (const auto& [path, bytes] : before) EXPECT_EQ(bytes_of(path), bytes) << path;
+  }
+
+  TemporaryFolder folder_;
+  std::string log_;
+};
+
+TEST_F(FilesToWrite, a_session_or_a_journal_never_replaces_an_input) {
+  write_bytes(file("my.ini"), "[map]\nresolution_m = 0.1\n");
+  write_bytes(file("my.edits"), "");
+  fs::create_symlink("room.log", file("link"));
+  const std::string out = file("out");
+  for (const char* const option : {"--save-session", "--journal"}) {
+    expect_refused({log_, "-o", out, option, file("link"), "--force"},
+                   "this is the log, which would be lost");
+    expect_refused({log_, "-o", out, "-c", file("my.ini"), option, file("my.ini"), "--force"},
+                   "this is the settings file");
+    expect_refused({log_, "-o", out, "--edits", file("my.edits"), option, file("my.edits"), "--force"},
+                   "this is the file of edits");
+  }
+  expect_refused({"live", "--follow", log_, "-o", out, "--save-session", log_, "--force"}, "this is the log");
+  expect_refused({"merge", log_, log_, "-o", out, "--save-session", log_, "--force"}, "this is the input");
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST_F(FilesToWrite, results_never_replace_an_input) {
+  fs::create_directory(file("out"));
+  fs::copy_file(log_, file("out/trajectory.carmen"));
+  expect_refused({file("out/trajectory.carmen"), "-o", file("out"), "--force"},
+                 "the results in " + file("out") + " would replace the log");
+  const AppRun elsewhere = run_app({file("out/trajectory.carmen"), "-q", "-o", file("other")});
+  EXPECT_EQ(elsewhere.code, 0) << elsewhere.err;
+}
+
+TEST_F(FilesToWrite, a_session_is_never_a_result) {
+  fs::create_directory(file("out"));
+  expect_refused({log_, "-o", file("out"), "--save-session", file("out/frames.csv")},
+                 "have a file of this name");
+  const AppRun beside = run_app({log_, "-q", "-o", file("out"), "--save-session", file("out/my.session")});
+  EXPECT_EQ(beside.code, 0) << beside.err;
+  EXPECT_TRUE(fs::exists(file("out/my.session")));
+}
+
+TEST_F(FilesToWrite, every_file_of_a_run_is_known_as_a_result) {
+  ASSERT_EQ(run_app({log_, "-q", "-o", file("out")}).code, 0);
+  for (const fs::directory_entry& entry : fs::directory_iterator(file("out")))
+    EXPECT_TRUE(OutputFolder::is_result(entry.path().filename().string())) << entry.path();
+}
+
+TEST_F(FilesToWrite, a_session_never_replaces_a_device) {
+  expect_refused({log_, "-o", file("out"), "--save-session", "/dev/null", "--force"},
+                 "is a device or a pipe");
+}
+
+TEST_F(FilesToWrite, a_journal_may_lie_in_an_empty_output_folder) {
+  fs::create_directory(file("out"));
+  const AppRun run = run_app({log_, "-q", "-o", file("out"), "--journal", file("out/my.journal")});
+  EXPECT_EQ(run.code, 0) << run.err;
+}
+
+TEST_F(FilesToWrite, two_runs_do_not_write_to_one_folder) {
+  const OutputFolder held = OutputFolder::prepare(file("out"), false);
+  expect_refused({log_, "-o", file("out")}, "another run is writing to the output folder");
+  expect_refused({log_, "-o", file("out"), "--force"}, "another run is writing to the output folder");
+}
+
+TEST_F(FilesToWrite, a_sweep_leaves_the_results_of_a_run_alone) {
+  ASSERT_EQ(run_app({log_, "-q", "-o", file("out")}).code, 0);
+  expect_refused({"sweep", log_, "-o", file("out")}, "is not empty and holds no sweep");
+}
+
+TEST_F(FilesToWrite, folders_that_cannot_be_made) {
+  fs::create_symlink("nowhere", file("dangling"));
+  fs::create_symlink("loop", file("loop"));
+  expect_refused({log_, "-o", file("dangling")}, "is a link to a place that does not exist");
+  expect_refused({log_, "-o", file("loop")}, "is a link to a place that does not exist");
+  expect_refused({log_, "-o", file(std::string(300, 'x'))}, "File name too long");
+}
+
+TEST_F(FilesToWrite, a_pipe_is_no_log) {
+  ASSERT_EQ(::mkfifo(file("pipe").c_str(), 0600), 0);
+  expect_refused({file("pipe"), "-o", file("out")}, "is a pipe or a device, expected");
+  expect_refused({"check", file("pipe")}, "is a pipe or a device, expected");
+  expect_refused({"--resume", file("pipe"), "-o", file("out")}, "is a pipe or a device, expected");
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -17,6 +17,10 @@ using mrpt::math::TPose2D;
 constexpr std::uint32_t kSeveralLasers = 2;  // first version with several lasers
 // Protects against damaged files, because the mapper's memory grows with it.
 constexpr std::uint32_t kMostLasers = 64;
+// Logs have bearings within two turns. The correction of a moving robot's scans turns them by half a turn
+// more.
+constexpr float kMostBearing_rad = static_cast<float>(6 * M_PI);
+constexpr float kMostRange_m = 10'000;  // logs have at most 1 km
 
 enum Flags : std::uint8_t {
   kHasOdometry = 1,
@@ -72,23 +76,34 @@ std::string sensor_bytes(const LaserScan& scan) {
 LaserScan read_sensor(ByteCursor& bytes, std::uint32_t version) {
   LaserScan sensor;
   std::vector<float> bearings_rad = read_floats(bytes);
-  if (!std::all_of(bearings_rad.begin(), bearings_rad.end(), [](float rad) { return std::isfinite(rad); }))
-    throw MalformedBytes("beam bearing is not finite");
+  if (!std::all_of(bearings_rad.begin(), bearings_rad.end(),
+                   [](float rad) { return std::abs(rad) <= kMostBearing_rad; }))
+    throw MalformedBytes("a beam bearing is not finite or more than three turns");
   sensor.bearings_rad = std::make_shared<const std::vector<float>>(std::move(bearings_rad));
   sensor.max_range_m = bytes.number<float>();
+  if (!(sensor.max_range_m >= 0 && sensor.max_range_m <= kMostRange_m))
+    throw MalformedBytes("the maximum range of a laser is not between 0 and 10 km");
   sensor.robot_T_laser = read_pose(bytes);
   if (!is_possible_mount(sensor.robot_T_laser))
     throw MalformedBytes("a laser is more than 100 m from the robot's centre");
   sensor.sweep_time_s = bytes.number<float>();
+  if (!std::isfinite(sensor.sweep_time_s)) throw MalformedBytes("the sweep time of a laser is not finite");
   if (version >= kSeveralLasers) sensor.laser = bytes.number<std::uint32_t>();
   if (sensor.laser >= kMostLasers) throw MalformedBytes("the number of a laser is too high");
   return sensor;
+}
+
+/// Returns whether a scan can have this range: a return of at most kMostRange_m, infinity or NaN.
+bool is_possible_range(float range_m) {
+  return std::isnan(range_m) || (range_m >= 0 && (range_m <= kMostRange_m || std::isinf(range_m)));
 }
 
 void read_ranges(ByteCursor& bytes, LaserScan& scan) {
   scan.ranges_m = read_floats(bytes);
   if (scan.ranges_m.size() != scan.bearings_rad->size())
     throw MalformedBytes("a scan has another number of beams than its sensor");
+  if (!std::all_of(scan.ranges_m.begin(), scan.ranges_m.end(), is_possible_range))
+    throw MalformedBytes("a scan has a range that is negative or above 10 km");
 }
 
 /// Appends a scan. Describes its sensor if the sensor differs from `last_sensor`.

@@ -170,11 +170,35 @@ TEST_F(SessionFileTest, reports_contradictions_despite_a_valid_checksum) {
   EXPECT_THAT(complaint([](SessionRecording& r) {
                 r.frames[3].scan.bearings_rad = std::make_shared<std::vector<float>>(1, NAN);
               }),
-              HasSubstr("beam bearing is not finite"));
+              HasSubstr("a beam bearing is not finite or more than three turns"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].scan.ranges_m.pop_back(); }),
               HasSubstr("another number of beams than its sensor"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].scan.ranges_m.pop_back(); }),
               HasSubstr("another number of beams than its sensor"));
+}
+
+TEST_F(SessionFileTest, refuses_readings_that_no_laser_measures) {
+  const auto complaint = [&](const std::function<void(LaserScan&)>& spoil, bool companion = false) {
+    SessionRecording recording = small_recording();
+    spoil(companion ? recording.frames[1].companions[0].scan : recording.frames[0].scan);
+    write_session_file(path_, recording.facts, recording.frames);
+    return sentence_of([&] { read_session_file(path_); });
+  };
+  for (const float range_m : {-1.0F, -1e30F, 1e30F, -INFINITY}) {
+    EXPECT_THAT(complaint([&](LaserScan& scan) { scan.ranges_m[0] = range_m; }),
+                HasSubstr("my.session is damaged: a scan has a range that is negative or above 10 km"));
+    EXPECT_THAT(complaint([&](LaserScan& scan) { scan.ranges_m[1] = range_m; }, true),
+                HasSubstr("a scan has a range that is negative or above 10 km"));
+  }
+  EXPECT_THAT(complaint([](LaserScan& scan) {
+                scan.bearings_rad = std::make_shared<std::vector<float>>(scan.ranges_m.size(), 1e9F);
+              }),
+              HasSubstr("a beam bearing is not finite or more than three turns"));
+  for (const float range_m : {-1.0F, NAN, INFINITY})
+    EXPECT_THAT(complaint([&](LaserScan& scan) { scan.max_range_m = range_m; }),
+                HasSubstr("the maximum range of a laser is not between 0 and 10 km"));
+  EXPECT_THAT(complaint([](LaserScan& scan) { scan.sweep_time_s = NAN; }),
+              HasSubstr("the sweep time of a laser is not finite"));
 }
 
 TEST_F(SessionFileTest, refuses_content_that_unpacks_to_gigabytes) {

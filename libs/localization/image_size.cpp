@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localization/image_size.h"
 
+#include <zlib.h>
+
 #include "base/byte_cursor.h"
 
 namespace psi_slam {
@@ -30,6 +32,51 @@ ImageSize pnm_size(std::string_view bytes) {
   ByteCursor cursor(bytes.substr(2));
   const std::uint64_t width = pnm_number(cursor);
   return {width, pnm_number(cursor)};
+}
+
+/// Counts the numbers of a PNM file in plain text, each with a blank after it. In a PBM file, each digit is a
+/// number. Throws MalformedBytes for other characters.
+std::uint64_t pnm_numbers(std::string_view text, bool one_digit) {
+  std::uint64_t count = 0;
+  bool in_number = false;
+  bool in_comment = false;
+  for (const char c : text) {
+    const bool is_digit = c >= '0' && c <= '9';
+    if (c == '#') in_comment = true;
+    if (!in_comment && !is_digit && !is_space(c)) throw MalformedBytes("expected a number");
+    if (in_number && (one_digit || !is_digit)) ++count;
+    in_number = is_digit && !in_comment;
+    if (c == '\n') in_comment = false;
+  }
+  return count + (in_number && one_digit ? 1 : 0);
+}
+
+bool pnm_holds_all(std::string_view bytes) {
+  constexpr std::uint64_t kMostLevel = 65535;
+  const char kind = bytes.at(1);
+  const bool is_bits = kind == '1' || kind == '4';
+  ByteCursor cursor(bytes.substr(2));
+  const std::uint64_t width = pnm_number(cursor);
+  const std::uint64_t height = pnm_number(cursor);
+  const std::uint64_t level = is_bits ? 1 : pnm_number(cursor);
+  if (level == 0 || level > kMostLevel) return false;
+  const std::string_view rest = cursor.take(cursor.left());
+  const std::uint64_t samples = kind == '3' || kind == '6' ? 3 : 1;
+  if (kind < '4') return pnm_numbers(rest, is_bits) >= width * height * samples;
+  const std::uint64_t row_bytes = is_bits ? (width + 7) / 8 : width * samples * (level > 255 ? 2 : 1);
+  return rest.size() >= row_bytes * height;
+}
+
+bool png_holds_all(std::string_view bytes) {
+  ByteCursor cursor(bytes, ByteOrder::kBigEndian);
+  cursor.take(8);
+  while (true) {
+    const auto length = cursor.number<std::uint32_t>();
+    const std::string_view part = cursor.take(std::size_t{4} + length);
+    const auto checksum = crc32_z(0, reinterpret_cast<const Bytef*>(part.data()), part.size());
+    if (cursor.number<std::uint32_t>() != checksum) return false;
+    if (part.substr(0, 4) == "IEND") return true;
+  }
 }
 
 ImageSize png_size(std::string_view bytes) {
@@ -82,6 +129,16 @@ std::optional<ImageSize> image_size(std::string_view bytes) {
   } catch (const MalformedBytes&) {  // the bytes end before the size
   }
   return std::nullopt;
+}
+
+bool holds_all_pixels(std::string_view bytes) {
+  try {
+    if (bytes.substr(0, 1) == "P") return pnm_holds_all(bytes);
+    if (bytes.substr(0, 1) == "\x89") return png_holds_all(bytes);
+  } catch (const MalformedBytes&) {  // the bytes end too early
+    return false;
+  }
+  return true;
 }
 
 }  // namespace psi_slam

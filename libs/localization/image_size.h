@@ -18,4 +18,8 @@ struct ImageSize {
 /// the bytes are no such image, or end before the size.
 std::optional<ImageSize> image_size(std::string_view bytes);
 
+/// Returns whether the bytes of a file, of which image_size() reads the size, hold all pixels: whether a PNM
+/// image has a number for each, and a PNG image has all parts with their checksums. True for BMP and JPEG.
+bool holds_all_pixels(std::string_view bytes);
+
 }  // namespace psi_slam

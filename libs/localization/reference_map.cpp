@@ -2,6 +2,7 @@
 #include "localization/reference_map.h"
 
 #include <mrpt/containers/yaml.h>
+#include <mrpt/img/CImage.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "base/byte_cursor.h"
+#include "base/file_bytes.h"
 #include "base/file_checksum.h"
 #include "base/number_text.h"
 #include "base/yaml_directives.h"
@@ -84,8 +86,8 @@ void check_resolution(const std::filesystem::path& path, double resolution_m) {
         " m, expected 0.001 to 1 m. Export the map again with psi-slam, or correct the resolution");
 }
 
-/// Throws UserError if `file`, the image that `map.yaml` names, does not exist, which MRPT reports on the
-/// terminal only, or if its header states more pixels than most_cells().
+/// Throws UserError if `file`, the image that `map.yaml` names, does not exist or is damaged, which MRPT
+/// reports on the terminal only, or if its header states no pixels or more than most_cells().
 void check_image(const std::filesystem::path& path, const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
@@ -107,6 +109,23 @@ void check_image(const std::filesystem::path& path, const std::filesystem::path&
     throw UserError(file.string() + " states " + std::to_string(size->width) + " x " +
                     std::to_string(size->height) + " pixels, expected at most " + std::to_string(most) +
                     " for a file of its size. Export the map with a coarser resolution");
+  if (size->width == 0 || size->height == 0)
+    throw UserError(file.string() + " states " + std::to_string(size->width) + " x " +
+                    std::to_string(size->height) + " pixels, expected at least one. Export the map again");
+  const bool is_whole = holds_all_pixels(file_bytes(file)) &&
+                        (head[0] == 'P' || mrpt::img::CImage().loadFromFile(file.string()));
+  if (!is_whole)
+    throw UserError(file.string() + " is cut off or damaged, expected an image of " +
+                    std::to_string(size->width) + " x " + std::to_string(size->height) +
+                    " pixels. Copy or export the map again");
+}
+
+/// Throws UserError if the origin is too far away for the 32-bit coordinates of a grid map.
+void check_origin(const std::filesystem::path& path, double x_m, double y_m) {
+  if (std::abs(x_m) <= kFarthest_m && std::abs(y_m) <= kFarthest_m) return;
+  throw UserError(path.string() + ": the origin is " + exact_text(x_m) + ", " + exact_text(y_m) +
+                  " m, expected at most 200 km from 0, 0, because coordinates of grid maps have 32 bits. "
+                  "Subtract a constant from its coordinates");
 }
 
 /// Returns the number at a place of a YAML file. Throws std::exception if there is none. MRPT's own
@@ -131,6 +150,7 @@ PlacedMapFile read_yaml(const std::filesystem::path& path) {
       throw UserError(path.string() +
                       ": the origin is rotated, expected yaw 0. Rotate the image instead, and set the third "
                       "value of origin to 0");
+    check_origin(path, number_in(yaml["origin"](0)), number_in(yaml["origin"](1)));
     check_image(path, image_of(path, yaml));
     if (!grid.loadFromROSMapServerYAML(path.string()))
       throw UserError(path.string() +

@@ -16,7 +16,6 @@ namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 using testing::HasSubstr;
-using testing::Not;
 
 /// Map with free space, one wall and unknown cells at the top. The lower left corner is at (-1.5, 4) m.
 COccupancyGridMap2D small_map() {
@@ -93,6 +92,28 @@ TEST(MapFile, rejects_cells_without_size) {
     EXPECT_THAT(sentence("resolution: ", value), HasSubstr("expected 0.001 to 1 m")) << value;
 }
 
+TEST(MapFile, tells_damaged_images_and_far_origins_in_one_sentence) {
+  const TemporaryFolder folder;
+  write_map_server_pair(folder.path() / "map.yaml", small_map());
+  const std::string image = read_file(folder.path() / "map.pgm");
+  const auto sentence_with = [&](const std::string& bytes) {
+    write_file(folder.path() / "map.pgm", bytes);
+    testing::internal::CaptureStderr();
+    const std::string sentence = sentence_of([&] { read_map_file(folder.path() / "map.yaml"); });
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    return sentence;
+  };
+  for (const std::string& bytes : {image.substr(0, image.size() / 2), std::string("P2 4 4 255\n1 2 3")})
+    EXPECT_THAT(sentence_with(bytes), HasSubstr("map.pgm is cut off or damaged, expected an image of"));
+  EXPECT_THAT(sentence_with("P5 0 0 255\n"),
+              HasSubstr("map.pgm states 0 x 0 pixels, expected at least one. Export the map again"));
+  std::string yaml = read_file(folder.path() / "map.yaml");
+  yaml.replace(yaml.find("[-1.5"), 5, "[1e300");
+  write_file(folder.path() / "map.yaml", yaml);
+  EXPECT_THAT(sentence_with(image),
+              HasSubstr("map.yaml: the origin is 1e+300, 4 m, expected at most 200 km"));
+}
+
 TEST(MapFile, checks_the_cell_counts_of_a_gridmap) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "map.gridmap.gz";
@@ -132,7 +153,7 @@ TEST(MapFile, refuses_small_files_of_countless_cells) {
     EXPECT_THAT(sentence_with("P5 30000 30000 255\n"),
                 HasSubstr("map.pgm states 30000 x 30000 pixels, expected at most 100000000 for a file"));
     EXPECT_THAT(sentence_with("GIF89a"), HasSubstr("map.pgm is not an image that is read, expected PNG"));
-    EXPECT_THAT(sentence_with("P5 9000 11000 255\n"), Not(HasSubstr("pixels")));
+    EXPECT_THAT(sentence_with("P5 9000 11000 255\n"), HasSubstr("map.pgm is cut off or damaged"));
   });
 }
 

@@ -11,7 +11,7 @@
 
 namespace psi_slam {
 
-std::string file_bytes(const std::filesystem::path& path) {
+std::string file_bytes(const std::filesystem::path& path, std::size_t most_bytes) {
   constexpr std::size_t kBlockBytes = std::size_t{1} << 18;
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file.is_open()) throw std::system_error(errno, std::generic_category());
@@ -23,7 +23,7 @@ std::string file_bytes(const std::filesystem::path& path) {
     if (count < 0) throw std::system_error(errno, std::generic_category());
     done += static_cast<std::size_t>(count);
     bytes.resize(done);
-    if (count == 0) return bytes;
+    if (count == 0 || done > most_bytes) return bytes;
   }
 }
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <string>
 
 namespace psi_slam {
 
-/// Returns all bytes of a file. Throws std::system_error, whose code says why, if the file cannot be opened,
-/// or if reading it fails part-way through.
-std::string file_bytes(const std::filesystem::path& path);
+/// Returns all bytes of a file, or the first ones, more than `most_bytes`, of a larger file. Throws
+/// std::system_error, whose code says why, if the file cannot be opened, or if reading it fails part-way
+/// through.
+std::string file_bytes(const std::filesystem::path& path,
+                       std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
 
 }  // namespace psi_slam

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/quotable_text.h"
 #include "base/text_parts.h"
 #include "frames/pose_operations.h"
 
@@ -68,7 +69,7 @@ void CarmenFields::fail(const std::string& found_and_expected) const {
 }
 
 void CarmenFields::fail_field(std::string_view field, const std::string& expected) const {
-  if (!field.empty()) fail("found \"" + std::string(field.substr(0, 40)) + "\", expected " + expected);
+  if (!field.empty()) fail("found \"" + quotable(field, 40) + "\", expected " + expected);
   fail(lines_.line_was_ended() ? "the line ends, expected " + expected
                                : "the file is cut off in this line, expected " + expected);
 }

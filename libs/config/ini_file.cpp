@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/file_bytes.h"
+#include "base/quotable_text.h"
 #include "base/text_parts.h"
 #include "psi_slam/user_error.h"
 
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kSpace = " \t\r\v\f";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kInclude = "include";
+constexpr std::size_t kMostMebibytes = 16;  // of a file; settings files have a few kilobytes
 
 std::string_view stripped(std::string_view text) {
   return trimmed(text, kSpace);
@@ -54,7 +56,12 @@ std::string contents(const fs::path& path, std::string& failure) {
     return {};
   }
   try {
-    return file_bytes(path);
+    constexpr std::size_t kMostBytes = kMostMebibytes << 20;
+    std::string bytes = file_bytes(path, kMostBytes);
+    if (bytes.size() <= kMostBytes) return bytes;
+    failure = "it has more than " + std::to_string(kMostMebibytes) +
+              " MiB, expected a file of settings. Name another file";
+    return {};
   } catch (const std::system_error& error) {
     failure = error.code().message();
     return {};
@@ -93,7 +100,7 @@ std::string parse_heading(std::string_view line, const std::string& where) {
   const std::size_t end = line.find(']');
   if (end == std::string_view::npos || stripped(line.substr(1, end - 1)).empty() ||
       !is_blank(line.substr(end + 1)))
-    throw UserError(where + ": expected [section], not " + std::string(line));
+    throw UserError(where + ": expected [section], not " + quotable(line));
   return std::string(stripped(line.substr(1, end - 1)));
 }
 
@@ -138,17 +145,18 @@ class Reader {
     const std::size_t equals = line.find('=');
     const std::string key(stripped(line.substr(0, equals)));
     if (equals == std::string_view::npos || key.empty())
-      throw UserError(where + ": expected key = value or [section], not " + std::string(line));
+      throw UserError(where + ": expected key = value or [section], not " + quotable(line));
     const std::string value = parse_value(line.substr(equals + 1), where);
     if (key == kInclude) {
       if (position.section) throw UserError(where + ": include must precede the first section");
       include(value, position);
       return;
     }
-    if (!position.section) throw UserError(where + ": \"" + key + "\" precedes the first [section]");
+    if (!position.section)
+      throw UserError(where + ": \"" + quotable(key) + "\" precedes the first [section]");
     const auto [first, is_new] = position.line_of_key.try_emplace({*position.section, key}, position.line);
     if (!is_new) {
-      throw UserError(where + ": \"" + key + "\" in [" + *position.section +
+      throw UserError(where + ": \"" + quotable(key) + "\" in [" + quotable(*position.section) +
                       "] is given twice, first in line " + std::to_string(first->second) + "; keep one");
     }
     result_.values.push_back({*position.section, key, value, where});
@@ -156,6 +164,7 @@ class Reader {
 
   void include(const std::string& name, const Position& from) {
     if (name.empty()) throw UserError(from.where() + ": include needs the name of a file");
+    constexpr std::size_t kMostBytesOfPath = 1000;
     const fs::path path = (from.path.parent_path() / name).lexically_normal();
     std::string chain;
     for (const fs::path& open_file : open_files_)
@@ -165,7 +174,8 @@ class Reader {
     std::string failure;
     const std::string text = contents(path, failure);
     if (!failure.empty())
-      throw UserError(from.where() + ": cannot read the included file " + path.string() + ": " + failure);
+      throw UserError(from.where() + ": cannot read the included file " +
+                      quotable(path.string(), kMostBytesOfPath) + ": " + failure);
     read(text, path);
   }
 

@@ -38,6 +38,8 @@ std::optional<std::string> nearest_name(std::string_view misspelt, const std::ve
   std::optional<std::string> nearest;
   std::size_t limit = 1 + misspelt.size() / 4;
   for (const std::string& name : names) {
+    const auto [shorter, longer] = std::minmax({misspelt.size(), name.size()});
+    if (longer - shorter > limit) continue;  // at least this many letters differ
     const std::size_t distance = edit_distance(misspelt, name);
     if (distance > limit || (nearest && distance == limit)) continue;
     nearest = name;

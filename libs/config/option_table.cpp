@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/number_text.h"
+#include "base/quotable_text.h"
 #include "base/text_parts.h"
 #include "config/nearest_name.h"
 #include "psi_slam/user_error.h"
@@ -35,7 +36,7 @@ std::string number_expectation(const Option& option) {
 }
 
 std::string in_quotes(std::string_view text) {
-  return '"' + std::string(text) + '"';
+  return '"' + quotable(text) + '"';
 }
 
 std::optional<bool> parse_flag(std::string_view text) {
@@ -254,7 +255,7 @@ bool OptionTable::knows(std::string_view name) const {
 
 void OptionTable::require_section(std::string_view name, std::string_view where) const {
   if (find(sections_, name) != nullptr || aliases_.count(name) > 0) return;
-  std::string sentence = std::string(where) + ": unknown section [" + std::string(name) + "]; ";
+  std::string sentence = std::string(where) + ": unknown section [" + quotable(name) + "]; ";
   if (const auto near = nearest_name(name, names_of(sections_, &OptionSection::name))) {
     sentence += "did you mean [" + *near + "]?";
   } else {
@@ -279,7 +280,7 @@ const Option& OptionTable::option(std::string_view name, std::string_view where)
 void OptionTable::check(std::string_view name, std::string_view text, std::string_view where) const {
   const Option& target = option(name, where);
   if (target.accepts(text)) return;
-  throw UserError(std::string(where) + ": " + target.name() + " = " + std::string(text) + ": expected " +
+  throw UserError(std::string(where) + ": " + target.name() + " = " + quotable(text) + ": expected " +
                   target.expectation());
 }
 

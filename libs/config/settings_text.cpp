@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/quotable_text.h"
 #include "base/text_parts.h"
 #include "psi_slam/user_error.h"
 
@@ -55,7 +56,7 @@ void apply_override(std::string_view assignment, OptionTable& table) {
   const std::size_t equals = assignment.find('=');
   const std::string_view name = trimmed(assignment.substr(0, equals));
   if (equals == std::string_view::npos || name.find('.') == std::string_view::npos)
-    throw UserError("--set: expected section.key=value, not \"" + std::string(assignment) + '"');
+    throw UserError("--set: expected section.key=value, not \"" + quotable(assignment) + '"');
   table.set(name, trimmed(assignment.substr(equals + 1)), "--set");
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
+#include "base/quotable_text.h"
 #include "base/text_parts.h"
 #include "compression/compressed_file.h"
 #include "compression/line_reader.h"
@@ -37,7 +38,8 @@ Kind kind_of(const std::string& verb) {
   }
   for (const auto& [text, kind] : kMapEditVerbs) verbs.emplace_back(text);
   verbs.insert(verbs.end(), kKnowledgeVerbs.begin(), kKnowledgeVerbs.end());
-  throw UserError("unknown edit \"" + verb + "\": expected " + name_list(verbs) + did_you_mean(verb, verbs));
+  throw UserError("unknown edit \"" + quotable(verb) + "\": expected " + name_list(verbs) +
+                  did_you_mean(verb, verbs));
 }
 
 std::vector<std::string> keys_of(Kind kind) {
@@ -51,7 +53,7 @@ std::vector<std::string> keys_of(Kind kind) {
 MatcherKind matcher_of(const std::string& text) {
   for (const MatcherKind kind : kMatcherKinds)
     if (text == name(kind)) return kind;
-  throw UserError("matcher=" + text + ": expected csm, csm_ga or ga");
+  throw UserError("matcher=" + quotable(text) + ": expected csm, csm_ga or ga");
 }
 
 std::optional<LoopPlace> place_of(const EditValues& values) {
@@ -61,10 +63,10 @@ std::optional<LoopPlace> place_of(const EditValues& values) {
   place.anchor_T_node = {values.number("x_m"), values.number("y_m"), values.number("yaw_deg", parse_degrees)};
   const double window_m = values.number("window_m");
   if (!(window_m > 0 && window_m <= kMaxWindow_m))
-    throw UserError("window_m=" + values.text("window_m") + ": expected a number above 0 and at most 1000");
+    throw UserError("window_m=" + values.quoted("window_m") + ": expected a number above 0 and at most 1000");
   place.window = {window_m, window_m, values.number("window_deg", parse_degrees)};
   if (!(place.window.theta_rad > 0 && place.window.theta_rad <= M_PI))
-    throw UserError("window_deg=" + values.text("window_deg") +
+    throw UserError("window_deg=" + values.quoted("window_deg") +
                     ": expected a number above 0 and at most 180");
   return place;
 }
@@ -97,7 +99,7 @@ TimedEdit parse_edit_line(std::string_view line) {
   if (values.has("attempt")) {
     const std::string& attempt = values.text("attempt");
     if (attempt != "final_search" && attempt != "last_pass")  // last_pass is the old name of final_search
-      throw UserError("attempt=" + attempt + ": expected final_search");
+      throw UserError("attempt=" + quotable(attempt) + ": expected final_search");
     timed.edit.of_final_search = true;
   }
   if (timed.edit.kind == Kind::kMatch) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quotable_text.h"
 #include "base/text_parts.h"
 #include "config/nearest_name.h"
 #include "psi_slam/user_error.h"
@@ -19,10 +20,11 @@ EditValues::EditValues(std::istringstream& words, const std::vector<std::string>
   for (std::string word; words >> word;) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos)
-      throw UserError("\"" + word + "\": expected KEY=VALUE. Correct the word");
+      throw UserError("\"" + quotable(word) + "\": expected KEY=VALUE. Correct the word");
     const std::string key = word.substr(0, equals);
     if (std::find(keys.begin(), keys.end(), key) == keys.end())
-      throw UserError("unknown key \"" + key + "\": expected " + name_list(keys) + did_you_mean(key, keys));
+      throw UserError("unknown key \"" + quotable(key) + "\": expected " + name_list(keys) +
+                      did_you_mean(key, keys));
     if (!values_.emplace(key, word.substr(equals + 1)).second)
       throw UserError("\"" + key + "\" is given twice, expected once. Remove one of them");
   }
@@ -35,16 +37,20 @@ const std::string& EditValues::text(const char* key) const {
   return found->second;
 }
 
+std::string EditValues::quoted(const char* key) const {
+  return quotable(text(key));
+}
+
 std::size_t EditValues::whole(const char* key) const {
   const auto value = parse_number(text(key));
   if (!value || *value < 0 || *value > 1e15 || *value != std::floor(*value))
-    throw UserError(std::string(key) + "=" + text(key) + ": expected a whole number, 0 or more");
+    throw UserError(std::string(key) + "=" + quoted(key) + ": expected a whole number, 0 or more");
   return static_cast<std::size_t>(*value);
 }
 
 double EditValues::number(const char* key, decltype(parse_number)* parse) const {
   const auto value = parse(text(key));
-  if (!value) throw UserError(std::string(key) + "=" + text(key) + ": expected a number");
+  if (!value) throw UserError(std::string(key) + "=" + quoted(key) + ": expected a number");
   return *value;
 }
 

@@ -26,6 +26,9 @@ class EditValues {
 
   const std::string& text(const char* key) const;
 
+  /// The text of a key for a message, see quotable().
+  std::string quoted(const char* key) const;
+
   /// A whole number, 0 or more.
   std::size_t whole(const char* key) const;
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "base/quotable_text.h"
 #include "psi_slam/user_error.h"
 #include "session/edit_values.h"
 
@@ -41,7 +42,7 @@ std::optional<mrpt::math::TPoint2D> point_of(std::string_view text) {
 std::vector<mrpt::math::TPoint2D> points_of(const EditValues& values, const char* key, std::size_t least) {
   const std::string& text = values.text(key);
   const auto refuse = [&] {
-    throw UserError(std::string(key) + "=" + text + ": expected at least " + std::to_string(least) +
+    throw UserError(std::string(key) + "=" + quotable(text) + ": expected at least " + std::to_string(least) +
                     " points X,Y in metres, separated by semicolons, such as 0,0;2.5,0;2.5,1");
   };
   std::vector<mrpt::math::TPoint2D> points;
@@ -62,7 +63,7 @@ mrpt::math::TPose2D frame_of(const EditValues& values) {
   const auto point = point_of(text.substr(0, comma));
   const auto yaw_rad = comma == std::string_view::npos ? std::nullopt : parse_degrees(text.substr(comma + 1));
   if (!point || !yaw_rad)
-    throw UserError("frame=" + std::string(text) +
+    throw UserError("frame=" + quotable(text) +
                     ": expected the pose of the robot X,Y,YAW in metres and degrees, such as 2.5,0,90");
   return {point->x, point->y, *yaw_rad};
 }
@@ -70,7 +71,7 @@ mrpt::math::TPose2D frame_of(const EditValues& values) {
 double number_in(const EditValues& values, const char* key, double most) {
   const double number = values.number(key);
   if (!(number > 0 && number <= most))
-    throw UserError(std::string(key) + "=" + values.text(key) + ": expected a number above 0 and at most " +
+    throw UserError(std::string(key) + "=" + values.quoted(key) + ": expected a number above 0 and at most " +
                     trimmed_text(most, 0));
   return number;
 }
@@ -78,7 +79,7 @@ double number_in(const EditValues& values, const char* key, double most) {
 double percent_of(const EditValues& values) {
   const double percent = values.number("percent");
   if (!(percent >= 1 && percent <= 99))
-    throw UserError("percent=" + values.text("percent") + ": expected a number from 1 to 99");
+    throw UserError("percent=" + values.quoted("percent") + ": expected a number from 1 to 99");
   return percent;
 }
 
@@ -97,7 +98,7 @@ std::optional<MapEdit> parse_map_edit_line(std::string_view line) {
     if (values.has("frame")) edit.frame_T_robot = frame_of(values);
     if (values.has("scan")) edit.scan = values.whole("scan");
     if (values.has("scan") && !values.has("frame"))
-      throw UserError("scan=" + values.text("scan") +
+      throw UserError("scan=" + values.quoted("scan") +
                       ": expected also frame=X,Y,YAW, the pose of the robot at this scan. Add it");
     if (values.has("width_m")) edit.width_m = number_in(values, "width_m", 100);
     if (values.has("percent")) edit.percent = percent_of(values);

@@ -30,6 +30,12 @@ TEST(FileBytes, returns_all_bytes) {
   }
 }
 
+TEST(FileBytes, stops_beyond_the_largest_size) {
+  const std::size_t size = file_bytes("/dev/zero", 1'000'000).size();
+  EXPECT_GT(size, 1'000'000U);
+  EXPECT_LT(size, 2'000'000U);
+}
+
 TEST(FileBytes, says_why_a_file_is_unreadable) {
   const TemporaryFolder folder;
   EXPECT_EQ(why_unreadable(folder.path() / "missing"), std::errc::no_such_file_or_directory);

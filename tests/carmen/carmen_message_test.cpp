@@ -83,6 +83,8 @@ TEST_F(CarmenFieldsTest, reports_what_was_found_and_expected) {
             place_ + "A: found \"2x\", expected reading 2 of 3 in metres");
   EXPECT_EQ(sentence_about("A 1 2 x\n", [](auto& fields) { fields.pose("the pose"); }),
             place_ + "A: found \"x\", expected theta of the pose, a number");
+  EXPECT_EQ(sentence_about(std::string("ODOM 1\0x\n", 9), [](auto& fields) { fields.number("tv"); }),
+            place_ + "ODOM: found \"1?x\", expected tv, a number");
   EXPECT_EQ(sentence_about("A 1 x\n", [](auto& fields) { fields.skip_numbers(2, "remission"); }),
             place_ + "A: found \"x\", expected remission 2 of 2");
 }

@@ -42,6 +42,10 @@ TEST_F(ApplySettingsTest, names_file_and_line_of_a_mistake) {
             R"(my.ini:3: unknown key "windw_x_m" in [front_end]; did you mean "window_x_m"?)");
   EXPECT_EQ(refusal("[front_end]\npsi_1 = 1\n"),
             R"(my.ini:2: unknown key "psi_1" in [front_end]; "psi_1" belongs in [psi])");
+  EXPECT_EQ(refusal(std::string("[front_end]\nwindow_x_m = 1\0 m\n", 30)),
+            "my.ini:2: front_end.window_x_m = 1? m: expected a number of metres between 0.01 and 20");
+  EXPECT_EQ(refusal("[front_end]\n" + std::string(100'000, 'w') + " = 1\n"),
+            "my.ini:2: unknown key \"" + std::string(80, 'w') + "...\" in [front_end]");
   EXPECT_EQ(refusal("[front_end]\n[fornt_end]\n"),
             "my.ini:2: unknown section [fornt_end]; did you mean [front_end]?");
 }

@@ -80,6 +80,24 @@ TEST(IniFile, rejects_malformed_lines) {
   EXPECT_EQ(refusal("k = 5\n"), "my.ini:1: \"k\" precedes the first [section]");
 }
 
+TEST(IniFile, quotes_a_short_printable_part_of_a_malformed_line) {
+  const std::string endless(1'000'000, 'a');
+  const std::string part = std::string(80, 'a') + "...";
+  EXPECT_EQ(refusal(endless), "my.ini:1: expected key = value or [section], not " + part);
+  EXPECT_EQ(refusal('[' + endless), "my.ini:1: expected [section], not [" + std::string(79, 'a') + "...");
+  EXPECT_EQ(refusal(endless + " = 1"), "my.ini:1: \"" + part + "\" precedes the first [section]");
+  EXPECT_EQ(refusal({"[a]\nb\0c\x1b", 8}), "my.ini:2: expected key = value or [section], not b?c?");
+}
+
+TEST(IniFile, rejects_large_files) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "large.ini";
+  write_text_atomically(path, std::string(17'000'000, ';'));
+  const std::string why = ": it has more than 16 MiB, expected a file of settings. Name another file";
+  EXPECT_EQ(sentence([&] { read_ini(path); }), "cannot read " + path.string() + why);
+  EXPECT_EQ(sentence([&] { read_ini("/dev/zero"); }), "cannot read /dev/zero" + why);
+}
+
 TEST(IniFile, rejects_a_key_given_twice) {
   EXPECT_EQ(refusal("[a]\nk = 1\n[b]\nk = 2\n[a]\nk = 3\n"),
             "my.ini:6: \"k\" in [a] is given twice, first in line 2; keep one");

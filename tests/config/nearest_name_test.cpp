@@ -23,6 +23,7 @@ TEST(NearestName, finds_the_nearest_name) {
 }
 
 TEST(NearestName, proposes_nothing_distant) {
+  EXPECT_FALSE(nearest_name(std::string(10'000'000, 'w'), {"window_m", "windows"})) << "and is quick";
   EXPECT_EQ(nearest_name("resolution", {"window_x_m"}), std::nullopt);
   EXPECT_EQ(nearest_name("psi", {"ga", "csm"}), std::nullopt);
   EXPECT_EQ(nearest_name("x", {}), std::nullopt);

@@ -143,6 +143,10 @@ TEST_F(EditJournalTest, invalid_lines_give_errors_with_file_and_line) {
   EXPECT_THAT(complaint("match scan=1 local_map=2 matcher=ga x_m=1 y_m=2 yaw_deg=0 window_m=0 window_deg=5"),
               HasSubstr("window_m=0: expected a number above 0"));
   EXPECT_THAT(complaint("delete scan=1 local_map=2 after=soon"), HasSubstr("after=soon"));
+  EXPECT_THAT(complaint(std::string("delete scan=1\0x local_map=2", 27)),
+              HasSubstr("scan=1?x: expected a whole number, 0 or more"));
+  EXPECT_THAT(complaint(std::string(1'000'000, 'a')),
+              HasSubstr("unknown edit \"" + std::string(80, 'a') + "...\": expected"));
   EXPECT_THROW(EditJournal::read(folder_.path() / "none"), UserError);
 }
 

@@ -68,6 +68,11 @@ std::string map_dxf(const MapDrawing& drawing);
 /// coordinates.
 std::string map_svg(const MapDrawing& drawing, double scale);
 
+/// Returns the resolution of map_print.png, pixels per inch of paper, for an observed part of the grid of
+/// this size: print_dpi, or less if the picture would have more than 150 million pixels or a side of more
+/// than a million. May be less than 1.
+double dpi_that_fits(double width_m, double height_m, const MapFileOptions& options);
+
 /// Returns map_print.png: the observed part of the grid at 1:print_scale. The file states its pixels per
 /// metre of paper. A strip below the map shows a scale bar and the axes, and also north if `options.earth`
 /// has a coordinate system. A picture of more than 150 million pixels gets fewer pixels per inch. Equal grids

@@ -19,7 +19,8 @@ namespace {
 
 constexpr double kMetresPerInch = 0.0254;
 constexpr double kPrintFooter_mm = 14;  // height of the strip below the map, millimetres of paper
-constexpr double kMaxPixels = 150e6;    // limits the memory that the picture needs
+constexpr double kMaxPixels = 148e6;    // limits the memory that the picture needs; 2e6 are left for rounding
+constexpr double kMaxSide_px = 1e6;     // libpng reads no wider pictures
 
 std::string big_endian(std::uint32_t number) {
   std::string bytes;
@@ -30,19 +31,12 @@ std::string big_endian(std::uint32_t number) {
 /// Inserts the chunk pHYs (pixels per metre of paper) after the header of a PNG file.
 std::string with_resolution(std::string png, double pixels_per_metre) {
   constexpr std::size_t kHeaderEnd = 8 + 25;  // the signature and the chunk IHDR
-  const std::string pixels = big_endian(static_cast<std::uint32_t>(std::lround(pixels_per_metre)));
+  const std::string pixels =
+      big_endian(static_cast<std::uint32_t>(std::max(1L, std::lround(pixels_per_metre))));
   const std::string chunk = "pHYs" + pixels + pixels + '\x01';
   const auto checksum = static_cast<std::uint32_t>(
       crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), static_cast<uInt>(chunk.size())));
   return png.insert(kHeaderEnd, big_endian(9) + chunk + big_endian(checksum));
-}
-
-/// Returns the pixels per inch of the options, or fewer if the picture would exceed kMaxPixels.
-int dpi_that_fits(const MapRaster& raster, const MapFileOptions& options) {
-  const double area_m2 = raster.width_px * raster.resolution_m * raster.height_px * raster.resolution_m;
-  const double inches = area_m2 / portable::pow(options.print_scale * kMetresPerInch, 2);
-  const double dpi = std::sqrt(kMaxPixels / inches);
-  return std::max(1, static_cast<int>(std::min<double>(options.print_dpi, dpi)));
 }
 
 /// Draws an arrow from `from` in a direction counter-clockwise from the x axis, with `name` at the tip.
@@ -83,11 +77,23 @@ void add_footer(cv::Mat& image, const MapFileOptions& options, double pixels_a_m
 
 }  // namespace
 
+double dpi_that_fits(double width_m, double height_m, const MapFileOptions& options) {
+  const double width_in = width_m / (options.print_scale * kMetresPerInch);
+  const double height_in = height_m / (options.print_scale * kMetresPerInch);
+  const double footer_in = kPrintFooter_mm / 1000 / kMetresPerInch;
+  const double fitting_dpi = std::min(std::sqrt(kMaxPixels / (width_in * (height_in + footer_in))),
+                                      kMaxSide_px / std::max(width_in, height_in + footer_in));
+  // Whole numbers, if there are any that fit.
+  return std::min<double>(options.print_dpi, fitting_dpi < 1 ? fitting_dpi : std::floor(fitting_dpi));
+}
+
 std::string print_map(const mrpt::maps::COccupancyGridMap2D& grid, const MapFileOptions& options) {
   MapPictureOptions whole;
   whole.max_side_px = std::numeric_limits<int>::max() / 2;
   MapRaster raster = map_raster(grid, whole);
-  const double paper_pixels_a_m = dpi_that_fits(raster, options) / kMetresPerInch;
+  const double paper_pixels_a_m =
+      dpi_that_fits(raster.width_px * raster.resolution_m, raster.height_px * raster.resolution_m, options) /
+      kMetresPerInch;
   const double pixels_a_m = paper_pixels_a_m / options.print_scale;
   const auto pixels = [&](int cells) {
     return std::max(1, static_cast<int>(std::lround(cells * raster.resolution_m * pixels_a_m)));

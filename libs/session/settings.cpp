@@ -132,7 +132,7 @@ void describe_map_files(OptionTable& table, MapFileOptions& files) {
       .flag("write_geotiff", files.geotiff, "Writes map.tif for geographic information systems.")
       .flag("write_gpkg", files.gpkg,
             "Writes map.gpkg: walls, path with times, and zones for geographic information systems.")
-      .number("print_scale", files.print_scale, above(0).at_most(1e6), "",
+      .number("print_scale", files.print_scale, between(0.001, 1e6), "",
               "Scale of map_print.png and map.svg. 100 means 1:100, one centimetre of paper for one metre.")
       .integer("print_dpi", files.print_dpi, between(1, 10'000), "dpi",
                "Resolution of map_print.png. It is lowered if the image would exceed 150 million pixels.")

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/number_text.h"
+#include "base/quotable_text.h"
 #include "psi_slam/user_error.h"
 #include "session/edit_values.h"
 
@@ -13,12 +14,25 @@ namespace psi_slam {
 namespace {
 
 constexpr double kFarthestCoordinate_m = 2e5;  // coordinates of grid maps are 32-bit floats
+// The pose graph multiplies the inverse squares of deviations, which smaller deviations would overflow.
+constexpr double kLeastSigma = 1e-6;  // metres or degrees
 constexpr double kLargestSigma_m = 1e3;
+constexpr double kLargestSigma_deg = 180;
+
+/// Reads a standard deviation, in the unit of the key.
+double stated_sigma(const EditValues& values, const char* key, const char* unit, double largest) {
+  const double value = values.number(key);
+  if (!(value >= kLeastSigma && value <= largest))
+    throw UserError(std::string(key) + "=" + values.quoted(key) + ": expected a number of " + unit +
+                    " from " + trimmed_text(kLeastSigma, 6) + " to " + trimmed_text(largest, 0) +
+                    ". State the standard deviation of the measurement");
+  return value;
+}
 
 TimeUs stated_time(const EditValues& values) {
   const auto time_us = parse_seconds(values.text("time_s"));
   if (!time_us)
-    throw UserError("time_s=" + values.text("time_s") + ": expected seconds, as trajectory.csv lists them");
+    throw UserError("time_s=" + values.quoted("time_s") + ": expected seconds, as trajectory.csv lists them");
   return *time_us;
 }
 
@@ -29,7 +43,7 @@ std::size_t from_scan_of(const EditValues& values) {
 double coordinate(const EditValues& values, const char* key) {
   const double value = values.number(key);
   if (std::abs(value) > kFarthestCoordinate_m)
-    throw UserError(std::string(key) + "=" + values.text(key) + ": expected a number of metres from -" +
+    throw UserError(std::string(key) + "=" + values.quoted(key) + ": expected a number of metres from -" +
                     trimmed_text(kFarthestCoordinate_m, 0) + " to " + trimmed_text(kFarthestCoordinate_m, 0) +
                     ", because coordinates of grid maps have 32 bits. Subtract a constant");
   return value;
@@ -39,19 +53,15 @@ double coordinate(const EditValues& values, const char* key) {
 MeasuredPose measured(const EditValues& values, const char* x, const char* y) {
   MeasuredPose measured;
   measured.pose = {coordinate(values, x), coordinate(values, y), 0};
-  measured.sigma_m = values.number("sigma_m");
-  if (!(measured.sigma_m > 0 && measured.sigma_m <= kLargestSigma_m))
-    throw UserError("sigma_m=" + values.text("sigma_m") + ": expected metres above 0 and at most " +
-                    trimmed_text(kLargestSigma_m, 0));
+  measured.sigma_m = stated_sigma(values, "sigma_m", "metres", kLargestSigma_m);
   if (values.has("yaw_deg") != values.has("sigma_deg"))
     throw UserError(
         "expected both yaw_deg and its standard deviation sigma_deg, or none of them if the heading is "
         "unknown. Add or remove one");
   if (!values.has("yaw_deg")) return measured;
   measured.pose.phi = values.number("yaw_deg", parse_degrees);
+  stated_sigma(values, "sigma_deg", "degrees", kLargestSigma_deg);
   measured.sigma_rad = values.number("sigma_deg", parse_degrees);
-  if (!(*measured.sigma_rad > 0 && *measured.sigma_rad <= M_PI))
-    throw UserError("sigma_deg=" + values.text("sigma_deg") + ": expected degrees above 0 and at most 180");
   return measured;
 }
 
@@ -112,8 +122,8 @@ void check_tags(const FixedKnowledge& knowledge) {
   for (const TagPlace& tag : knowledge.tags) {
     const TagPlace& known = *places.emplace(tag.name, &tag).first->second;
     if (text_of(known.site_T_tag, "x_m", "y_m") != text_of(tag.site_T_tag, "x_m", "y_m"))
-      throw UserError("tag " + tag.name + " has two places, at " + known.source + " and at " + tag.source +
-                      ", expected one. Remove one of the lines");
+      throw UserError("tag " + quotable(tag.name) + " has two places, at " + known.source + " and at " +
+                      tag.source + ", expected one. Remove one of the lines");
   }
 }
 

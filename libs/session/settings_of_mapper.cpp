@@ -18,7 +18,7 @@ void describe_refinement(OptionTable& table, RefinementOptions& refinement) {
       .integer("refine_max_iterations", refinement.max_iterations, between(0, 1000), "iterations",
                "Largest number of Levenberg-Marquardt iterations that refine a match below the cell size. 0 "
                "keeps the best pose of the grid search.")
-      .number("refine_score_sigma", refinement.score_sigma, above(0).at_most(100), "",
+      .number("refine_score_sigma", refinement.score_sigma, between(0.0001, 100), "",
               "Standard deviation of a point's score in the refinement of a match. A larger value trusts the "
               "scan less.")
       .number("refine_converged_step_m", refinement.converged_step_m, above(0).at_most(1), "m",
@@ -370,12 +370,12 @@ void describe_kernel(OptionTable& table, const std::string& prefix, const std::s
 void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
   PoseAdjustmentOptions& solver = mapper.pose_graph;
   table.section("pose_graph", "Pose graph and its optimisation")
-      .number("local_map_sigma_m", mapper.local_map_sigma_m, above(0), "m",
+      .number("local_map_sigma_m", mapper.local_map_sigma_m, above(0).at_most(1000), "m",
               "Standard deviation of a node's position in a local map, added to the front end's covariance.")
       .angle_deg(
           "local_map_sigma_theta_deg", mapper.local_map_sigma_rad, above(0).at_most(180),
           "Standard deviation of a node's heading in a local map, added to the front end's covariance.")
-      .number("loop_sigma_m", mapper.back_end.loop_sigma_m, above(0), "m",
+      .number("loop_sigma_m", mapper.back_end.loop_sigma_m, above(0).at_most(1000), "m",
               "Standard deviation of a loop's position, added to the covariance of its match.")
       .angle_deg("loop_sigma_theta_deg", mapper.back_end.loop_sigma_rad, above(0).at_most(180),
                  "Standard deviation of a loop's heading, added to the covariance of its match.")

@@ -34,12 +34,19 @@ TEST(KnowledgeLine, mistakes_get_one_sentence_with_file_and_line) {
   EXPECT_THAT(complaint("pose time_s=1 x_m=1 y_m=2"), HasSubstr("my.edits:2: \"sigma_m\" is missing"));
   EXPECT_THAT(complaint("pose time_s=soon x_m=1 y_m=2 sigma_m=1"),
               HasSubstr("my.edits:2: time_s=soon: expected seconds, as trajectory.csv lists them"));
-  EXPECT_THAT(complaint("pose time_s=1 x_m=1 y_m=2 sigma_m=0"), HasSubstr("metres above 0 and at most 1000"));
+  EXPECT_THAT(complaint("pose time_s=1 x_m=1 y_m=2 sigma_m=0"),
+              HasSubstr("my.edits:2: sigma_m=0: expected a number of metres from 0.000001 to 1000. State"));
+  for (const char* line :
+       {"pose time_s=1 x_m=1 y_m=2 sigma_m=1e-100", "pose time_s=1 x_m=1 y_m=2 sigma_m=1001",
+        "tag name=A x_m=1 y_m=2 sigma_m=1e-7", "seen name=A time_s=1 ahead_m=1 left_m=0 sigma_m=1e-300"})
+    EXPECT_THAT(complaint(line), HasSubstr("expected a number of metres from 0.000001 to 1000"));
+  EXPECT_THAT(complaint("pose time_s=1 x_m=1 y_m=2 yaw_deg=3 sigma_deg=1e-200 sigma_m=1"),
+              HasSubstr("my.edits:2: sigma_deg=1e-200: expected a number of degrees from 0.000001 to 180"));
   EXPECT_THAT(complaint("pose time_s=1 x_m=1e9 y_m=2 sigma_m=1"), HasSubstr("x_m=1e9: expected"));
   EXPECT_THAT(complaint("pose time_s=1 x_m=1 y_m=2 yaw_deg=3 sigma_m=1"),
               HasSubstr("expected both yaw_deg and its standard deviation sigma_deg"));
   EXPECT_THAT(complaint("tag name=A x_m=1 y_m=2 yaw_deg=3 sigma_deg=181 sigma_m=1"),
-              HasSubstr("degrees above 0 and at most 180"));
+              HasSubstr("degrees from 0.000001 to 180"));
   EXPECT_THAT(complaint("seen name=A time_s=1 x_m=2 left_m=1 sigma_m=1"), HasSubstr("unknown key \"x_m\""));
   EXPECT_THAT(complaint("psoe time_s=1"), HasSubstr("did you mean \"pose\"?"));
   EXPECT_THAT(complaint("tag name=A x_m=1 y_m=2 sigma_m=1\ntag name=A x_m=1 y_m=3 sigma_m=1"),

@@ -140,6 +140,13 @@ TEST_F(SettingsTest, rejects_options_that_contradict_each_other) {
             "consensus.min_span_m = 4.5 must not be more than consensus.memory_m = 4");
 }
 
+TEST_F(SettingsTest, rejects_deviations_whose_squares_overflow) {
+  for (const char* assignment :
+       {"front_end.refine_score_sigma=1e-300", "loop_closure.refine_score_sigma=1e-300",
+        "pose_graph.local_map_sigma_m=1e300", "pose_graph.loop_sigma_m=1e300", "map.print_scale=1e-300"})
+    EXPECT_THROW(apply_override(assignment, table_), UserError) << assignment;
+}
+
 TEST_F(SettingsTest, old_option_names_are_accepted_with_a_warning) {
   apply(parse_ini("[last_pass]\npasses = 1\n[front_end]\nmax_strain_m = 0.3\n", "my.ini"), table_);
   apply_override("front_end.strain_travel_m=4", table_);

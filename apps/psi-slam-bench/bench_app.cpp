@@ -19,6 +19,7 @@
 #include "match/exact_benchmark.h"
 #include "match/match_benchmark.h"
 #include "mpi_option.h"
+#include "number_between.h"
 #include "other_programs.h"
 #include "paper/paper_benchmark.h"
 #include "psi/psi_benchmark.h"
@@ -144,7 +145,7 @@ void add_false_loops_command(CLI::App& app, const Streams& streams) {
           "Numbers of false loops in percent of the true loops, separated by commas. For slips: percent "
           "of the stretches that are bent; values above 100 are left out")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 10'000.0))
+      ->check(number_between(0.0, 10'000.0))
       ->capture_default_str()
       ->type_name("PERCENTS");
   add_seeds_option(command, arguments->options.seeds, "Seeds of the false loops and slips");
@@ -199,7 +200,7 @@ void add_verdict_command(CLI::App& app, const Streams& streams) {
   command
       .add_option("--path-m", options.path_m,
                   "Length of the shortest paths in metres; the longest are 1.75 times as long")
-      ->check(CLI::Range(20.0, 10'000.0))
+      ->check(number_between(20.0, 10'000.0))
       ->capture_default_str();
   run_on_logs(command, arguments, streams, verdict_logs,
               [](const std::vector<BenchmarkLog>& logs, const auto& how, const ProgressObserver& progress) {
@@ -245,7 +246,7 @@ void add_simulate_command(CLI::App& app, const Streams& streams) {
       "simulate", "Map simulated runs of growing length and compare the maps with the truth");
   simulate.add_option("--path-m", options.path_m, "Lengths of the paths in metres, separated by commas")
       ->delimiter(',')
-      ->check(CLI::Range(20.0, 100'000.0))
+      ->check(number_between(20.0, 100'000.0))
       ->capture_default_str();
   add_seed_option(simulate, options.seed, "Seed of the buildings, paths and noise");
   simulate
@@ -256,16 +257,16 @@ void add_simulate_command(CLI::App& app, const Streams& streams) {
   simulate
       .add_option("--glass", options.glass_share,
                   "Share of the front walls of rooms and of the outer walls that is glass")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_between(0.0, 1.0))
       ->type_name("SHARE")
       ->capture_default_str();
   simulate.add_option("--max-range-m", options.max_range_m, "Largest range of the laser in metres")
-      ->check(CLI::Range(1.0, 1000.0))
+      ->check(number_between(1.0, 1000.0))
       ->capture_default_str();
   simulate
       .add_option("--range-noise-m", options.range_noise_m,
                   "Standard deviation of the noise of a range in metres")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_between(0.0, 1.0))
       ->capture_default_str();
   simulate
       .add_option("--threads", options.threads, "Number of threads that match loops; it changes times only")
@@ -387,7 +388,7 @@ void add_live_command(CLI::App& app, const Streams& streams) {
           "Replay speeds as multiples of the recorded speed, separated by commas; 0 replays as fast as "
           "possible")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1000.0))
+      ->check(number_between(0.0, 1000.0))
       ->capture_default_str();
   command
       .add_option("--processors", options.processors,
@@ -399,18 +400,18 @@ void add_live_command(CLI::App& app, const Streams& streams) {
       .add_option("--timed-s", options.timed_s,
                   "Pace and time only the last seconds of each log; what comes before is mapped as fast as "
                   "possible; 0: all")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_between(0, 1e9))
       ->capture_default_str();
   command
       .add_option("--stretch-s", options.stretch_s,
                   "Replay only the first seconds of each log, without errors over relations; 0: all")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_between(0, 1e9))
       ->capture_default_str();
   command
       .add_option("--simulated-m", options.simulated_m,
                   "Also replay simulated runs of these path lengths in metres, separated by commas")
       ->delimiter(',')
-      ->check(CLI::Range(20.0, 100'000.0));
+      ->check(number_between(20.0, 100'000.0));
   command.add_option("--set", options.assignments, "Change one option for all replays. May be repeated")
       ->type_name("SECTION.KEY=VALUE")
       ->allow_extra_args(false);

@@ -12,6 +12,7 @@
 #include "base/number_text.h"
 #include "document_options.h"
 #include "evaluation/relations_metric.h"
+#include "number_between.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
 #include "run_program.h"
@@ -42,7 +43,7 @@ EvalOptions parse(const std::vector<std::string>& arguments, CLI::App& app) {
       ->required();
   app.add_option("--max-gap", options.max_gap_s,
                  "Longest gap between two poses that is interpolated, in seconds")
-      ->check(CLI::Range(0.0, 1e9))
+      ->check(number_between(0.0, 1e9))
       ->capture_default_str();
   app.add_option("--per-relation", options.per_relation,
                  "Write the error of each relation to this file (CSV)")

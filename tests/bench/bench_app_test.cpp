@@ -193,6 +193,11 @@ TEST_F(BenchApp, refuses_impossible_simulations) {
   const std::vector<std::vector<std::string>> wrong = {
       {"--path-m", "5"},
       {"--path-m", "far"},
+      {"--path-m", "nan"},
+      {"--path-m", "40,nan"},
+      {"--max-range-m", "nan"},
+      {"--range-noise-m", "NAN"},
+      {"--glass", "nan"},
       {"--glass", "1.5"},
       {"--people", "-1"},
       {"--path-m", "40", "--seed", "-1"},

@@ -93,6 +93,7 @@ TEST_F(EvalApp, wrong_usage_and_wrong_input_exit_with_2) {
   EXPECT_EQ(run_only({}), 2);
   EXPECT_EQ(run({"--max-gap", "-1"}), 2);
   EXPECT_EQ(run({"--max-gap", "long"}), 2);
+  EXPECT_EQ(run({"--max-gap", "nan"}), 2);
   EXPECT_EQ(run({"--colour"}), 2);
   EXPECT_EQ(out_.str(), "");
   EXPECT_EQ(run_only({folder_.path() / "missing.tum", relations_}), 2);

@@ -8,6 +8,7 @@
 #include "common/bench_command.h"
 #include "interrupt_signals.h"
 #include "mpi_option.h"
+#include "number_between.h"
 #include "psi_slam/user_error.h"
 #include "report/html_text.h"
 
@@ -115,7 +116,7 @@ CLI::App& add_freiburg_command(CLI::App& app, const Streams& streams, const Frei
         .add_option("--baseline-limit-s", arguments->baseline_limit_s,
                     "Seconds after which the run of a baseline is stopped")
         ->needs(baselines)
-        ->check(CLI::Range(0.1, 1e6))
+        ->check(number_between(0.1, 1e6))
         ->capture_default_str();
     add_mpi_option(freiburg, "psi-slam bench freiburg");
   }

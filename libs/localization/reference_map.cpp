@@ -86,9 +86,10 @@ void check_resolution(const std::filesystem::path& path, double resolution_m) {
         " m, expected 0.001 to 1 m. Export the map again with psi-slam, or correct the resolution");
 }
 
-/// Throws UserError if `file`, the image that `map.yaml` names, does not exist or is damaged, which MRPT
-/// reports on the terminal only, or if its header states no pixels or more than most_cells().
-void check_image(const std::filesystem::path& path, const std::filesystem::path& file) {
+/// Returns the size of `file`. Throws UserError if `file`, the image that `map.yaml` names, does not exist or
+/// is damaged, which MRPT reports on the terminal only, or if its header states no pixels or more than
+/// most_cells().
+ImageSize check_image(const std::filesystem::path& path, const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
     throw UserError(
@@ -118,14 +119,7 @@ void check_image(const std::filesystem::path& path, const std::filesystem::path&
     throw UserError(file.string() + " is cut off or damaged, expected an image of " +
                     std::to_string(size->width) + " x " + std::to_string(size->height) +
                     " pixels. Copy or export the map again");
-}
-
-/// Throws UserError if the origin is too far away for the 32-bit coordinates of a grid map.
-void check_origin(const std::filesystem::path& path, double x_m, double y_m) {
-  if (std::abs(x_m) <= kFarthest_m && std::abs(y_m) <= kFarthest_m) return;
-  throw UserError(path.string() + ": the origin is " + exact_text(x_m) + ", " + exact_text(y_m) +
-                  " m, expected at most 200 km from 0, 0, because coordinates of grid maps have 32 bits. "
-                  "Subtract a constant from its coordinates");
+  return *size;
 }
 
 /// Returns the number at a place of a YAML file. Throws std::exception if there is none. MRPT's own
@@ -150,8 +144,12 @@ PlacedMapFile read_yaml(const std::filesystem::path& path) {
       throw UserError(path.string() +
                       ": the origin is rotated, expected yaw 0. Rotate the image instead, and set the third "
                       "value of origin to 0");
-    check_origin(path, number_in(yaml["origin"](0)), number_in(yaml["origin"](1)));
-    check_image(path, image_of(path, yaml));
+    const ImageSize size = check_image(path, image_of(path, yaml));
+    const mrpt::math::TPoint2D origin(number_in(yaml["origin"](0)), number_in(yaml["origin"](1)));
+    // MRPT fails if both ends of the map are the same number of 32 bits.
+    check_map_place(path, origin,
+                    {origin.x + resolution_m * static_cast<double>(size.width),
+                     origin.y + resolution_m * static_cast<double>(size.height)});
     if (!grid.loadFromROSMapServerYAML(path.string()))
       throw UserError(path.string() +
                       ": the image that it names is unreadable, expected an image file such as map.pgm. "
@@ -252,9 +250,13 @@ void check_map_place(const std::filesystem::path& path, const mrpt::math::TPoint
                      const mrpt::math::TPoint2D& high) {
   const double farthest_m = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
   if (farthest_m <= kFarthest_m) return;
+  const auto text = [](double metres) {
+    constexpr double kMostReadable_m = 1e9;
+    return std::abs(metres) < kMostReadable_m ? fixed_text(metres, 1) : exact_text(metres);
+  };
   throw UserError(
-      path.string() + ": the map reaches from x " + fixed_text(low.x, 1) + " m, y " + fixed_text(low.y, 1) +
-      " m to x " + fixed_text(high.x, 1) + " m, y " + fixed_text(high.y, 1) +
+      path.string() + ": the map reaches from x " + text(low.x) + " m, y " + text(low.y) + " m to x " +
+      text(high.x) + " m, y " + text(high.y) +
       " m, expected at most 200 km from the origin, because coordinates of grid maps have 32 bits. "
       "Subtract a constant from its coordinates");
 }

@@ -111,7 +111,7 @@ TEST(MapFile, tells_damaged_images_and_far_origins_in_one_sentence) {
   yaml.replace(yaml.find("[-1.5"), 5, "[1e300");
   write_file(folder.path() / "map.yaml", yaml);
   EXPECT_THAT(sentence_with(image),
-              HasSubstr("map.yaml: the origin is 1e+300, 4 m, expected at most 200 km"));
+              HasSubstr("map.yaml: the map reaches from x 1e+300 m, y 4.0 m to x 1e+300 m, y"));
 }
 
 TEST(MapFile, checks_the_cell_counts_of_a_gridmap) {

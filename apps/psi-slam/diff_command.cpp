@@ -100,8 +100,8 @@ int compare_maps(const CommandLine& line, const Streams& streams) {
   const Grid b = read_map_file(map_file(line.inputs[1]));
   const MapComparison comparison = compare(line, a, b);
   if (!line.output.empty()) {
-    const std::filesystem::path folder = OutputFolder::prepare(line.output, line.force).path();
-    write_files_atomically(folder, [&](const std::filesystem::path& temporary) {
+    const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
+    write_files_atomically(folder.path(), [&](const std::filesystem::path& temporary) {
       write_text_atomically(temporary / "diff.png", change_picture(comparison.walls));
       write_text_atomically(temporary / "diff.csv", changes_csv(comparison.walls.changes));
       write_text_atomically(temporary / "diff.json", comparison_json(comparison));

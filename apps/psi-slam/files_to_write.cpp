@@ -7,6 +7,7 @@
 
 #include "psi_slam/user_error.h"
 #include "report/output_folder.h"
+#include "session/session_file.h"
 
 namespace psi_slam {
 namespace {
@@ -56,9 +57,14 @@ void check_file_to_write(const NamedFile& file, const std::string& if_exists, co
   const bool exists = fs::exists(file.path, ignored);
   if (exists && !fs::is_regular_file(file.path, ignored))
     throw UserError(where + "is a device or a pipe, expected a file");
-  for (const NamedFile& input : files_to_read(line))
-    if (is_same_file(input.path, file.path))
+  for (const NamedFile& input : files_to_read(line)) {
+    const bool grows = file.path == line.save_session && is_session_file(input.path);  // has been read then
+    if (is_same_file(input.path, file.path) && !grows)
       throw UserError(where + "this is " + input.what + ", which would be lost. Name another file");
+    if (exists && is_same_file(input.path, folder_with(file.path)))
+      throw UserError(where + "this is a file of " + input.what + ' ' + input.path.string() +
+                      ", which would be lost. Name another file");
+  }
   if (is_result_in(line.output, file.path))
     throw UserError(where + "the results in " + line.output + " have a file of this name. Name another file");
   if (exists && !line.force && !is_same_file(file.path, line.resume))

@@ -5,6 +5,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
+
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -30,7 +32,7 @@ SweepLock::SweepLock(const fs::path& folder) {
   constexpr int kMode = 0644;
   file_ = ::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, kMode);
   if (file_ < 0) throw UserError(path.string() + " cannot be written: choose another folder with -o");
-  if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
+  if (::flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // some systems know no locks
   ::close(file_);
   throw UserError("another sweep is running in " + folder.string() +
                   ": wait until it ends, or choose another folder with -o");

@@ -35,7 +35,7 @@ CompressedFile::CompressedFile(fs::path path, const std::string& expected) : pat
     throw UserError(path_.string() + " is a folder, expected " + expected + ". Name a file");
   if (!fs::is_regular_file(status))
     throw UserError(path_.string() + " is a pipe or a device, expected " + expected +
-                    ". Save its data in a file first. psi-slam live --stdin maps CARMEN lines from a pipe");
+                    ". Save its data in a file first");
   file_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
   bytes_on_disk_ = size_of(file_).value_or(0);
   errno = 0;

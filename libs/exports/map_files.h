@@ -75,8 +75,9 @@ double dpi_that_fits(double width_m, double height_m, const MapFileOptions& opti
 
 /// Returns map_print.png: the observed part of the grid at 1:print_scale. The file states its pixels per
 /// metre of paper. A strip below the map shows a scale bar and the axes, and also north if `options.earth`
-/// has a coordinate system. A picture of more than 150 million pixels gets fewer pixels per inch. Equal grids
-/// give equal bytes. Throws SystemFailure if the picture cannot be encoded.
+/// has a coordinate system. A picture of more than 150 million pixels gets fewer pixels per inch; below 1,
+/// the strip has no room. Equal grids give equal bytes. Throws SystemFailure if the picture cannot be
+/// encoded.
 std::string print_map(const mrpt::maps::COccupancyGridMap2D& grid, const MapFileOptions& options);
 
 /// Throws UserError unless `epsg` is 0 or the number of a projected coordinate system in metres.

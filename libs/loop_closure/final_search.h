@@ -30,8 +30,8 @@ struct FinalSearchOptions {
   double window_m = 0.3;
   double window_rad = radians_from_degrees(3.0L);
   double reach_m = 5.0;  ///< largest distance between a node and the nearest node of a local map
-  /// Travel, see travel_and_turn_m(), of which a local map is matched with one node, if more than kFewMaps
-  /// local maps are near; 0: with all.
+  /// Where more than kFewMaps local maps are near, each is matched with one node in every stretch of this
+  /// travel, see travel_and_turn_m(); 0: with all nodes.
   double travel_m = 0.9;
 };
 

@@ -70,11 +70,11 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   if (!step.node) step.points.reset();  // the back end needs those of nodes only
   back_end_.hand_over({result_.frames.size() - 1, odometry_m, std::move(step)});
   if (!is_early) failure = give_pose();
-  if (failure) std::rethrow_exception(failure);
   if (result_.frames.back().node && can_serve_waiting_edits()) {
     wait();
     serve_waiting_edits();
   }
+  if (failure) std::rethrow_exception(failure);
   return result_.frames.back();
 }
 
@@ -136,7 +136,7 @@ void Mapper::Implementation::complete_record(BackEndStep&& done) {
   for (const std::size_t interruption : done.joined)
     result_.interruptions[interruption].found_frame = done.frame;
   if (!done.node) return;
-  // All corrections are applied at once then, and this one replaces the poses of those before.
+  // While add() runs ahead, it applies all corrections together, so this one replaces those before.
   if (runs_ahead() && !done.map_T_node.empty()) corrections_.clear();
   corrections_.push_back({*done.node, done.map_T_local, std::move(done.map_T_node), done.covariance});
   if (!options_.close_loops) return;

@@ -35,7 +35,7 @@ void check_no_file_in_the_way(const fs::path& path) {
     part /= name;
     if (fs::is_symlink(part, ignored) && !fs::exists(part, ignored))
       throw UserError("cannot write to the folder " + path.string() + ": " + part.string() +
-                      " is a link to a place that does not exist. Name another folder");
+                      " is a link that leads nowhere. Name another folder");
     if (fs::exists(part, ignored) && !fs::is_directory(part, ignored))
       throw UserError("cannot write to the folder " + path.string() + ": " + part.string() +
                       " is a file, not a folder. Name another folder");

@@ -189,8 +189,21 @@ void MappingSession::finish() {
 void MappingSession::finish(const std::atomic<bool>& stop) {
   Members& m = *m_;
   if (finished()) throw std::logic_error("MappingSession::finish: the map is already finished");
-  m.begin(m.prior ? SessionProgress::Phase::kPriorSearch : SessionProgress::Phase::kFinalSearch);
   WorkClock clock(m.work_s);
+  std::exception_ptr failure;  // of the observer; thrown when the map is finished
+  const auto off_the_clock = [&](const auto& report) {
+    if (failure) return;
+    clock.stop();  // the observer may pause the run
+    try {
+      report();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    clock.resume();
+  };
+  off_the_clock([&] {
+    m.begin(m.prior ? SessionProgress::Phase::kPriorSearch : SessionProgress::Phase::kFinalSearch);
+  });
   if (std::none_of(m.mapper->log().begin(), m.mapper->log().end(), has_return))
     throw UserError((m.log_path.empty() ? names_of(m.logs) : m.log_path.string()) + ": " +
                     (m.scans == 0
@@ -206,16 +219,6 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   m.update_journal();
   m.mapper->end_log();
   m.make_due_edits({EditTime::Kind::kEnd, 0});
-  std::exception_ptr failure;  // of the observer; thrown when the map is finished
-  const auto off_the_clock = [&](const auto& report) {
-    clock.stop();  // the observer may pause the run
-    try {
-      report();
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    clock.resume();
-  };
   const auto progress = [&](double share) {
     const bool goes_on = !stop;
     off_the_clock([&] { m.report(share); });

@@ -53,7 +53,18 @@ TEST_F(FilesToWrite, a_session_or_a_journal_never_replaces_an_input) {
   }
   expect_refused({"live", "--follow", log_, "-o", out, "--save-session", log_, "--force"}, "this is the log");
   expect_refused({"merge", log_, log_, "-o", out, "--save-session", log_, "--force"}, "this is the input");
+  fs::create_directory(file("bag"));
+  write_bytes(file("bag/bag_0.db3"), "x");
+  expect_refused({file("bag"), "-o", out, "--save-session", file("bag/bag_0.db3"), "--force"},
+                 "this is a file of the log");
   EXPECT_FALSE(fs::exists(out));
+}
+
+TEST_F(FilesToWrite, a_merged_session_may_replace_the_session_it_grows) {
+  ASSERT_EQ(run_app({log_, "-q", "-o", file("out"), "--save-session", file("my.session")}).code, 0);
+  const AppRun run = run_app({"merge", file("my.session"), log_, "-q", "-o", file("both"), "--start", "0,0,0",
+                              "--save-session", file("my.session"), "--force"});
+  EXPECT_EQ(run.err.find("would be lost"), std::string::npos) << run.err;
 }
 
 TEST_F(FilesToWrite, results_never_replace_an_input) {
@@ -105,8 +116,8 @@ TEST_F(FilesToWrite, a_sweep_leaves_the_results_of_a_run_alone) {
 TEST_F(FilesToWrite, folders_that_cannot_be_made) {
   fs::create_symlink("nowhere", file("dangling"));
   fs::create_symlink("loop", file("loop"));
-  expect_refused({log_, "-o", file("dangling")}, "is a link to a place that does not exist");
-  expect_refused({log_, "-o", file("loop")}, "is a link to a place that does not exist");
+  expect_refused({log_, "-o", file("dangling")}, "is a link that leads nowhere");
+  expect_refused({log_, "-o", file("loop")}, "is a link that leads nowhere");
   expect_refused({log_, "-o", file(std::string(300, 'x'))}, "File name too long");
 }
 

@@ -126,7 +126,7 @@ TEST_F(MappingSessionTest, a_stop_cuts_the_final_search_short) {
 TEST_F(MappingSessionTest, an_observer_that_throws_ends_the_final_search) {
   MappingSession session(log(room_log_lines()), settings_);
   session.set_observer([&](const SessionProgress& progress) {
-    if (progress.phase == Phase::kFinalSearch && progress.share > 0) throw std::runtime_error("no more");
+    if (progress.phase == Phase::kFinalSearch) throw std::runtime_error("no more");
   });
   EXPECT_THROW(session.run(go_on_), std::runtime_error);
   EXPECT_TRUE(session.finished());

@@ -184,11 +184,11 @@ TEST_F(SessionFileTest, refuses_readings_that_no_laser_measures) {
     write_session_file(path_, recording.facts, recording.frames);
     return sentence_of([&] { read_session_file(path_); });
   };
-  for (const float range_m : {-1.0F, -1e30F, 1e30F, -INFINITY}) {
+  for (const float range_m : {-1.0F, -1e30F, -INFINITY}) {
     EXPECT_THAT(complaint([&](LaserScan& scan) { scan.ranges_m[0] = range_m; }),
-                HasSubstr("my.session is damaged: a scan has a range that is negative or above 10 km"));
+                HasSubstr("my.session is damaged: a scan has a negative range"));
     EXPECT_THAT(complaint([&](LaserScan& scan) { scan.ranges_m[1] = range_m; }, true),
-                HasSubstr("a scan has a range that is negative or above 10 km"));
+                HasSubstr("a scan has a negative range"));
   }
   EXPECT_THAT(complaint([](LaserScan& scan) {
                 scan.bearings_rad = std::make_shared<std::vector<float>>(scan.ranges_m.size(), 1e9F);

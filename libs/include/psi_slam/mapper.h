@@ -83,8 +83,8 @@ class Mapper {
   /// Lets add() run up to `nodes` nodes ahead of the back end, and corrects the map as soon as results
   /// arrive. So the poses of records before finish() depend on the speed of the threads; the finished map
   /// does not. An empty value restores MapperOptions::latency_nodes. Poses no longer depend on the speed
-  /// after as many further nodes, or after end_log(). While there is a pose observer, run_ahead() has no
-  /// effect.
+  /// after latency_nodes further nodes, or after end_log(). While there is a pose observer, run_ahead() has
+  /// no effect.
   void run_ahead(std::optional<std::size_t> nodes);
 
   /// Maps one frame and returns its record. Call it for all frames in the order of the log. finish()

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/partial_files.h"
 #include "psi_slam/user_error.h"
 #include "report/output_folder.h"
 #include "session/session_file.h"
@@ -36,14 +37,10 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
   return !a.empty() && !b.empty() && fs::equivalent(a, b, ignored);
 }
 
-fs::path folder_with(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : ".";
-}
-
 /// Returns whether the results in `folder` have or replace a file of this path.
 bool is_result_in(const fs::path& folder, const fs::path& file) {
   return !file.empty() && OutputFolder::is_result(file.filename().string()) &&
-         is_same_file(folder_with(file), folder);
+         is_same_file(folder_of(file), folder);
 }
 
 void check_file_to_write(const NamedFile& file, const std::string& if_exists, const CommandLine& line) {
@@ -51,17 +48,17 @@ void check_file_to_write(const NamedFile& file, const std::string& if_exists, co
   const std::string where = file.what + ' ' + file.path.string() + ": ";
   std::error_code ignored;
   if (fs::is_directory(file.path, ignored)) throw UserError(where + "is a folder, expected a file");
-  if (!fs::is_directory(folder_with(file.path), ignored))
-    throw UserError(where + "the folder " + folder_with(file.path).string() +
+  if (!fs::is_directory(folder_of(file.path), ignored))
+    throw UserError(where + "the folder " + folder_of(file.path).string() +
                     " does not exist: create it first");
   const bool exists = fs::exists(file.path, ignored);
   if (exists && !fs::is_regular_file(file.path, ignored))
     throw UserError(where + "is a device or a pipe, expected a file");
   for (const NamedFile& input : files_to_read(line)) {
-    const bool grows = file.path == line.save_session && is_session_file(input.path);  // has been read then
-    if (is_same_file(input.path, file.path) && !grows)
+    const auto grows = [&] { return file.path == line.save_session && is_session_file(input.path); };
+    if (is_same_file(input.path, file.path) && !grows())  // a session that grows was read whole before
       throw UserError(where + "this is " + input.what + ", which would be lost. Name another file");
-    if (exists && is_same_file(input.path, folder_with(file.path)))
+    if (exists && is_same_file(input.path, folder_of(file.path)))
       throw UserError(where + "this is a file of " + input.what + ' ' + input.path.string() +
                       ", which would be lost. Name another file");
   }

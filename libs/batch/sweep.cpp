@@ -2,11 +2,8 @@
 #include "batch/sweep.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cerrno>
-
+#include "base/file_lock.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -30,16 +27,11 @@ SweepWorkers local_workers(int processes) {
 SweepLock::SweepLock(const fs::path& folder) {
   const fs::path path = folder / ".lock";
   constexpr int kMode = 0644;
-  file_ = ::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, kMode);
-  if (file_ < 0) throw UserError(path.string() + " cannot be written: choose another folder with -o");
-  if (::flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // some systems know no locks
-  ::close(file_);
-  throw UserError("another sweep is running in " + folder.string() +
-                  ": wait until it ends, or choose another folder with -o");
-}
-
-SweepLock::~SweepLock() {
-  ::close(file_);
+  file_ = Descriptor(::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, kMode));
+  if (!file_.is_open()) throw UserError(path.string() + " cannot be written: choose another folder with -o");
+  if (!try_lock_file(file_))
+    throw UserError("another sweep is running in " + folder.string() +
+                    ": wait until it ends, or choose another folder with -o");
 }
 
 SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, const SweepWorkers& workers,

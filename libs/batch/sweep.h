@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/descriptor.h"
 #include "batch/sweep_plan.h"
 #include "batch/sweep_run.h"
 #include "batch/workers.h"
@@ -54,12 +55,9 @@ struct SweepResult {
 class SweepLock {
  public:
   explicit SweepLock(const std::filesystem::path& folder);
-  ~SweepLock();
-  SweepLock(const SweepLock&) = delete;
-  SweepLock& operator=(const SweepLock&) = delete;
 
  private:
-  int file_ = -1;
+  Descriptor file_;
 };
 
 /// Makes the runs of the plan that have no result from an earlier sweep. Runs that have not ended when `stop`

@@ -2,10 +2,8 @@
 #include "report/output_folder.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <regex>
 #include <set>
 #include <string>
@@ -14,6 +12,7 @@
 
 #include "base/atomic_file.h"
 #include "base/atomic_folder.h"
+#include "base/file_lock.h"
 #include "base/partial_files.h"
 #include "exports/corrected_log.h"
 #include "exports/csv_tables.h"
@@ -50,12 +49,12 @@ bool holds_only_leftovers(const fs::path& folder, std::error_code& error) {
 }
 
 /// Locks a folder. Throws UserError if another OutputFolder has locked it. Some file systems know no locks.
-std::shared_ptr<const Descriptor> lock_of(const fs::path& folder) {
-  auto lock = std::make_shared<Descriptor>(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (lock->is_open() && ::flock(lock->number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw UserError("another run is writing to the output folder " + folder.string() +
+std::shared_ptr<const Descriptor> lock_of(const fs::path& path) {
+  auto folder = std::make_shared<Descriptor>(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder->is_open() && !try_lock_file(*folder))
+    throw UserError("another run is writing to the output folder " + path.string() +
                     ". Wait until it ends, or name another folder");
-  return lock;
+  return folder;
 }
 
 /// Writes the corrected log of a single log. For several merged logs, whose times may overlap, writes a

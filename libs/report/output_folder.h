@@ -56,7 +56,7 @@ class OutputFolder {
  private:
   explicit OutputFolder(std::filesystem::path path) : path_(std::move(path)) {}
   std::filesystem::path path_;
-  /// Locks the folder for this process, until the last copy of this object is gone.
+  /// Locks the folder for this process, until the last copy of this object is destroyed.
   std::shared_ptr<const Descriptor> lock_;
 };
 

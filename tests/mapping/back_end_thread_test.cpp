@@ -43,12 +43,18 @@ struct LiveRun {
   MappingResult result;
 };
 
-LiveRun run(std::size_t latency_nodes, bool thread) {
+/// Options with little work at the end.
+MapperOptions options_with(bool thread) {
   MapperOptions options;
-  options.latency_nodes = latency_nodes;
   options.back_end_thread = thread;
   options.back_end.final_search.passes = 1;
   options.back_end.joint_refinement.rounds = 0;
+  return options;
+}
+
+LiveRun run(std::size_t latency_nodes, bool thread) {
+  MapperOptions options = options_with(thread);
+  options.latency_nodes = latency_nodes;
   Mapper mapper(options);
   LiveRun live;
   for (const Frame& frame : rounds()) {
@@ -83,11 +89,7 @@ TEST(BackEndThread, the_poses_while_mapping_do_not_depend_on_the_thread) {
 }
 
 TEST(BackEndThread, the_finished_map_does_not_depend_on_running_ahead) {
-  MapperOptions options;
-  options.back_end_thread = true;
-  options.back_end.final_search.passes = 1;
-  options.back_end.joint_refinement.rounds = 0;
-  Mapper mapper(options);
+  Mapper mapper(options_with(true));
   const std::vector<Frame>& frames = rounds();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (i % 100 == 0)
@@ -106,11 +108,7 @@ MappingResult edited_runs(bool ahead) {
   if (accepted == at_once().result.loops.end()) throw std::logic_error("the drive has no such loop");
   const LoopEdit deleted{LoopEdit::Kind::kDelete, accepted->frame, accepted->local_map};
   const std::size_t second_run = accepted->frame + 20;
-  MapperOptions options;
-  options.back_end_thread = ahead;
-  options.back_end.final_search.passes = 1;
-  options.back_end.joint_refinement.rounds = 0;
-  Mapper mapper(options);
+  Mapper mapper(options_with(ahead));
   if (ahead) mapper.run_ahead(1000);
   EXPECT_EQ(mapper.edit(deleted).state, LoopEditOutcome::State::kWaits);
   for (std::size_t i = 0; i < second_run; ++i) mapper.add(rounds()[i]);
@@ -148,11 +146,8 @@ TEST(BackEndThread, an_observer_that_throws_loses_no_frame) {
   for (const std::size_t latency : {0U, 1U, 7U})
     for (const bool thread : {false, true}) {
       SCOPED_TRACE(latency);
-      MapperOptions options;
+      MapperOptions options = options_with(thread);
       options.latency_nodes = latency;
-      options.back_end_thread = thread;
-      options.back_end.final_search.passes = 1;
-      options.back_end.joint_refinement.rounds = 0;
       Mapper mapper(options);
       std::size_t told = 0;
       mapper.set_pose_observer([&](const FrameRecord&) {

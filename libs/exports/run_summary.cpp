@@ -212,6 +212,23 @@ Json suspect_json(const HotSpot& spot) {
   return json;
 }
 
+Json unchecked_json(const UncheckedStretch& stretch) {
+  return {{"first_scan", stretch.first_frame},
+          {"last_scan", stretch.last_frame},
+          {"length_m", number(stretch.length_m, 3)},
+          {"first_x_m", number(stretch.first_at.x, 3)},
+          {"first_y_m", number(stretch.first_at.y, 3)},
+          {"last_x_m", number(stretch.last_at.x, 3)},
+          {"last_y_m", number(stretch.last_at.y, 3)},
+          {"sigma_m", stretch.sigma_m ? number(*stretch.sigma_m, 3) : Json(nullptr)}};
+}
+
+Json open_json(const OpenStretch& stretch) {
+  return {{"first_scan", stretch.first_frame},       {"last_scan", stretch.last_frame},
+          {"length_m", number(stretch.length_m, 3)}, {"x_m", number(stretch.at.x, 3)},
+          {"y_m", number(stretch.at.y, 3)},          {"has_odometry", stretch.has_odometry}};
+}
+
 Json verdict_json(const MapVerdict& verdict) {
   Json spots = Json::array();
   for (const HotSpot& spot : verdict.hot_spots)
@@ -223,6 +240,11 @@ Json verdict_json(const MapVerdict& verdict) {
                      {"suspect", suspect_json(spot)},
                      {"advice", advice_text(spot)},
                      {"edit", spot.edit ? Json(edit_line(spot)) : Json(nullptr)}});
+  Json unchecked = Json::array();
+  for (const UncheckedStretch& stretch : verdict.unchecked_stretches)
+    unchecked.push_back(unchecked_json(stretch));
+  Json open = Json::array();
+  for (const OpenStretch& stretch : verdict.open_stretches) open.push_back(open_json(stretch));
   return {{"state", text_of(verdict.state)},
           {"sentence", verdict_sentence(verdict)},
           {"error_m", number(verdict.error_m, 4)},
@@ -230,6 +252,9 @@ Json verdict_json(const MapVerdict& verdict) {
           {"doubt_m", number(verdict.doubt_m(), 4)},
           {"wall_thickness_m", number(verdict.wall_thickness_m, 4)},
           {"checked_share", number(verdict.checked_share, 4)},
+          {"held_share", number(verdict.held_share, 4)},
+          {"unchecked_stretches", std::move(unchecked)},
+          {"open_stretches", std::move(open)},
           {"hot_spots", std::move(spots)},
           {"more_hot_spots", verdict.more_hot_spots}};
 }

@@ -324,10 +324,34 @@ void bind_result(py::module_& module) {
                              "Line for a file of edits that would help; empty if no edit is advised.")
       .def("__repr__", [](const HotSpot& spot) { return "<psi_slam.HotSpot: " + hot_spot_text(spot) + ">"; });
 
+  const auto place = [](const mrpt::math::TPoint2D& at) { return py::make_tuple(at.x, at.y); };
+  py::class_<UncheckedStretch>(module, "UncheckedStretch", "Part of the path that no second pass checks.")
+      .def_readonly("first_scan", &UncheckedStretch::first_frame, "Number of its first scan.")
+      .def_readonly("last_scan", &UncheckedStretch::last_frame, "Number of its last scan.")
+      .def_readonly("length_m", &UncheckedStretch::length_m, "Length of this part of the path, metres.")
+      .def_property_readonly(
+          "first_place", [=](const UncheckedStretch& stretch) { return place(stretch.first_at); },
+          "Place (x, y) of its first scan in the map, metres.")
+      .def_property_readonly(
+          "last_place", [=](const UncheckedStretch& stretch) { return place(stretch.last_at); },
+          "Place (x, y) of its last scan in the map, metres.")
+      .def_readonly("sigma_m", &UncheckedStretch::sigma_m,
+                    "Largest standard deviation of the position, metres; None if it is unknown.");
+
+  py::class_<OpenStretch>(module, "OpenStretch",
+                          "Part of the path along walls that leave the position along them open.")
+      .def_readonly("first_scan", &OpenStretch::first_frame, "Number of its first scan.")
+      .def_readonly("last_scan", &OpenStretch::last_frame, "Number of its last scan.")
+      .def_readonly("length_m", &OpenStretch::length_m, "Motion along the walls, metres.")
+      .def_property_readonly(
+          "place", [=](const OpenStretch& stretch) { return place(stretch.at); },
+          "Place (x, y) of its middle in the map, metres.")
+      .def_readonly("has_odometry", &OpenStretch::has_odometry, "Whether odometry measured the motion.");
+
   py::class_<MapVerdict>(module, "Verdict", "Judgement of a map without ground truth.")
       .def_property_readonly(
           "state", [](const MapVerdict& verdict) { return text_of(verdict.state); },
-          "\"good\", \"check these places\" or \"broken\".")
+          "\"good\", \"unchecked\", \"check these places\" or \"broken\".")
       .def_property_readonly("sentence", &verdict_sentence, "The verdict in one sentence.")
       .def_readonly("error_m", &MapVerdict::error_m, "Estimated mean error from what the scans show, metres.")
       .def_readonly("predicted_m", &MapVerdict::predicted_m,
@@ -338,6 +362,13 @@ void bind_result(py::module_& module) {
                     "90th percentile of the distances between the walls of two passes, metres.")
       .def_readonly("checked_share", &MapVerdict::checked_share,
                     "Share of the path that several passes saw, in [0, 1].")
+      .def_readonly("held_share", &MapVerdict::held_share,
+                    "Share of the path between places where passes fit, in [0, 1].")
+      .def_readonly("unchecked_stretches", &MapVerdict::unchecked_stretches,
+                    "Parts of the path that no second pass checks, the most uncertain first: a list of\n"
+                    "UncheckedStretch.")
+      .def_readonly("open_stretches", &MapVerdict::open_stretches,
+                    "Parts of the path along bare walls, in the order of the log: a list of OpenStretch.")
       .def_readonly("hot_spots", &MapVerdict::hot_spots,
                     "Doubtful places, the worst first: a list of HotSpot.")
       .def_readonly("more_hot_spots", &MapVerdict::more_hot_spots,

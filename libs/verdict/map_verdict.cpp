@@ -50,22 +50,26 @@ class Judge {
     add_path_spots(verdict.hot_spots);
     add_interruptions(verdict.hot_spots);
     add_uncertain_places(verdict.hot_spots);
+    measure_walls(verdict);
+    add_open_stretches(verdict);
+    if (verdict.hot_spots.empty()) add_thickest_wall(verdict);
     std::stable_sort(verdict.hot_spots.begin(), verdict.hot_spots.end(), is_worse);
     for (HotSpot& spot : verdict.hot_spots)
       spot.places_of_suspect = static_cast<std::size_t>(
           std::count_if(verdict.hot_spots.begin(), verdict.hot_spots.end(),
                         [&](const HotSpot& other) { return is_same(spot.suspect, other.suspect); }));
     add_confirmed_stretches(verdict);
-    measure_walls(verdict);
+    verdict.unchecked_stretches = unchecked_stretches(views_, errors_, sigmas_m_, options_.least_length_m);
     verdict.error_m = mean_error_m() + unconfirmed_error_m(verdict.hot_spots);
     verdict.predicted_m = mean_prediction_m();
     const bool is_broken =
         (verdict.error_m >= options_.broken_error_m && !verdict.hot_spots.empty()) ||
         std::any_of(verdict.hot_spots.begin(), verdict.hot_spots.end(),
                     [](const HotSpot& spot) { return spot.kind == HotSpot::Kind::kUnplacedRun; });
-    verdict.state = is_broken                   ? MapState::kBroken
-                    : verdict.hot_spots.empty() ? MapState::kGood
-                                                : MapState::kCheck;
+    verdict.state = is_broken                    ? MapState::kBroken
+                    : !verdict.hot_spots.empty() ? MapState::kCheck
+                    : verdict.held_share > 0.5   ? MapState::kGood
+                                                 : MapState::kUnchecked;
     if (verdict.hot_spots.size() > options_.most_hot_spots) {
       verdict.more_hot_spots = verdict.hot_spots.size() - options_.most_hot_spots;
       verdict.hot_spots.resize(options_.most_hot_spots);
@@ -306,7 +310,6 @@ class Judge {
 
   /// Makes one hot spot of each series of displaced views.
   void add_wall_spots(std::vector<HotSpot>& spots) const {
-    constexpr std::size_t kLargestStep = 3;  // views between the displaced views of one hot spot
     for (const Series& series : series_of(false, options_.spot_error_m, kLargestStep))
       // Doors and furniture move, too; misplaced walls are longer.
       if (length_m(series) >= options_.least_length_m && series.count >= options_.least_checks)
@@ -396,6 +399,33 @@ class Judge {
     }
   }
 
+  /// Adds the stretches with an open direction, and hot spots for those without odometry. Passes that fit do
+  /// not confirm the motion: the way back can have the same error as the way there.
+  void add_open_stretches(MapVerdict& verdict) const {
+    verdict.open_stretches = open_stretches(result_, views_, options_.unconfirmed_m);
+    for (const OpenStretch& open : verdict.open_stretches) {
+      if (open.has_odometry) continue;
+      const Suspect cause = stretch(Suspect::Kind::kOpen, open.first_frame, open.last_frame);
+      verdict.hot_spots.push_back({HotSpot::Kind::kOpenDirection, cause.at,
+                                   options_.unmatched_error * open.length_m, open.length_m, cause});
+    }
+  }
+
+  /// Adds the thickest wall if the walls of passes differ by more than the same wall may, though no
+  /// displacement of a pass was found.
+  void add_thickest_wall(MapVerdict& verdict) const {
+    if (verdict.wall_thickness_m <= options_.passes.scans.margin_m) return;
+    const auto thickness_m = [](const PassCheck& check) {
+      return check.same_pass ? 0 : check.scans.offset_m;
+    };
+    const PassCheck& worst = *std::max_element(
+        checks_.begin(), checks_.end(),
+        [&](const PassCheck& a, const PassCheck& b) { return thickness_m(a) < thickness_m(b); });
+    HotSpot spot = spot_of({&worst, worst.view, worst.view, 1}, kind_of(worst));
+    spot.error_m = worst.scans.offset_m;
+    verdict.hot_spots.push_back(spot);
+  }
+
   bool is_misfit(const PassCheck& check) const {
     return check.fits_if_moved && check.error_m >= options_.misfit_m;
   }
@@ -450,6 +480,7 @@ class Judge {
     const auto checked = static_cast<double>(std::count_if(
         errors_.begin(), errors_.end(), [](const auto& error_m) { return error_m.has_value(); }));
     if (!views_.empty()) verdict.checked_share = checked / static_cast<double>(views_.size());
+    verdict.held_share = held_share(views_, checks_, options_.spot_error_m);
     std::vector<double> offsets_m;
     for (const PassCheck& check : checks_)
       if (!check.same_pass) offsets_m.push_back(check.scans.offset_m);

@@ -4,7 +4,8 @@
 // no match confirms are collected as hot spots. Each hot spot names a suspect and what to do about it.
 //
 // Consistency cannot measure the error of a place that the robot saw only once. The verdict states the share
-// of the map that several passes saw.
+// of the map that several passes saw. Where most of the path is held by nothing, see held_share(), the map is
+// not good but unchecked, and the verdict names the stretches to drive again.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -16,6 +17,8 @@
 
 #include "psi_slam/loop_record.h"
 #include "psi_slam/mapping_result.h"
+#include "verdict/checked_path.h"
+#include "verdict/open_directions.h"
 #include "verdict/pass_checks.h"
 
 namespace psi_slam {
@@ -30,6 +33,7 @@ struct Suspect {
     kUnplaced,   ///< the place of the robot was lost, and never found
     kGap,        ///< a gap of the log, before the first frame
     kDrift,      ///< a stretch in which the map may have drifted
+    kOpen,       ///< scans without odometry that leave the position open along a direction
   };
   Kind kind = Kind::kStretch;
   std::size_t loop = 0;         ///< of a loop: index in MappingResult::loops
@@ -59,6 +63,7 @@ struct HotSpot {
     kUnplacedRun,      ///< the place of a run in the map was never found
     kGapDisagrees,     ///< scans before and after a gap of the log saw different walls
     kUncertain,        ///< the pose graph predicts a large error
+    kOpenDirection,    ///< neither scans nor odometry measure the motion along a direction
   };
   Kind kind = Kind::kDoubledWall;
   mrpt::math::TPoint2D at;  ///< place in the map, metres
@@ -77,16 +82,17 @@ struct HotSpot {
 std::string text_of(HotSpot::Kind kind);
 
 enum class MapState {
-  kGood,    ///< no doubtful place
-  kCheck,   ///< doubtful places in a map that is right elsewhere
-  kBroken,  ///< large parts of the map contradict each other
+  kGood,       ///< no doubtful place, and passes that fit hold most of the path
+  kUnchecked,  ///< no doubtful place, but passes that fit hold at most half of the path
+  kCheck,      ///< doubtful places in a map that is right elsewhere
+  kBroken,     ///< large parts of the map contradict each other
 };
 
-/// Returns "good", "check these places" or "broken".
+/// Returns "good", "unchecked", "check these places" or "broken".
 std::string text_of(MapState state);
 
 struct MapVerdict {
-  MapState state = MapState::kGood;
+  MapState state = MapState::kUnchecked;
   /// Estimated mean error in metres, from what the scans show: the mean displacement between passes and
   /// between successive scans, and the doubt about stretches and runs that no pass confirms.
   double error_m = 0;
@@ -95,11 +101,18 @@ struct MapVerdict {
   double predicted_m = 0;
   double wall_thickness_m = 0;     ///< 90th percentile of the distances between the walls of two passes
   double checked_share = 0;        ///< share of the path that another pass confirms or contradicts, in [0, 1]
+  double held_share = 0;           ///< share of the path between places where passes fit, see held_share()
   std::vector<HotSpot> hot_spots;  ///< the worst first, at most VerdictOptions::most_hot_spots
   std::size_t more_hot_spots = 0;  ///< hot spots beyond those, which are left out of the list
   /// Stretches of unmatched scans, in the order of the log, across which other scans fit and which are the
   /// suspect of no hot spot.
   std::vector<FrameSpan> confirmed_stretches;
+  /// Stretches that no other pass was compared with, the most uncertain first: the robot should pass them
+  /// again.
+  std::vector<UncheckedStretch> unchecked_stretches;
+  /// Stretches of VerdictOptions::unconfirmed_m and more whose scans leave a direction open, in the order of
+  /// the log. Those without odometry are hot spots.
+  std::vector<OpenStretch> open_stretches;
 
   /// Figure by which maps can be ranked, metres.
   double doubt_m() const { return error_m + predicted_m; }
@@ -121,9 +134,11 @@ struct VerdictOptions {
   double uncertain_m = 0.25;  ///< a predicted standard deviation from here on is a hot spot
   double conflict_chi = 6;    ///< a loop residual from here on is a conflict, standard deviations
   double conflict_m = 0.3;    ///< a loop residual from here on is a conflict, metres
-  /// Unmatched motion from here on is a hot spot unless a pass confirms it.
+  /// Unmatched motion from here on is a hot spot unless a pass confirms it. Motion in open directions without
+  /// odometry from here on is a hot spot.
   double unconfirmed_m = 1.0;
-  double unmatched_error = 0.1;  ///< expected error of unmatched motion, as a share of the motion
+  /// Expected error of motion that no scan measures, as a share of the motion.
+  double unmatched_error = 0.1;
   double broken_error_m = 0.12;  ///< MapVerdict::error_m from which the map is broken
   std::size_t most_hot_spots = 20;
 };

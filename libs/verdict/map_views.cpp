@@ -11,6 +11,7 @@
 #include "frames/discarded_ranges.h"
 #include "frames/pose_operations.h"
 #include "local_maps/scan_filter.h"
+#include "verdict/open_directions.h"
 
 namespace psi_slam {
 namespace {
@@ -53,6 +54,8 @@ std::optional<MapView> view_of_frame(const MappingResult& result, std::size_t fr
   view.map_T_robot = result.frames[frame].map_T_robot;
   view.scan = &scanned.scan;
   view.surfaces = evenly_chosen(surface_points(matching_points(scanned.scan, filter)), options.max_points);
+  view.open_direction =
+      open_direction(evenly_chosen(surface_points(matching_points(scanned, filter)), options.max_points));
   return view;
 }
 

@@ -2,6 +2,7 @@
 // The scans of a finished map that the verdict compares with each other: nodes at regular steps of the path.
 #pragma once
 
+#include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
@@ -13,6 +14,9 @@
 #include "psi_slam/mapping_result.h"
 
 namespace psi_slam {
+
+/// Findings at successive views belong together if they are at most this many views apart.
+inline constexpr std::size_t kLargestStep = 3;
 
 struct MapViewOptions {
   double step_m = 0.5;          ///< least distance between successive views of a run
@@ -29,6 +33,8 @@ struct MapView {
   mrpt::math::TPose2D map_T_robot;
   const LaserScan* scan = nullptr;
   SurfacePoints surfaces;  ///< in the robot's frame
+  /// Unit vector in the robot's frame along which all lasers leave the position open, see open_direction().
+  std::optional<mrpt::math::TPoint2D> open_direction{};
 
   mrpt::math::TPose2D map_T_laser() const { return compose(map_T_robot, scan->robot_T_laser); }
 };

@@ -22,8 +22,6 @@ using mrpt::math::TPose2D;
 
 // Widths of the kernel of Geman and McClure in the steps of the alignment, metres.
 constexpr std::array<double, 6> kKernels_m{0.5, 0.5, 0.3, 0.2, 0.1, 0.1};
-// Weight of the prior at the start pose, in points: it keeps the pose along a corridor.
-constexpr double kPriorPoints = 2;
 
 /// Ranges of the nearest beam and of its neighbours on both sides.
 struct BeamRanges {

@@ -16,6 +16,10 @@
 
 namespace psi_slam {
 
+/// Weight of the prior at the start pose of the alignment, in points: it keeps the pose along a corridor.
+/// With fewer points that face a direction, the scan leaves that direction open.
+inline constexpr double kPriorPoints = 2;
+
 struct ScanComparisonOptions {
   double margin_m = 0.1;          ///< offsets up to this count as the same wall
   double max_offset_m = 1.0;      ///< largest distance between the two images of a doubled wall

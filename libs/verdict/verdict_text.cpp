@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "base/number_text.h"
 #include "loop_closure/loop_edit_line.h"
@@ -12,32 +14,98 @@ std::string place_text(const mrpt::math::TPoint2D& at) {
   return "(" + fixed_text(at.x, 1) + ", " + fixed_text(at.y, 1) + ") m";
 }
 
-std::string scans_text(const Suspect& suspect) {
-  const std::string first = std::to_string(suspect.first_frame);
-  return suspect.first_frame == suspect.last_frame
+template <class Stretch>
+std::string scans_text(const Stretch& stretch) {
+  const std::string first = std::to_string(stretch.first_frame);
+  return stretch.first_frame == stretch.last_frame
              ? "scan " + first
-             : "scans " + first + " to " + std::to_string(suspect.last_frame);
+             : "scans " + first + " to " + std::to_string(stretch.last_frame);
 }
 
 const double kLargestError_m = PassCheckOptions().unknown_m;
 
 /// Only errors that scans show have an upper bound, not those that are predicted.
 bool is_too_large_to_measure(const HotSpot& spot) {
-  const bool is_predicted = spot.kind == HotSpot::Kind::kUncertain || spot.kind == HotSpot::Kind::kUnmatched;
+  const bool is_predicted = spot.kind == HotSpot::Kind::kUncertain ||
+                            spot.kind == HotSpot::Kind::kUnmatched ||
+                            spot.kind == HotSpot::Kind::kOpenDirection;
   return !is_predicted && spot.error_m && *spot.error_m >= kLargestError_m;
+}
+
+std::string unchecked_text(const MapVerdict& verdict) {
+  const std::string apart = fixed_text(PassCheckOptions().pass_apart_m, 0);
+  std::string text = verdict.checked_share == 0
+                         ? "no place was seen twice by scans with " + apart + " m or more of path in between"
+                         : "only " + fixed_text(100 * verdict.held_share, 0) +
+                               " % of the path lies between places that were seen twice";
+  if (verdict.unchecked_stretches.empty()) return text + "; drive on, and return to places seen before";
+  const UncheckedStretch& stretch = verdict.unchecked_stretches.front();
+  text += "; drive again from " + place_text(stretch.first_at) + " to " + place_text(stretch.last_at) + ", " +
+          scans_text(stretch);
+  if (stretch.sigma_m)
+    text +=
+        ", where the standard deviation of the position reaches " + fixed_text(*stretch.sigma_m, 2) + " m";
+  return text;
+}
+
+/// Clause about the stretches with an open direction; empty without any.
+std::string open_text(const std::vector<OpenStretch>& stretches) {
+  if (stretches.empty()) return {};
+  double length_m = 0;
+  std::size_t scans = 0;
+  bool has_odometry = false;
+  bool lacks_odometry = false;
+  for (const OpenStretch& stretch : stretches) {
+    length_m += stretch.length_m;
+    scans += stretch.last_frame - stretch.first_frame + 1;
+    (stretch.has_odometry ? has_odometry : lacks_odometry) = true;
+  }
+  const char* const source = !lacks_odometry ? "odometry"
+                             : has_odometry  ? "odometry or the constant-velocity model"
+                                             : "the constant-velocity model";
+  const OpenStretch& longest =
+      *std::max_element(stretches.begin(), stretches.end(),
+                        [](const OpenStretch& a, const OpenStretch& b) { return a.length_m < b.length_m; });
+  return "; along bare walls, " + std::string(source) + " alone gives the length of " +
+         fixed_text(length_m, 1) + " m of the path (" + counted(scans, "scan") +
+         (stretches.size() == 1 ? ", " : ", the longest part: ") + scans_text(longest) + ")";
+}
+
+/// The judgement, without the stretches with an open direction.
+std::string judgement(const MapVerdict& verdict) {
+  if (verdict.state == MapState::kGood)
+    return "the map is good: walls of different passes differ by at most " +
+           fixed_text(verdict.wall_thickness_m, 2) + " m at 90 % of the places, and " +
+           fixed_text(100 * verdict.checked_share, 0) + " % of the path is checked by a second pass";
+  if (verdict.state == MapState::kUnchecked) return "the map is unchecked: " + unchecked_text(verdict);
+  const HotSpot& worst = verdict.hot_spots.front();
+  if (worst.kind == HotSpot::Kind::kUnplacedRun)
+    return "the map is broken: a run was never placed; suspect: " + text_of(worst.suspect);
+  const std::string text = hot_spot_text(worst);
+  if (verdict.state == MapState::kBroken)
+    return "the map is broken: the estimated mean error is " + fixed_text(verdict.error_m, 2) +
+           " m, the worst: " + text;
+  const std::string thick = verdict.wall_thickness_m <= ScanComparisonOptions().margin_m
+                                ? ""
+                                : "the map is not good: walls of different passes differ by " +
+                                      fixed_text(verdict.wall_thickness_m, 2) +
+                                      " m or more at 10 % of the places; ";
+  const std::size_t places = verdict.hot_spots.size() + verdict.more_hot_spots;
+  if (places == 1) return thick + "check this place: " + text;
+  return thick + "check " + counted(places, "place") + " of the map, the worst: " + text;
 }
 
 }  // namespace
 
 std::string text_of(HotSpot::Kind kind) {
-  constexpr std::array<const char*, 9> kTexts{"doubled wall",     "wall seen through", "runs disagree",
-                                              "scans do not fit", "loop in conflict",  "unmatched scans",
-                                              "unplaced run",     "gap in the log",    "uncertain place"};
+  constexpr std::array<const char*, 10> kTexts{
+      "doubled wall",    "wall seen through", "runs disagree",  "scans do not fit", "loop in conflict",
+      "unmatched scans", "unplaced run",      "gap in the log", "uncertain place",  "open direction"};
   return kTexts[static_cast<std::size_t>(kind)];
 }
 
 std::string text_of(MapState state) {
-  constexpr std::array<const char*, 3> kTexts{"good", "check these places", "broken"};
+  constexpr std::array<const char*, 4> kTexts{"good", "unchecked", "check these places", "broken"};
   return kTexts[static_cast<std::size_t>(state)];
 }
 
@@ -56,6 +124,8 @@ std::string text_of(const Suspect& suspect) {
       return scans_text(suspect) + ", before which the log has a gap";
     case Suspect::Kind::kDrift:
       return scans_text(suspect) + ", where loops hold the map too weakly";
+    case Suspect::Kind::kOpen:
+      return scans_text(suspect) + ", which saw only walls along one direction and have no odometry";
     case Suspect::Kind::kStretch:
       break;
   }
@@ -63,24 +133,7 @@ std::string text_of(const Suspect& suspect) {
 }
 
 std::string verdict_sentence(const MapVerdict& verdict) {
-  const std::string checked =
-      fixed_text(100 * verdict.checked_share, 0) + " % of the path is checked by a second pass";
-  if (verdict.state == MapState::kGood) {
-    if (verdict.checked_share == 0)
-      return "the map shows no fault, but no place was seen by two passes that could be compared";
-    return "the map is good: walls of different passes differ by at most " +
-           fixed_text(verdict.wall_thickness_m, 2) + " m at 90 % of the places, and " + checked;
-  }
-  const HotSpot& worst = verdict.hot_spots.front();
-  if (worst.kind == HotSpot::Kind::kUnplacedRun)
-    return "the map is broken: a run was never placed; suspect: " + text_of(worst.suspect);
-  const std::string text = hot_spot_text(worst);
-  if (verdict.state == MapState::kBroken)
-    return "the map is broken: the estimated mean error is " + fixed_text(verdict.error_m, 2) +
-           " m, the worst: " + text;
-  const std::size_t places = verdict.hot_spots.size() + verdict.more_hot_spots;
-  if (places == 1) return "check this place: " + text;
-  return "check " + counted(places, "place") + " of the map, the worst: " + text;
+  return judgement(verdict) + open_text(verdict.open_stretches);
 }
 
 std::string error_text(const HotSpot& spot) {
@@ -106,6 +159,8 @@ std::string hot_spot_text(const HotSpot& spot) {
 
 std::string advice_text(const HotSpot& spot) {
   const Suspect& suspect = spot.suspect;
+  if (suspect.kind == Suspect::Kind::kOpen)
+    return "record odometry, or put objects along the walls and map again";
   const bool is_apart = suspect.kind == Suspect::Kind::kLost || suspect.kind == Suspect::Kind::kUnplaced;
   std::string edit = "match a scan after scan " + std::to_string(suspect.last_frame) +
                      (is_apart ? " with a local map of the rest of the map"

@@ -53,6 +53,8 @@ TEST_F(ClosingText, leaves_out_an_unknown_real_time_factor) {
 TEST_F(ClosingText, ends_with_the_verdict_about_a_good_map) {
   EXPECT_THAT(text(), Not(HasSubstr("Verdict")));
   summary_.verdict = MapVerdict();
+  EXPECT_THAT(text(), HasSubstr("Verdict: the map is unchecked: "));
+  summary_.verdict->state = MapState::kGood;
   summary_.verdict->checked_share = 0.5;
   EXPECT_THAT(text(), HasSubstr("Verdict: the map is good: "));
   EXPECT_FALSE(broken_map_text(summary_));

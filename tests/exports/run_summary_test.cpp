@@ -164,6 +164,23 @@ TEST(SummaryJson, has_the_verdict_about_the_map) {
   EXPECT_EQ(verdict["more_hot_spots"], 0);
 }
 
+TEST(SummaryJson, lists_the_path_that_nothing_checks_and_that_scans_leave_open) {
+  RunSummary summary;
+  summary.verdict = MapVerdict();
+  summary.verdict->held_share = 0.25;
+  summary.verdict->unchecked_stretches = {{7, 90, 12.5, {1, 2}, {3, 4}, std::nullopt}};
+  summary.verdict->open_stretches = {{20, 40, 6.5, {5, 6}, true}};
+  const auto verdict = nlohmann::json::parse(summary_json({}, {}, summary))["verdict"];
+  EXPECT_EQ(verdict["state"], "unchecked");
+  EXPECT_EQ(verdict["held_share"], 0.25);
+  EXPECT_EQ(verdict["unchecked_stretches"],
+            nlohmann::json::parse(R"([{"first_scan": 7, "last_scan": 90, "length_m": 12.5, "first_x_m": 1.0,
+              "first_y_m": 2.0, "last_x_m": 3.0, "last_y_m": 4.0, "sigma_m": null}])"));
+  EXPECT_EQ(verdict["open_stretches"],
+            nlohmann::json::parse(R"([{"first_scan": 20, "last_scan": 40, "length_m": 6.5, "x_m": 5.0,
+              "y_m": 6.0, "has_odometry": true}])"));
+}
+
 TEST(SummaryJson, counts_the_hot_spots_that_it_leaves_out) {
   RunSummary summary = some_figures();
   summary.verdict = doubtful_map();

@@ -132,6 +132,20 @@ def test_verdict_and_summary_equal_the_file(turned):
     assert [spot.edit or None for spot in result.verdict.hot_spots] == [
         spot["edit"] for spot in summary["verdict"]["hot_spots"]
     ]
+    unchecked = summary["verdict"]["unchecked_stretches"]
+    assert unchecked
+    assert [
+        (one.first_scan, one.last_scan, *one.first_place, *one.last_place)
+        for one in result.verdict.unchecked_stretches
+    ] == [
+        pytest.approx(
+            tuple(one[k] for k in ("first_scan", "last_scan", "first_x_m", "first_y_m", "last_x_m", "last_y_m")),
+            abs=1e-3,
+        )
+        for one in unchecked
+    ]
+    assert result.verdict.held_share == pytest.approx(summary["verdict"]["held_share"], abs=1e-4)
+    assert len(result.verdict.open_stretches) == len(summary["verdict"]["open_stretches"])
     assert result.verdict.more_hot_spots == summary["verdict"]["more_hot_spots"]
     assert result.settings == summary["settings"]
     assert result.warnings == summary["warnings"]

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "two_passes.h"
@@ -129,7 +130,7 @@ TEST(MapVerdict, asks_to_check_a_single_pass_with_a_jump) {
 TEST(MapVerdict, asks_for_no_check_of_scans_that_no_motion_explains) {
   MappingResult result = two_passes();
   for (const std::size_t frame : {20U, 30U, 31U}) shorten_ranges(result.log[frame]);
-  EXPECT_EQ(judge_map(result, options_of_single_pass()).state, MapState::kGood);
+  EXPECT_EQ(judge_map(result, options_of_single_pass()).state, MapState::kUnchecked);
 }
 
 TEST(MapVerdict, asks_to_check_a_short_stretch_without_a_match) {
@@ -354,8 +355,94 @@ TEST(MapVerdict, suspects_an_interruption_where_the_passes_part) {
 
 TEST(MapVerdict, says_that_nothing_was_checked) {
   const MapVerdict verdict = judge_map(MappingResult{});
+  EXPECT_EQ(verdict.state, MapState::kUnchecked);
+  EXPECT_THAT(verdict_sentence(verdict), HasSubstr("the map is unchecked: no place was seen twice"));
+  EXPECT_THAT(verdict_sentence(verdict), EndsWith("return to places seen before"));
+}
+
+TEST(MapVerdict, names_the_path_to_drive_again_if_no_place_was_seen_twice) {
+  MappingResult result = two_passes();
+  join_nodes(result, 0, 1);
+  const MapVerdict verdict = judge_map(result, options_of_single_pass());
+  EXPECT_EQ(verdict.state, MapState::kUnchecked);
+  EXPECT_EQ(verdict.held_share, 0);
+  ASSERT_EQ(verdict.unchecked_stretches.size(), 1U);
+  EXPECT_THAT(verdict_sentence(verdict),
+              HasSubstr("; drive again from (3.0, 1.0) m to (3.0, 0.8) m, scans 0 to 79, "
+                        "where the standard deviation of the position reaches 0.0"));
+}
+
+TEST(MapVerdict, leaves_a_map_unchecked_most_of_which_was_seen_once) {
+  // After both rounds, the robot drives on along a path of its own.
+  MappingResult result = two_passes();
+  const std::size_t scans = result.frames.size();
+  for (std::size_t i = 0; i < 3 * scans; ++i) {
+    const std::size_t index = result.frames.size();
+    Frame frame = result.log[i % scans];
+    frame.index = index;
+    FrameRecord record = result.frames[i % scans];
+    record.map_T_robot.x += 20 + 5 * static_cast<double>(i);
+    record.time_us = frame.time_us = 200'000 * static_cast<TimeUs>(index);
+    record.node = result.graph.add_node(record.map_T_robot);
+    result.node_frames.push_back(index);
+    result.frames.push_back(record);
+    result.log.push_back(std::move(frame));
+  }
+  const MapVerdict verdict = judge_map(result);
+  EXPECT_EQ(verdict.state, MapState::kUnchecked) << verdict_sentence(verdict);
+  EXPECT_GT(verdict.checked_share, 0.1);
+  EXPECT_LT(verdict.held_share, 0.5);
+  EXPECT_THAT(verdict_sentence(verdict),
+              HasSubstr(" % of the path lies between places that were seen twice; drive "));
+}
+
+TEST(MapVerdict, calls_no_map_good_whose_walls_differ) {
+  const MapVerdict verdict = judge_map(two_passes({0, 0.115, 0}));
+  EXPECT_GT(verdict.wall_thickness_m, 0.1);
+  EXPECT_EQ(verdict.state, MapState::kCheck);
+  ASSERT_EQ(verdict.hot_spots.size(), 1U);
+  EXPECT_NEAR(verdict.hot_spots[0].error_m.value_or(0), 0.12, 0.03);
+  EXPECT_THAT(verdict_sentence(verdict),
+              HasSubstr("the map is not good: walls of different passes differ by 0.1"));
+}
+
+/// Lengthens the room of two passes to a corridor along x, whose ends are out of sight.
+MappingResult bare_corridor(bool has_odometry) {
+  MappingResult result = two_passes();
+  SimulatedRoom corridor;
+  corridor.x_min = -100;
+  corridor.x_max = 100;
+  for (std::size_t i = 0; i < result.log.size(); ++i) {
+    Frame& frame = result.log[i];
+    frame.scan.ranges_m =
+        corridor.scan_from(result.frames[i].map_T_robot, frame.scan.bearings_rad).scan.ranges_m;
+    for (float& range_m : frame.scan.ranges_m)
+      if (range_m > 15) range_m = std::numeric_limits<float>::infinity();
+    frame.has_odometry = has_odometry;
+  }
+  return result;
+}
+
+TEST(MapVerdict, calls_no_map_good_whose_length_nothing_measures) {
+  const MapVerdict verdict = judge_map(bare_corridor(false));
+  EXPECT_EQ(verdict.state, MapState::kCheck);
+  ASSERT_EQ(verdict.hot_spots.size(), 1U);
+  const HotSpot& spot = verdict.hot_spots[0];
+  EXPECT_EQ(spot.kind, HotSpot::Kind::kOpenDirection);
+  EXPECT_NEAR(spot.length_m, 16, 2) << "twice there and back over 4 m";
+  EXPECT_NEAR(spot.error_m.value_or(0), 0.1 * spot.length_m, 1e-9);
+  EXPECT_THAT(hot_spot_text(spot), HasSubstr("open direction at ("));
+  EXPECT_THAT(advice_text(spot), HasSubstr("record odometry"));
+  EXPECT_THAT(verdict_sentence(verdict),
+              HasSubstr("along bare walls, the constant-velocity model alone gives the length of 1"));
+}
+
+TEST(MapVerdict, counts_the_path_whose_length_odometry_alone_gives) {
+  const MapVerdict verdict = judge_map(bare_corridor(true));
   EXPECT_EQ(verdict.state, MapState::kGood);
-  EXPECT_THAT(verdict_sentence(verdict), HasSubstr("no place was seen by two passes"));
+  EXPECT_EQ(verdict.open_stretches.size(), 1U);
+  EXPECT_THAT(verdict_sentence(verdict), HasSubstr("the map is good"));
+  EXPECT_THAT(verdict_sentence(verdict), HasSubstr("along bare walls, odometry alone gives the length of 1"));
 }
 
 }  // namespace

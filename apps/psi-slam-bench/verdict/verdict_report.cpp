@@ -51,6 +51,7 @@ ReportTable table_of_groups(const std::vector<Group>& groups) {
           return cell(spread_over(group.rows, [](const VerdictRow& row) { return row.doubt_m; }).mean, 3);
         }},
        state("good", MapState::kGood),
+       state("unchecked", MapState::kUnchecked),
        state("check", MapState::kCheck),
        state("broken", MapState::kBroken),
        {{"fault found", "located"},

@@ -9,6 +9,7 @@ import threading
 
 import numpy as np
 import pytest
+import room
 from same_results import assert_same_results
 
 import psi_slam
@@ -132,24 +133,24 @@ def test_verdict_and_summary_equal_the_file(turned):
     assert [spot.edit or None for spot in result.verdict.hot_spots] == [
         spot["edit"] for spot in summary["verdict"]["hot_spots"]
     ]
-    unchecked = summary["verdict"]["unchecked_stretches"]
-    assert unchecked
-    assert [
-        (one.first_scan, one.last_scan, *one.first_place, *one.last_place)
-        for one in result.verdict.unchecked_stretches
-    ] == [
-        pytest.approx(
-            tuple(one[k] for k in ("first_scan", "last_scan", "first_x_m", "first_y_m", "last_x_m", "last_y_m")),
-            abs=1e-3,
-        )
-        for one in unchecked
-    ]
-    assert result.verdict.held_share == pytest.approx(summary["verdict"]["held_share"], abs=1e-4)
-    assert len(result.verdict.open_stretches) == len(summary["verdict"]["open_stretches"])
     assert result.verdict.more_hot_spots == summary["verdict"]["more_hot_spots"]
     assert result.settings == summary["settings"]
     assert result.warnings == summary["warnings"]
     assert result.broken_off is None and not result.interrupted
+
+
+def test_an_unchecked_map_names_the_path_to_drive_again(tmp_path):
+    room.write_log(tmp_path / "once.log", 80)
+    verdict = psi_slam.map(tmp_path / "once.log").verdict
+    assert verdict.state == "unchecked"
+    assert verdict.held_share == 0
+    (stretch,) = verdict.unchecked_stretches
+    assert stretch.first_scan == 0 and 70 < stretch.last_scan < 80
+    assert stretch.first_place == pytest.approx((0, 0), abs=0.05)
+    assert stretch.length_m == pytest.approx(10, abs=1)
+    assert 0 < stretch.sigma_m < 1
+    assert f"scans 0 to {stretch.last_scan}" in verdict.sentence
+    assert verdict.open_stretches == []
 
 
 def test_arrays_are_computed_once_and_read_only(result):

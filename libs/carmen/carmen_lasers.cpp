@@ -31,11 +31,6 @@ constexpr double kEnoughPath_m = 3.0;
 constexpr double kEnoughTurn_rad = 1.0;
 // Poses in logs are rounded to a micrometre or a millimetre.
 constexpr PoseTolerance kSameMount{0.002, 0.002};
-// Maximum range as a fraction of the largest reading. This maximum lies below all codes for "no return" of a
-// laser, such as 81.83 and 81.91 m.
-constexpr double kBelowNoReturn = 0.97;
-constexpr float kLargestReading_m = 1000;  // a larger reading is damaged or in another unit
-constexpr std::size_t kRepeated = 3;       // fewer readings near the largest one count as damaged, too
 
 Messages messages_in(const CarmenText& text, std::size_t most_lines) {
   LineReader lines = text.lines();
@@ -243,28 +238,6 @@ std::optional<TPose2D> mount_by_robotlaser(const CarmenText& text, std::string_v
   return mount;
 }
 
-double max_range_by_readings_m(const CarmenText& text, std::string_view message) {
-  LineReader lines = text.lines();
-  std::vector<float> far_m;
-  std::string_view line;
-  for (std::size_t i = 0; i < kLinesOfHead && lines.next_readable(line); ++i) {
-    CarmenFields fields(line, lines);
-    if (fields.message() != message) continue;
-    const auto laser = readable_laser(fields);
-    if (!laser) continue;
-    for (const float range_m : laser->ranges_m)
-      if (static_cast<double>(range_m) > kUnstatedMaxRange_m && range_m <= kLargestReading_m)
-        far_m.push_back(range_m);
-  }
-  std::sort(far_m.begin(), far_m.end(), std::greater<>());
-  for (std::size_t i = 0; i + kRepeated <= far_m.size(); ++i) {
-    const double below_m = kBelowNoReturn * static_cast<double>(far_m[i]);
-    if (static_cast<double>(far_m[i + kRepeated - 1]) >= below_m)
-      return std::max(kUnstatedMaxRange_m, below_m);
-  }
-  return kUnstatedMaxRange_m;
-}
-
 CarmenLasers::CarmenLasers(CarmenText text, const LogOptions& options)
     : text_(std::move(text)), options_(options) {
   const LaserChoice choice = laser_choice("log.laser", options.laser);
@@ -322,7 +295,6 @@ void CarmenLasers::choose(Slot& slot, const std::string& message) {
   const auto number = static_cast<std::size_t>(&slot - slots_.data());
   slot.laser = Laser{CarmenLaser(message, options_), number, parameters_.size(), false};
   set_mount_by_robotlaser(text_, slot.laser->laser);
-  if (!options_.max_range_m) slot.laser->laser.set_max_range(max_range_by_readings_m(text_, message));
 }
 
 /// Throws UserError if a log lacks a selected laser, or if two selected ones are the same.

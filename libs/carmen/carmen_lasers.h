@@ -38,13 +38,6 @@ std::vector<std::vector<std::string>> carmen_laser_candidates(const LogOptions& 
 /// laser's pose.
 std::optional<mrpt::math::TPose2D> mount_by_robotlaser(const CarmenText& text, std::string_view message);
 
-/// Estimates the maximum range, metres, of a laser whose log states none. Uses the messages with this name in
-/// the first 500 lines. Lasers write codes of 50 m or more for "no return", which differ between logs and
-/// settings of the laser: 50.00, 51.06, 81.83, 81.91. Returns 0.97 times the largest reading, to exclude such
-/// codes, but at least kUnstatedMaxRange_m. Skips malformed lines, readings beyond 1000 m, and large readings
-/// with fewer than two others within 3 % below them.
-double max_range_by_readings_m(const CarmenText& text, std::string_view message);
-
 /// Turns the messages of one laser into scans. The user's options override PARAM lines and messages.
 class CarmenLaser {
  public:
@@ -62,9 +55,6 @@ class CarmenLaser {
 
   /// Sets the mount that applies if neither the user nor a PARAM line states one.
   void set_mount_by_poses(const mrpt::math::TPose2D& robot_T_laser) { mount_by_poses_ = robot_T_laser; }
-
-  /// Sets the maximum range that applies if neither the user, a PARAM line nor a message states one.
-  void set_max_range(double max_range_m) { max_range_m_ = max_range_m; }
 
   /// Makes a scan from a message of this laser. Throws MalformedLine, which names the line of `fields`, if
   /// the bearings of the beams are unknown.

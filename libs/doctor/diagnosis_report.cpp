@@ -28,7 +28,7 @@ Json to_json(const mrpt::math::TPose2D& pose) {
   return {{"x_m", pose.x}, {"y_m", pose.y}, {"yaw_rad", pose.phi}};
 }
 
-Json facts_json(const LogFacts& facts) {
+Json facts_json(const LogFacts& facts, const MaxRange& max_range) {
   const TimeFacts& time = facts.time;
   const RangeFacts& ranges = facts.ranges;
   return {{"broken_off", facts.broken_off},
@@ -63,7 +63,7 @@ Json facts_json(const LogFacts& facts) {
             {"empty_scans", ranges.empty_scans},
             {"median_return_m", ranges.median_return_m},
             {"largest_reading_m", ranges.largest_reading_m},
-            {"ceiling_m", ranges.ceiling_m}}},
+            {"no_return_code_m", max_range.code_m}}},
           {"scans_with_two_poses", facts.contents.scans_with_two_poses},
           {"messages", facts.contents.messages},
           {"skipped_lines", facts.contents.skipped.count},
@@ -207,7 +207,7 @@ std::vector<std::string> describe(const LogDiagnosis& diagnosis) {
 }
 
 Json to_json(const LogDiagnosis& diagnosis) {
-  Json json{{"log", diagnosis.path.string()}, {"facts", facts_json(diagnosis.facts)}};
+  Json json{{"log", diagnosis.path.string()}, {"facts", facts_json(diagnosis.facts, diagnosis.max_range)}};
   json["own_body"] = own_body_json(diagnosis.own_body);
   const OdometryAgreement& odometry = diagnosis.odometry;
   json["odometry_check"] = {{"sound", diagnosis.odometry_is_sound},

@@ -2,6 +2,7 @@
 #include "doctor/input_doctor.h"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "frames/log_format.h"
 #include "frames/log_reader.h"
 #include "frames/pose_operations.h"
+#include "logs/frame_pipeline.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -16,7 +18,6 @@ namespace {
 
 constexpr std::size_t kTracks = 90;
 constexpr std::size_t kPairs = 1500;
-constexpr double kUnlimited_m = 1e6;
 
 /// Results of the first pass over the log.
 struct FirstPass {
@@ -25,11 +26,16 @@ struct FirstPass {
   std::vector<float> bearings_rad;  // bearings of the first scan
 };
 
-FirstPass read_once(const std::filesystem::path& path, const LogOptions& options) {
-  check_log_options(options);
-  const auto first = open_log_reader(path, options)->next();
+/// Maximum range of the first laser by its readings.
+MaxRange study_max_range(const std::filesystem::path& path, LogOptions options) {
+  options.max_range_m.reset();
+  const MaxRanges found = max_ranges_of_log(path, options);
+  return found.empty() ? MaxRange() : found.begin()->second;
+}
+
+FirstPass read_once(const std::filesystem::path& path, const LogOptions& options, double max_range_m) {
   LogOptions unlimited = options;
-  unlimited.max_range_m = kUnlimited_m;
+  unlimited.max_range_m = std::numeric_limits<double>::infinity();
   unlimited.min_range_m = 0;
   FirstPass pass;
   LogFactsCollector collector;
@@ -38,7 +44,7 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
   try {
     while (const auto frame = log->next()) {
       if (pass.bearings_rad.empty()) pass.bearings_rad = *frame->scan.bearings_rad;
-      collector.add(*frame, first->scan.max_range_m);
+      collector.add(*frame, static_cast<float>(max_range_m));
     }
   } catch (const UserError& error) {
     if (collector.marks().empty()) throw;
@@ -144,7 +150,10 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
   diagnosis.options = log.lasers.front().options;
   diagnosis.options.every_nth_scan = 1;
   diagnosis.options.sweep_time_s = 0;  // judge the log as recorded
-  FirstPass pass = read_once(path, diagnosis.options);
+  check_log_options(diagnosis.options);
+  diagnosis.max_range = study_max_range(path, diagnosis.options);
+  FirstPass pass = read_once(path, diagnosis.options,
+                             diagnosis.options.max_range_m.value_or(diagnosis.max_range.max_range_m));
   diagnosis.facts = pass.facts;
   diagnosis.facts.contents.several_lasers = log.are_combined;
   diagnosis.laser = log.lasers.front().name;

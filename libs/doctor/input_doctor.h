@@ -14,6 +14,7 @@
 #include "doctor/log_facts.h"
 #include "doctor/odometry_check.h"
 #include "doctor/pair_alignment.h"
+#include "frames/max_range_study.h"
 #include "frames/own_body.h"
 #include "logs/sweep_direction_study.h"
 #include "psi_slam/log_options.h"
@@ -37,6 +38,7 @@ struct Finding {
 struct LogDiagnosis {
   std::filesystem::path path;
   LogFacts facts;
+  MaxRange max_range;                               ///< by the readings, without regard to the options
   SweepDirectionStudy sweep_direction;              ///< without scans if no sweep time is stated
   LogOptions options;                               ///< options used to read the log
   std::string laser;                                ///< laser that is judged; see SingleLaser::name

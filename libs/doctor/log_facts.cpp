@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kLeastGap_s = 1.0;
 constexpr double kGapPeriods = 10.0;
-// Longer readings count as 10 km. This suffices to recognise ranges that are millimetres by mistake.
-constexpr std::size_t kCentimetresKept = 1'000'000;
 
 bool same_readings(const std::vector<float>& a, const std::vector<float>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -64,27 +62,6 @@ OdometryFacts odometry_facts(const std::vector<FrameMark>& marks) {
   return facts;
 }
 
-/// Finds the code for "no return": readings that pile up at the top of the histogram.
-void find_ceiling(const std::vector<std::size_t>& readings_by_cm, RangeFacts& facts) {
-  if (readings_by_cm.empty()) return;
-  const std::size_t top_cm = readings_by_cm.size() - 1;
-  facts.largest_reading_m = static_cast<float>(top_cm) / 100.0F;
-  const std::size_t pile_from_cm = top_cm - top_cm / 100;
-  const std::size_t compared_from_cm = top_cm - top_cm / 10;
-  std::size_t pile = 0;
-  std::size_t below = 0;
-  for (std::size_t cm = compared_from_cm; cm <= top_cm; ++cm)
-    (cm < pile_from_cm ? below : pile) += readings_by_cm[cm];
-  const bool piles_up =
-      pile > 2 * below && static_cast<double>(pile) > 1e-3 * static_cast<double>(facts.readings);
-  if (!piles_up) return;
-  facts.readings_at_ceiling = pile;
-  std::size_t lowest_cm = top_cm;
-  for (std::size_t cm = pile_from_cm; cm <= top_cm; ++cm)
-    if (readings_by_cm[cm] * 50 > pile) lowest_cm = std::min(lowest_cm, cm);
-  facts.ceiling_m = static_cast<float>(lowest_cm) / 100.0F;
-}
-
 float median_below(const std::vector<std::size_t>& readings_by_cm, std::size_t returns) {
   std::size_t seen = 0;
   for (std::size_t cm = 0; cm < readings_by_cm.size(); ++cm) {
@@ -118,8 +95,7 @@ void LogFactsCollector::add(const Frame& frame, float max_range_m) {
   for (const float range : scan.ranges_m) {
     if (!std::isfinite(range)) continue;
     if (range < max_range_m) ++returns;
-    const auto cm = static_cast<std::size_t>(
-        std::min(static_cast<double>(range) * 100.0 + 0.5, static_cast<double>(kCentimetresKept)));
+    const auto cm = static_cast<std::size_t>(static_cast<double>(range) * 100.0 + 0.5);  // below 1 km
     if (cm >= readings_by_cm_.size()) readings_by_cm_.resize(cm + 1);
     ++readings_by_cm_[cm];
   }
@@ -133,7 +109,8 @@ LogFacts LogFactsCollector::facts() const {
   facts.scans = marks_.size();
   add_time_facts(marks_, facts.time);
   facts.odometry = odometry_facts(marks_);
-  find_ceiling(readings_by_cm_, facts.ranges);
+  if (!readings_by_cm_.empty())
+    facts.ranges.largest_reading_m = static_cast<float>(readings_by_cm_.size() - 1) / 100.0F;
   facts.ranges.median_return_m = median_below(readings_by_cm_, facts.ranges.returns);
   return facts;
 }

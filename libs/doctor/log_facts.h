@@ -42,10 +42,6 @@ struct RangeFacts {
   float max_range_m = 0;        ///< readings of at least this range are no returns
   float median_return_m = 0;
   float largest_reading_m = 0;  ///< largest finite reading, including codes for "no return"; rounded to 1 cm
-  /// Number of readings within 1 % of the largest reading, if they far outnumber the readings just below;
-  /// otherwise 0. Readings that pile up in this way are the laser's code for "no return".
-  std::size_t readings_at_ceiling = 0;
-  float ceiling_m = 0;  ///< smallest frequent value of the readings at the ceiling; 0 if there are none
 
   double return_share() const {
     return readings == 0 ? 0 : static_cast<double>(returns) / static_cast<double>(readings);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -122,11 +123,24 @@ class Judge {
     }
   }
 
+  void judge_max_range() {
+    const MaxRange& found = diagnosis_.max_range;
+    const std::optional<double> stated_m = diagnosis_.options.max_range_m;
+    if (found.code_m == 0) return;
+    if (!stated_m) {
+      note("no_return_code", sentence_of(found));
+    } else if (*stated_m > found.code_m) {
+      warn("max_range",
+           "the laser writes " + fixed(found.code_m, 2) + " m for \"no return\", but log.max_range_m is " +
+               fixed(*stated_m, 2) + " m",
+           "log.max_range_m = auto");
+    }
+  }
+
   void judge_ranges() {
     const RangeFacts& ranges = facts_.ranges;
     const double returns = ranges.return_share();
     const auto max_range_m = static_cast<double>(ranges.max_range_m);
-    const auto ceiling_m = static_cast<double>(ranges.ceiling_m);
     if (facts_.scans_of_other_shape > 0) {
       note("changing_beams", counted(facts_.scans_of_other_shape, "scan") +
                                  (facts_.scans_of_other_shape == 1 ? " has" : " have") +
@@ -146,13 +160,7 @@ class Judge {
            "write the ranges in metres");
       return;
     }
-    if (ceiling_m > 0 && ceiling_m < max_range_m) {
-      warn("max_range",
-           percent(share_of(ranges.readings_at_ceiling, ranges.readings)) + " of the readings are at " +
-               fixed(ceiling_m, 2) + " m or just above and none are larger, but only readings of at least " +
-               fixed(max_range_m, 2) + " m count as no returns",
-           "log.max_range_m = " + fixed(ceiling_m, 2));
-    }
+    judge_max_range();
     if (returns < 0.3) {
       warn("few_returns",
            "only " + percent(returns) + " of the readings are returns below the maximum of " +

@@ -71,8 +71,7 @@ std::vector<std::string> quick_check(const std::vector<Frame>& log, std::size_t 
   if (diagnosis.delay) diagnosis.delay->delay_s += delay_of_laser(delays, {});
   std::vector<std::string> faults;
   for (Finding& finding : judge(diagnosis)) {
-    const bool is_minor = finding.code == "max_range" || finding.code == "empty_scans";
-    if (finding.severity != Severity::kWarning || is_minor) continue;
+    if (finding.severity != Severity::kWarning || finding.code == "empty_scans") continue;
     faults.push_back(finding.remedy.empty() ? std::move(finding.sentence)
                                             : finding.sentence + ". Remedy: " + finding.remedy);
   }

@@ -55,7 +55,7 @@ LaserScan scan_of_slice(const std::vector<mrpt::math::TPoint3Df>& points,
   LaserScan scan;
   scan.robot_T_laser = options.robot_T_laser.value_or(mrpt::math::TPose2D(mount.x(), mount.y(), yaw_rad));
   scan.ranges_m.assign(kBeams, std::numeric_limits<float>::quiet_NaN());
-  limit_ranges(scan, options, /*stated_max_range_m=*/0);
+  limit_ranges(scan, options, kUnstatedMaxRange_m);
   std::vector<float> bearings_rad = make_bearings_rad(BeamAngles::kCentredHalfStep, kBeams, 2 * M_PI);
   for (const mrpt::math::TPoint3Df& point : points) {
     double ahead[3];  // from the sensor to the point, along the axes of the robot

@@ -137,11 +137,10 @@ void mark_no_returns(std::vector<float>& ranges_m, double min_range_m, double ma
 
 void limit_ranges(LaserScan& scan, const LogOptions& options, double stated_max_range_m,
                   double stated_min_range_m) {
-  const double max_range_m =
-      options.max_range_m.value_or(stated_max_range_m > 0 ? stated_max_range_m : kUnstatedMaxRange_m);
-  scan.max_range_m = static_cast<float>(std::min(max_range_m, kLargestRange_m));
+  const double max_range_m = std::min(options.max_range_m.value_or(stated_max_range_m), kLargestRange_m);
+  scan.max_range_m = static_cast<float>(max_range_m);
   mark_no_returns(scan.ranges_m, std::max(options.min_range_m, stated_min_range_m),
-                  static_cast<double>(scan.max_range_m));
+                  max_range_m > 0 ? max_range_m : kLargestRange_m);
 }
 
 }  // namespace psi_slam

@@ -13,6 +13,7 @@
 #include "frames/gyroscope_choice.h"
 #include "frames/height_slice.h"
 #include "frames/laser_choice.h"
+#include "frames/max_range_source.h"
 #include "frames/rewindable_source.h"
 #include "frames/scan_synchronizer.h"
 #include "logs/sweep_direction_study.h"
@@ -71,29 +72,12 @@ SweepTiming sweep_timing(FrameSource& log, const LogOptions& options, const std:
   return timing;
 }
 
-}  // namespace
-
-bool combines_lasers(const LogContents& contents, const LogOptions& options, LogFormat format) {
-  return reads_several_lasers(options, format) || contents.several_lasers;
-}
-
-void check_options_for(LogFormat format, const std::string& log, const LogOptions& options) {
-  if (!is_bag(format) && !chooses_odometry(options) && !ignores_odometry(options))
-    throw UserError("log.odometry is \"" + options.odometry + "\", expected auto or none for " + log +
-                    ", because topics apply to ROS bags only");
-  if (!is_bag(format) && height_slice(options))
-    throw UserError("log.slice_z_m is \"" + options.slice_z_m + "\", expected an empty text for " + log +
-                    ", because only ROS bags hold point clouds");
-  if (format == LogFormat::kCarmen && names_gyroscope(options))
-    throw UserError("log.imu is \"" + options.imu + "\", expected auto or none for " + log +
-                    ", because CARMEN logs hold no gyroscope");
-}
-
-std::unique_ptr<FrameSource> frames_to_map(std::unique_ptr<LogReader> reader, LogFormat format,
-                                           const LogOptions& options, std::optional<double> look_over_s) {
-  const LogContents& contents = reader->contents();  // of the reader, which becomes the innermost source
+/// Prepares the frames of a file or, with `look_over_s`, of a stream. `source` yields the frames of the
+/// reader with these contents.
+std::unique_ptr<FrameSource> prepared_frames(std::unique_ptr<FrameSource> source, const LogContents& contents,
+                                             LogFormat format, const LogOptions& options,
+                                             std::optional<double> look_over_s) {
   const bool several_lasers = combines_lasers(contents, options, format);
-  std::unique_ptr<FrameSource> source = std::move(reader);
   const double odometry_scale = options.odometry_scale.value_or(1);
   const std::vector<StatedDelay> delays = stated_delays(options);
   const bool is_late =
@@ -119,6 +103,41 @@ std::unique_ptr<FrameSource> frames_to_map(std::unique_ptr<LogReader> reader, Lo
   if (may_be_bent) source = std::make_unique<DeskewedSource>(std::move(source), std::move(timing));
   if (options.every_nth_scan == 1) return source;
   return std::make_unique<ThinnedSource>(std::move(source), options.every_nth_scan);
+}
+
+}  // namespace
+
+bool combines_lasers(const LogContents& contents, const LogOptions& options, LogFormat format) {
+  return reads_several_lasers(options, format) || contents.several_lasers;
+}
+
+void check_options_for(LogFormat format, const std::string& log, const LogOptions& options) {
+  if (!is_bag(format) && !chooses_odometry(options) && !ignores_odometry(options))
+    throw UserError("log.odometry is \"" + options.odometry + "\", expected auto or none for " + log +
+                    ", because topics apply to ROS bags only");
+  if (!is_bag(format) && height_slice(options))
+    throw UserError("log.slice_z_m is \"" + options.slice_z_m + "\", expected an empty text for " + log +
+                    ", because only ROS bags hold point clouds");
+  if (format == LogFormat::kCarmen && names_gyroscope(options))
+    throw UserError("log.imu is \"" + options.imu + "\", expected auto or none for " + log +
+                    ", because CARMEN logs hold no gyroscope");
+}
+
+std::unique_ptr<FrameSource> frames_to_map(std::unique_ptr<LogReader> reader, LogFormat format,
+                                           const LogOptions& options,
+                                           const std::function<MaxRanges()>& max_ranges) {
+  const LogContents& contents = reader->contents();  // of the reader, which becomes the innermost source
+  std::unique_ptr<FrameSource> source = std::move(reader);
+  if (!options.max_range_m) source = std::make_unique<MaxRangeSource>(std::move(source), max_ranges);
+  return prepared_frames(std::move(source), contents, format, options, std::nullopt);
+}
+
+std::unique_ptr<FrameSource> frames_to_map(std::unique_ptr<LogReader> reader, LogFormat format,
+                                           const LogOptions& options, double look_over_s) {
+  const LogContents& contents = reader->contents();
+  std::unique_ptr<FrameSource> source = std::move(reader);
+  if (!options.max_range_m) source = std::make_unique<MaxRangeSource>(std::move(source), look_over_s);
+  return prepared_frames(std::move(source), contents, format, options, look_over_s);
 }
 
 }  // namespace psi_slam

@@ -1,25 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of the scans of a reader before they are mapped: corrected odometry, combined lasers, the
-// robot's own body masked, the motion during the sweep removed, and thinning.
+// What becomes of the scans of a reader before they are mapped: codes for "no return" removed, corrected
+// odometry, combined lasers, the robot's own body masked, the motion during the sweep removed, and thinning.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "frames/log_format.h"
 #include "frames/log_reader.h"
+#include "frames/max_range_study.h"
 
 namespace psi_slam {
 
 /// Throws UserError for options that a log of this format cannot follow. `log` names the log.
 void check_options_for(LogFormat format, const std::string& log, const LogOptions& options);
 
-/// Returns the frames of a log for mapping. With `look_over_s`, the log is a stream: its frames wait at most
-/// `look_over_s` seconds of the stream while the robot's own body is searched, and sweeps have the direction
-/// that options or scans state.
+/// Maximum ranges of the lasers of a log by the readings of the whole log. Reads no point clouds, which hold
+/// no codes for "no return" and are large. Throws UserError as open_log_reader() does. Requires that the
+/// options state no maximum range.
+MaxRanges max_ranges_of_log(const std::filesystem::path& path, const LogOptions& options);
+
+/// Returns the frames of the log of a file for mapping. `max_ranges` yields the result of
+/// max_ranges_of_log().
 std::unique_ptr<FrameSource> frames_to_map(std::unique_ptr<LogReader> reader, LogFormat format,
                                            const LogOptions& options,
-                                           std::optional<double> look_over_s = std::nullopt);
+                                           const std::function<MaxRanges()>& max_ranges);
+
+/// Returns the frames of a stream for mapping. They wait at most `look_over_s` seconds of the stream while
+/// codes for "no return" and the robot's own body are searched. Sweeps have the direction that options or
+/// scans state.
+std::unique_ptr<FrameSource> frames_to_map(std::unique_ptr<LogReader> reader, LogFormat format,
+                                           const LogOptions& options, double look_over_s);
 
 }  // namespace psi_slam

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "frames/height_slice.h"
 #include "frames/log_reader.h"
 #include "logs/frame_pipeline.h"
 
@@ -20,9 +21,15 @@ std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, co
   return open_bag_log(path, options);
 }
 
+MaxRanges max_ranges_of_log(const std::filesystem::path& path, const LogOptions& options) {
+  const auto log = open_log_reader(path, options);
+  return height_slice(options) ? MaxRanges() : study_max_ranges(*log).max_ranges();
+}
+
 std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const LogOptions& options) {
   check_log_options(options);
-  return frames_to_map(open_log_reader(path, options), detect_log_format(path), options);
+  return frames_to_map(open_log_reader(path, options), detect_log_format(path), options,
+                       [path, options] { return max_ranges_of_log(path, options); });
 }
 
 }  // namespace psi_slam

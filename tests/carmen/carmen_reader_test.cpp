@@ -188,14 +188,13 @@ TEST_F(CarmenReaderTest, uses_parameters_before_and_between_scans) {
   EXPECT_EQ(frames.at(1).scan.robot_T_laser.x, 0.5);
 }
 
-TEST_F(CarmenReaderTest, a_log_that_states_no_maximum_range_has_one_below_its_largest_readings) {
-  const std::string scan = "FLASER 3 81.83 79 1 0 0 0 0 0 0 1 host 1\n";
-  const std::string log = scan + scan + scan;
+TEST_F(CarmenReaderTest, keeps_all_readings_of_a_log_that_states_no_maximum_range) {
+  const std::string log = "FLASER 4 81.83 79 1 1000 0 0 0 0 0 0 1 host 1\n";
   LogOptions options;
   options.field_of_view_rad = M_PI;
   const auto frames = read(log, options);
-  EXPECT_NEAR(frames.at(0).scan.max_range_m, 0.97 * 81.83, 1e-4);
-  EXPECT_THAT(frames.at(0).scan.ranges_m, testing::ElementsAre(INFINITY, 79, 1));
+  EXPECT_EQ(frames.at(0).scan.max_range_m, 0) << "unknown";
+  EXPECT_THAT(frames.at(0).scan.ranges_m, testing::ElementsAre(81.83F, 79, 1, INFINITY));
   EXPECT_EQ(read("PARAM robot_front_laser_max 60 host 1\n" + log, options).at(0).scan.max_range_m, 60);
   options.max_range_m = 70;
   EXPECT_EQ(read(log, options).at(0).scan.max_range_m, 70);

@@ -300,11 +300,37 @@ TEST_F(InputDoctorTest, detects_the_code_for_no_return) {
     log += rest + "\n";
   }
   const LogDiagnosis diagnosis = diagnose_text(log);
-  EXPECT_THAT(warnings_of(diagnosis), testing::Contains("max_range"));
-  EXPECT_EQ(finding_of(diagnosis, "max_range").remedy, "log.max_range_m = 8.00");
-  LogOptions mended;
-  mended.max_range_m = 8.0;
-  EXPECT_THAT(warnings_of(diagnose_text(log, mended)), testing::IsEmpty());
+  EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
+  EXPECT_THAT(finding_of(diagnosis, "no_return_code").sentence, testing::HasSubstr("writes 8.00 m"));
+  EXPECT_NEAR(diagnosis.facts.ranges.max_range_m, 7.995, 1e-6);
+  EXPECT_LT(diagnosis.facts.ranges.return_share(), 1);
+  LogOptions stated;
+  stated.max_range_m = 8.0;
+  EXPECT_EQ(finding_of(diagnose_text(log, stated), "no_return_code").sentence, "");
+  EXPECT_THAT(warnings_of(diagnose_text(log, stated)), testing::IsEmpty());
+  stated.max_range_m = 8.01;
+  const LogDiagnosis overruled = diagnose_text(log, stated);
+  EXPECT_THAT(warnings_of(overruled), testing::ElementsAre("max_range"));
+  EXPECT_EQ(finding_of(overruled, "max_range").sentence,
+            "the laser writes 8.00 m for \"no return\", but log.max_range_m is 8.01 m");
+  EXPECT_EQ(finding_of(overruled, "max_range").remedy, "log.max_range_m = auto");
+  EXPECT_NEAR(overruled.facts.ranges.max_range_m, 8.01, 1e-6);
+}
+
+TEST_F(InputDoctorTest, names_the_code_that_mapping_uses) {
+  SimulatedRun run = round_trips(1);
+  run.put_into = [](std::vector<float>& ranges_m, std::size_t) {
+    for (float& range_m : ranges_m)
+      if (range_m > 6) range_m = 8.18F;
+  };
+  const auto path = folder_.path() / "codes.log";
+  write_file(path, "PARAM robot_front_laser_max 8.19 host 0\n" + carmen_log(run));
+  const auto log = open_log(path);
+  const auto first = log->next();
+  ASSERT_TRUE(first);
+  const LogDiagnosis diagnosis = diagnose(path);
+  EXPECT_EQ(first->scan.max_range_m, diagnosis.facts.ranges.max_range_m);
+  EXPECT_THAT(log->assumptions(), testing::ElementsAre(finding_of(diagnosis, "no_return_code").sentence));
 }
 
 TEST_F(InputDoctorTest, detects_ranges_in_millimetres_or_centimetres) {

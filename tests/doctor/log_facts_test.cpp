@@ -71,23 +71,6 @@ TEST(LogFacts, count_returns_and_empty_scans) {
   EXPECT_FLOAT_EQ(ranges.median_return_m, 1);
 }
 
-TEST(LogFacts, find_the_code_for_no_return) {
-  std::vector<Frame> frames;
-  for (int i = 0; i < 100; ++i) {
-    std::vector<float> ranges_m;
-    for (int k = 0; k < 50; ++k)
-      ranges_m.push_back(0.5F + 0.1F * static_cast<float>(k) + 0.001F * static_cast<float>(i));
-    frames.push_back(frame_at(i, {}, ranges_m));
-  }
-  EXPECT_EQ(facts_of(frames).ranges.readings_at_ceiling, 0U) << "fewer readings at long range do not pile up";
-  for (Frame& frame : frames) frame.scan.ranges_m[7] = 8.0F;
-  frames[3].scan.ranges_m[9] = 8.05F;
-  const RangeFacts ranges = facts_of(frames).ranges;
-  EXPECT_EQ(ranges.readings_at_ceiling, 101U);
-  EXPECT_FLOAT_EQ(ranges.ceiling_m, 8.0F);
-  EXPECT_FLOAT_EQ(ranges.largest_reading_m, 8.05F);
-}
-
 TEST(LogFacts, count_scans_of_another_shape) {
   const LogFacts facts = facts_of({frame_at(0), frame_at(1), frame_at(2, {}, {1, 2})});
   EXPECT_EQ(facts.scans, 3U);

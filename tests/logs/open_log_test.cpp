@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/open_log.h"
 
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bag_files.h"
 #include "log_files.h"
+#include "rawlog_files.h"
 #include "shared_logs.h"
+#include "simulated_run.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {
 namespace {
+
+using mrpt::math::TPose2D;
 
 std::string small_carmen_log(int scans) {
   std::string log = "# a comment\n";
@@ -111,6 +121,88 @@ TEST(OpenLog, yields_the_scans_before_the_end_of_a_truncated_gzip_file) {
             }),
             path.string() + " is cut off: its compressed data are incomplete. Fetch it again");
   EXPECT_GT(scans, 50U);
+}
+
+/// A log of a laser that is stated to see 8.19 m, and writes 8.18 m for each reading of more than 6 m.
+struct LogWithCodes {
+  static constexpr float kCode_m = 8.18F;
+
+  LogWithCodes() {
+    const SimulatedRun run = round_trips(1);
+    for (std::size_t i = 0; i < 250; ++i) {
+      const TimeUs time_us = 1'600'000'000'000'000 + static_cast<TimeUs>(200'000 * i);
+      const TPose2D& pose = run.odometry[i];
+      RecordedPose wheels{"/odom", time_us, "odom", "base_link", {pose.x, pose.y, 0, pose.phi, 0, 0}};
+      RecordedScan scan;
+      scan.time_us = time_us;
+      scan.angle_min_rad = run.bearings_rad.front();
+      scan.angle_increment_rad = run.bearings_rad[1] - run.bearings_rad[0];
+      scan.range_max_m = 8.19F;
+      scan.ranges_m = run.ranges_m(i);
+      for (float& range_m : scan.ranges_m) {
+        if (range_m <= 6) continue;
+        range_m = kCode_m;
+        ++codes;
+      }
+      auto observation = range_scan(time_us, "LASER", scan.ranges_m);
+      observation->maxRange = scan.range_max_m;
+      objects.push_back(observation);
+      objects.push_back(odometry(time_us, mrpt::poses::CPose2D(pose)));
+      recording.emplace_back(wheels);
+      recording.emplace_back(scan);
+    }
+  }
+
+  Recording recording{static_mount()};
+  RawlogObjects objects;
+  std::ptrdiff_t codes = 0;  // number of readings
+};
+
+TEST(OpenLog, codes_for_no_return_are_no_returns_in_logs_of_each_format) {
+  const TemporaryFolder folder;
+  const LogWithCodes log;
+  const auto path = [&](const char* name) { return folder.path() / name; };
+  write_carmen(path("a.log"), log.recording);
+  write_mcap(path("a.mcap"), log.recording);
+  write_db3(path("a.db3"), log.recording);
+  write_rawlog(path("a.rawlog"), log.objects);
+  for (const char* name : {"a.log", "a.mcap", "a.db3", "a.rawlog"}) {
+    SCOPED_TRACE(name);
+    std::ptrdiff_t no_returns = 0;
+    const auto source = open_log(path(name));
+    const std::vector<Frame> frames = all_frames(*source);
+    EXPECT_GE(frames.size(), 249U);
+    for (const Frame& frame : frames) {
+      EXPECT_EQ(frame.scan.max_range_m, 8.175F);
+      no_returns += std::count(frame.scan.ranges_m.begin(), frame.scan.ranges_m.end(), HUGE_VALF);
+    }
+    EXPECT_GT(no_returns, log.codes * 9 / 10);
+    EXPECT_LE(no_returns, log.codes);
+    EXPECT_THAT(source->assumptions(), testing::Contains(testing::HasSubstr("writes 8.18 m")));
+    LogOptions options;
+    options.max_range_m = 8.19;
+    const auto overruled = open_log(path(name), options);
+    const auto frame = overruled->next();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->scan.max_range_m, 8.19F);
+    EXPECT_THAT(frame->scan.ranges_m, testing::Contains(LogWithCodes::kCode_m));
+    EXPECT_THAT(overruled->assumptions(), testing::Not(testing::Contains(testing::HasSubstr("writes"))));
+  }
+}
+
+TEST(OpenLog, the_maximum_range_of_a_log_that_states_none_is_50_m_or_a_longer_code) {
+  const TemporaryFolder folder;
+  SimulatedRun run = round_trips(1);
+  write_file(folder.path() / "short", carmen_log(run));
+  run.put_into = [](std::vector<float>& ranges_m, std::size_t) {
+    for (float& range_m : ranges_m)
+      if (range_m > 6) range_m = 81.91F;
+  };
+  write_file(folder.path() / "long", carmen_log(run));
+  EXPECT_EQ(frames_of(folder.path() / "short").front().scan.max_range_m, 50);
+  const auto source = open_log(folder.path() / "long");
+  EXPECT_EQ(source->next()->scan.max_range_m, 81.905F);
+  EXPECT_THAT(source->assumptions(), testing::IsEmpty());
 }
 
 }  // namespace

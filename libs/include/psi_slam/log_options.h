@@ -44,8 +44,9 @@ struct LogOptions {
   /// for the number of beams.
   std::optional<double> field_of_view_rad;
 
-  /// Maximum range, metres: readings at or beyond it are no returns. Default: as the log states, otherwise
-  /// `kUnstatedMaxRange_m`. Longer readings of a CARMEN log raise this default, see carmen_lasers.h.
+  /// Maximum range, metres: readings at or beyond it are no returns. Default: the smallest code that the laser
+  /// writes for "no return", if the readings show one; otherwise as the log states, otherwise
+  /// `kUnstatedMaxRange_m`.
   std::optional<double> max_range_m;
 
   /// Minimum range, metres: readings below it are invalid. Use it if the laser sees the robot's own bumper.
@@ -125,7 +126,7 @@ struct LogOptions {
   std::size_t every_nth_scan = 1;
 };
 
-/// Maximum range, metres, for logs that state none; longer readings of CARMEN logs raise it.
+/// Maximum range, metres, for logs that state none and show no code for "no return".
 inline constexpr double kUnstatedMaxRange_m = 50.0;
 
 /// Checks the options. Throws UserError that names the first option with an invalid value.

@@ -31,8 +31,8 @@ void describe_log(OptionTable& table, Settings& settings) {
           "Field of view of the laser. auto: the log's value, or the usual one for its number of beams.")
       .optional_number(
           "max_range_m", log.max_range_m, above(0), "m",
-          "Readings at or beyond this range count as no return. auto: the code that the laser writes for no "
-          "return, as the readings show it, otherwise the log's value, or 50 m. State the range of the laser "
+          "Readings at or beyond this range count as no return. auto: the code for no return that the "
+          "readings show, otherwise the log's value, or 50 m. State the range of the laser "
           "if far walls are missing, or if the map shows fans of free space beyond the walls.")
       .number("min_range_m", log.min_range_m, at_least(0), "m",
               "Readings below this range are ignored. Raise it if the laser sees the robot itself.")

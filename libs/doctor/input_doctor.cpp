@@ -26,9 +26,10 @@ struct FirstPass {
   std::vector<float> bearings_rad;  // bearings of the first scan
 };
 
-/// Maximum range of the first laser by its readings.
+/// Maximum range of the first laser by its readings. If the user states one, all readings are studied, so
+/// that a code between the log's maximum and the user's is found, too.
 MaxRange study_max_range(const std::filesystem::path& path, LogOptions options) {
-  options.max_range_m.reset();
+  if (options.max_range_m) options.max_range_m = std::numeric_limits<double>::infinity();
   const MaxRanges found = max_ranges_of_log(path, options);
   return found.empty() ? MaxRange() : found.begin()->second;
 }

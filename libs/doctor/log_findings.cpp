@@ -128,7 +128,7 @@ class Judge {
     const std::optional<double> stated_m = diagnosis_.options.max_range_m;
     if (found.code_m == 0) return;
     if (!stated_m) {
-      note("no_return_code", sentence_of(found));
+      if (found.is_surprise) note("no_return_code", sentence_of(found));
     } else if (*stated_m > found.code_m) {
       warn("max_range",
            "the laser writes " + fixed(found.code_m, 2) + " m for \"no return\", but log.max_range_m is " +

@@ -36,9 +36,7 @@ void MaxRangeSource::learn(const LaserScan& scan) {
     --learned_ahead_;
     return;
   }
-  const std::size_t views = study_.views();
-  study_.add(scan);
-  if (study_.views() != views) max_ranges_ = study_.max_ranges();
+  study_.learn(scan, max_ranges_);
 }
 
 std::optional<Frame> MaxRangeSource::next() {
@@ -53,7 +51,7 @@ std::optional<Frame> MaxRangeSource::next() {
 std::vector<std::string> MaxRangeSource::assumptions() const {
   std::vector<std::string> assumptions = source_.assumptions();
   for (const auto& [laser, max_range] : max_ranges_)
-    if (max_range.code_m > 0) assumptions.push_back(sentence_of(max_range));
+    if (max_range.is_surprise) assumptions.push_back(sentence_of(max_range));
   return assumptions;
 }
 

@@ -91,14 +91,21 @@ std::optional<std::size_t> MaxRangeStudy::smallest_code_before(const std::vector
 MaxRange MaxRangeStudy::max_range_of(const Laser& laser) {
   const bool states_maximum = laser.stated_max_range_m > 0;
   const double default_m = states_maximum ? laser.stated_max_range_m : kUnstatedMaxRange_m;
-  MaxRange found{laser.robot_T_laser, default_m, laser.stated_max_range_m, 0};
+  MaxRange found{laser.robot_T_laser, default_m, laser.stated_max_range_m, 0, false};
   auto code = smallest_code_before(laser.cells, laser.cells.size());
   if (!code && !states_maximum) code = smallest_code_before(laser.cells, cell_of(kUnstatedMaxRange_m));
   if (!code) return found;
   const double code_m = static_cast<double>(*code) / 100;
-  if (states_maximum || code_m < kUnstatedMaxRange_m) found.code_m = code_m;
+  found.code_m = code_m;
+  found.is_surprise = states_maximum || code_m < kUnstatedMaxRange_m;
   if (states_maximum || code_m != kUnstatedMaxRange_m) found.max_range_m = code_m - 0.005;  // of its cell
   return found;
+}
+
+void MaxRangeStudy::learn(const LaserScan& scan, MaxRanges& max_ranges) {
+  const std::size_t before = views_;
+  add(scan);
+  if (views_ != before) max_ranges = this->max_ranges();
 }
 
 MaxRanges MaxRangeStudy::max_ranges() const {

@@ -31,7 +31,8 @@ struct MaxRange {
   mrpt::math::TPose2D robot_T_laser;
   double max_range_m = kUnstatedMaxRange_m;  ///< readings of at least this range are no returns
   double stated_max_range_m = 0;             ///< as the log states; 0 if it states none
-  double code_m = 0;  ///< code for "no return" below the stated maximum, or below 50 m; 0: none
+  double code_m = 0;                         ///< smallest code for "no return"; 0: none
+  bool is_surprise = false;  ///< whether the code is below the stated maximum, or else below 50 m
 };
 
 /// Maximum range of each laser, by its number (LaserScan::laser).
@@ -45,6 +46,9 @@ class MaxRangeStudy {
   /// Takes a scan as a LogReader yields it: readings beyond the stated maximum are infinite, and
   /// LaserScan::max_range_m is 0 if the log states no maximum. Call it in the order of the log.
   void add(const LaserScan& scan);
+
+  /// Adds a scan, and brings `max_ranges`, those of this study, up to date.
+  void learn(const LaserScan& scan, MaxRanges& max_ranges);
 
   /// Number of views of all lasers. The maximum ranges change only if this number does.
   std::size_t views() const { return views_; }

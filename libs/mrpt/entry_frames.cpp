@@ -11,7 +11,8 @@ namespace psi_slam {
 EntryFrames::EntryFrames(const LogOptions& options, std::string speaker)
     : speaker_(std::move(speaker)),
       scans_(options),
-      several_lasers_(reads_several_lasers(options, LogFormat::kMrptRawlog)) {
+      several_lasers_(reads_several_lasers(options, LogFormat::kMrptRawlog)),
+      learns_max_ranges_(!options.max_range_m) {
   check_log_options(options);
   if (options.calibrate || options.odometry_scale || !stated_delays(options).empty())
     throw UserError(speaker_ +
@@ -32,14 +33,22 @@ void EntryFrames::take(const mrpt::obs::CObservation& observation) {
   scans_.take(observation, speaker_ + ": observation " + std::to_string(++observations_));
 }
 
+std::optional<Frame> EntryFrames::next_scan() {
+  std::optional<Frame> frame = scans_.next();
+  if (!frame || !learns_max_ranges_) return frame;
+  study_.learn(frame->scan, max_ranges_);
+  apply_max_range(max_ranges_, frame->scan);
+  return frame;
+}
+
 std::optional<Frame> EntryFrames::next() {
   std::optional<Frame> frame;
   if (several_lasers_) {
-    while (auto scan = scans_.next()) synchronizer_.add(*std::move(scan));
+    while (auto scan = next_scan()) synchronizer_.add(*std::move(scan));
     if (ended_) synchronizer_.end_of_log();
     frame = synchronizer_.take();
   } else {
-    frame = scans_.next();
+    frame = next_scan();
   }
   if (!frame) return std::nullopt;
   opened_by_ = frame->index;

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "frames/max_range_study.h"
 #include "frames/scan_synchronizer.h"
 #include "observations/observation_frames.h"
 
@@ -12,7 +13,8 @@ namespace psi_slam {
 
 /// Makes frames from the entries that MRPT's programs pass on: an action with a sensory frame, or a single
 /// observation. A frame holds the scan of one laser, or the scans of several lasers combined by
-/// ScanSynchronizer.
+/// ScanSynchronizer. Without log.max_range_m, codes for "no return" are learned from the scans taken so far,
+/// see MaxRangeStudy.
 class EntryFrames {
  public:
   /// Prepares to read the lasers that `options` choose. Error messages start with `speaker`. Throws UserError
@@ -43,10 +45,14 @@ class EntryFrames {
 
  private:
   void take(const mrpt::obs::CObservation& observation);
+  std::optional<Frame> next_scan();
 
   std::string speaker_;
   ObservationFrames scans_;
   bool several_lasers_;
+  bool learns_max_ranges_;
+  MaxRangeStudy study_;
+  MaxRanges max_ranges_;
   ScanSynchronizer synchronizer_;
   bool ended_ = false;
   std::size_t actions_ = 0;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "frames/max_range_study.h"
 #include "frames/pose_operations.h"
 #include "local_maps/local_map.h"
 #include "loop_closure/keyframe_store.h"
@@ -41,6 +42,12 @@ mrpt::maps::COccupancyGridMap2D drawn(const mrpt::maps::CSimpleMap& map, const L
       frames.push_back(std::move(frame));
       poses.push_back(mrpt::poses::CPose2D(keyframe.pose->getMeanVal()).asTPose());
     }
+  }
+  if (!log.max_range_m) {
+    MaxRangeStudy study;
+    for (const Frame& frame : frames) study.add(frame.scan);
+    const MaxRanges max_ranges = study.max_ranges();
+    for (Frame& frame : frames) apply_max_range(max_ranges, frame.scan);
   }
   mrpt::maps::COccupancyGridMap2D grid = *draw_grid_map(frames, poses, options);
   const auto& cells = grid.getRawMap();

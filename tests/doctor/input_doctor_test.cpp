@@ -279,10 +279,10 @@ TEST_F(InputDoctorTest, reports_a_second_pose) {
               testing::StartsWith("1 scan has a second pose"));
 }
 
-TEST_F(InputDoctorTest, detects_the_code_for_no_return) {
-  SimulatedRun run = round_trips(1);
+/// A CARMEN log that states no maximum range, with `code` for all readings beyond 6 m.
+std::string log_with_code(const std::string& code) {
   std::string log;
-  std::istringstream lines(carmen_log(run));
+  std::istringstream lines(carmen_log(round_trips(1)));
   for (std::string line; std::getline(lines, line);) {
     std::istringstream fields(line);
     std::string message;
@@ -293,12 +293,17 @@ TEST_F(InputDoctorTest, detects_the_code_for_no_return) {
     for (std::size_t i = 0; i < readings; ++i) {
       double range = 0;
       fields >> range;
-      log += " " + std::to_string(range > 6 ? 8.0 : range);
+      log += " " + (range > 6 ? code : std::to_string(range));
     }
     std::string rest;
     std::getline(fields, rest);
     log += rest + "\n";
   }
+  return log;
+}
+
+TEST_F(InputDoctorTest, detects_the_code_for_no_return) {
+  const std::string log = log_with_code("8.000000");
   const LogDiagnosis diagnosis = diagnose_text(log);
   EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
   EXPECT_THAT(finding_of(diagnosis, "no_return_code").sentence, testing::HasSubstr("writes 8.00 m"));
@@ -315,6 +320,19 @@ TEST_F(InputDoctorTest, detects_the_code_for_no_return) {
             "the laser writes 8.00 m for \"no return\", but log.max_range_m is 8.01 m");
   EXPECT_EQ(finding_of(overruled, "max_range").remedy, "log.max_range_m = auto");
   EXPECT_NEAR(overruled.facts.ranges.max_range_m, 8.01, 1e-6);
+}
+
+// The log states no maximum, so a code of 50 m or more surprises nobody, but the user's maximum lets it pass.
+TEST_F(InputDoctorTest, warns_of_a_stated_maximum_beyond_a_code_of_50_m_or_more) {
+  const std::string log = log_with_code("81.910000");
+  EXPECT_EQ(finding_of(diagnose_text(log), "no_return_code").sentence, "");
+  EXPECT_NEAR(diagnose_text(log).max_range.code_m, 81.91, 1e-6);
+  LogOptions stated;
+  stated.max_range_m = 100;
+  EXPECT_EQ(finding_of(diagnose_text(log, stated), "max_range").sentence,
+            "the laser writes 81.91 m for \"no return\", but log.max_range_m is 100.00 m");
+  stated.max_range_m = 80;
+  EXPECT_EQ(finding_of(diagnose_text(log, stated), "max_range").sentence, "");
 }
 
 TEST_F(InputDoctorTest, names_the_code_that_mapping_uses) {

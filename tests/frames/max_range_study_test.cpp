@@ -84,7 +84,9 @@ TEST(MaxRangeStudy, a_log_that_states_no_maximum_has_50_m_or_its_code) {
   EXPECT_EQ(range_in(run, 0, keep).max_range_m, 50);
   EXPECT_EQ(range_in(run, 0, code_beyond_6_m(50)).max_range_m, 50);
   EXPECT_NEAR(range_in(run, 0, code_beyond_6_m(81.83F)).max_range_m, 81.825, 1e-6);
-  EXPECT_EQ(range_in(run, 0, code_beyond_6_m(81.83F)).code_m, 0) << "no code below 50 m";
+  EXPECT_NEAR(range_in(run, 0, code_beyond_6_m(81.83F)).code_m, 81.83, 1e-6);
+  EXPECT_FALSE(range_in(run, 0, code_beyond_6_m(81.83F)).is_surprise) << "no code below 50 m";
+  EXPECT_TRUE(range_in(run, 0, code_beyond_6_m(8.19F)).is_surprise);
   EXPECT_NEAR(range_in(run, 0, code_beyond_6_m(65.535F)).max_range_m, 65.535, 1e-6);
   EXPECT_NEAR(range_in(run, 0, code_beyond_6_m(8.19F)).code_m, 8.19, 1e-6);
   EXPECT_NEAR(range_in(run, 0, code_beyond_6_m(8.19F)).max_range_m, 8.185, 1e-6);

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <vector>
 
 #include "rawlog_files.h"
@@ -45,6 +46,42 @@ TEST(EntryFrames, before_the_first_action_are_at_the_start) {
   entries.take(nullptr, nullptr, range_scan(1'000'000));
   entries.take(movement({1, 0, 0}), sensory_frame({range_scan(2'000'000)}), nullptr);
   EXPECT_THAT(ways_m(entries), ElementsAre(0, 1));
+}
+
+TEST(EntryFrames, have_a_maximum_range_if_the_observations_state_none) {
+  auto scan = range_scan(1'000'000);
+  scan->maxRange = 0;
+  for (std::size_t i = 0; i < scan->getScanSize(); ++i) scan->setScanRange(i, i == 0 ? 60 : 2);
+  EntryFrames entries{LogOptions()};
+  entries.take(movement({1, 0, 0}), sensory_frame({scan}), nullptr);
+  const std::optional<Frame> frame = entries.next();
+  ASSERT_TRUE(frame.has_value());
+  EXPECT_EQ(frame->scan.max_range_m, 50);
+  EXPECT_TRUE(std::isinf(frame->scan.ranges_m.front()));
+  EXPECT_EQ(frame->scan.ranges_m.back(), 2);
+}
+
+// Each scan sees walls at other distances; beams that hit nothing read 8.18 m, though 8.19 m is stated.
+TEST(EntryFrames, learn_the_code_for_no_return) {
+  LogOptions stated;
+  stated.max_range_m = 8.19;
+  EntryFrames entries{LogOptions()};
+  EntryFrames overruled{stated};
+  std::optional<Frame> last;
+  std::optional<Frame> last_overruled;
+  for (int k = 0; k < 40; ++k) {
+    auto scan = range_scan(1'000'000 * (k + 1));
+    scan->maxRange = 8.19F;
+    for (std::size_t i = 0; i < scan->getScanSize(); ++i)
+      scan->setScanRange(i, i % 2 == 0 ? 8.18F : 1 + 0.1F * static_cast<float>((k * 7) % 23));
+    for (EntryFrames* all : {&entries, &overruled})
+      all->take(movement({0.1, 0, 0}), sensory_frame({scan}), nullptr);
+    last = entries.next();
+    last_overruled = overruled.next();
+  }
+  ASSERT_TRUE(last && last_overruled);
+  EXPECT_TRUE(std::isinf(last->scan.ranges_m.front()));
+  EXPECT_NEAR(last_overruled->scan.ranges_m.front(), 8.18F, 1e-6);
 }
 
 TEST(EntryFrames, are_of_one_laser) {

@@ -2,6 +2,8 @@
 #include "verdict/checked_path.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace psi_slam {
 
@@ -12,28 +14,27 @@ double held_share(const std::vector<MapView>& views, const std::vector<PassCheck
     ++begins[first];
     --begins[last + 1];
   };
-  std::vector<std::optional<std::size_t>> first_joint;  // of each run, to another run
-  std::vector<std::size_t> last_joint;
-  const auto join = [&](std::size_t view) {
-    const std::size_t run = views[view].run;
-    if (run >= first_joint.size()) {
-      first_joint.resize(run + 1);
-      last_joint.resize(run + 1);
-    }
-    first_joint[run] = std::min(first_joint[run].value_or(view), view);
-    last_joint[run] = std::max(last_joint[run], view);
+  struct Joints {
+    std::size_t first = 0;
+    std::size_t last = 0;
+  };
+  std::map<std::pair<std::size_t, std::size_t>, Joints> joints;  // of a run with another run
+  const auto join = [&](std::size_t view, std::size_t other) {
+    Joints& of_pair =
+        joints.try_emplace({views[view].run, views[other].run}, Joints{view, view}).first->second;
+    of_pair.first = std::min(of_pair.first, view);
+    of_pair.last = std::max(of_pair.last, view);
   };
   for (const PassCheck& check : checks) {
     if (check.same_pass || check.error_m >= spot_error_m) continue;
     if (views[check.view].run == views[check.other].run) {
       hold(std::min(check.view, check.other), std::max(check.view, check.other));
     } else {
-      join(check.view);
-      join(check.other);
+      join(check.view, check.other);
+      join(check.other, check.view);
     }
   }
-  for (std::size_t run = 0; run < first_joint.size(); ++run)
-    if (first_joint[run]) hold(*first_joint[run], last_joint[run]);
+  for (const auto& [runs, of_pair] : joints) hold(of_pair.first, of_pair.last);
   std::size_t held = 0;
   int parts = 0;
   for (std::size_t view = 0; view < views.size(); ++view) held += (parts += begins[view]) > 0 ? 1 : 0;
@@ -47,9 +48,9 @@ std::vector<UncheckedStretch> unchecked_stretches(const std::vector<MapView>& vi
   std::vector<UncheckedStretch> stretches;
   for (std::size_t first = 0; first < views.size();) {
     std::size_t end = first;
-    std::optional<double> sigma_m;
+    std::optional<double> sigma_m = sigmas_m[first];
     for (; end < views.size() && !errors_m[end] && views[end].run == views[first].run; ++end)
-      sigma_m = std::max(sigma_m, sigmas_m[end]);
+      sigma_m = sigma_m && sigmas_m[end] ? std::optional(std::max(*sigma_m, *sigmas_m[end])) : std::nullopt;
     if (end == first) {
       ++first;
       continue;
@@ -65,9 +66,10 @@ std::vector<UncheckedStretch> unchecked_stretches(const std::vector<MapView>& vi
                          {to.map_T_robot.x, to.map_T_robot.y},
                          sigma_m});
   }
-  std::stable_sort(
-      stretches.begin(), stretches.end(),
-      [](const UncheckedStretch& a, const UncheckedStretch& b) { return a.sigma_m > b.sigma_m; });
+  std::stable_sort(stretches.begin(), stretches.end(),
+                   [](const UncheckedStretch& a, const UncheckedStretch& b) {
+                     return b.sigma_m && (!a.sigma_m || *a.sigma_m > *b.sigma_m);
+                   });
   return stretches;
 }
 

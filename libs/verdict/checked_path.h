@@ -18,7 +18,7 @@
 namespace psi_slam {
 
 /// Returns the share of the views that lie between two views of their run that fit another pass, in [0, 1].
-/// Two views of one run must fit each other; views that fit another run hold the path between the first and
+/// Two views of one run must fit each other; views that fit one other run hold the path between the first and
 /// the last of them. Comparisons fit if their error is below `spot_error_m`. Zero without views.
 double held_share(const std::vector<MapView>& views, const std::vector<PassCheck>& checks,
                   double spot_error_m);
@@ -30,7 +30,7 @@ struct UncheckedStretch {
   double length_m = 0;            ///< path from the first view to the last
   mrpt::math::TPoint2D first_at;  ///< place of the first view in the map, metres
   mrpt::math::TPoint2D last_at;   ///< place of the last view in the map, metres
-  /// Largest standard deviation of the position by the pose graph; empty: unknown.
+  /// Largest standard deviation of the position by the pose graph; empty: that of a view is unknown.
   std::optional<double> sigma_m;
 };
 

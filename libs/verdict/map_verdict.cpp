@@ -78,13 +78,16 @@ class Judge {
   }
 
  private:
-  /// Whether hot spot a comes before b. What scans show comes before what the graph predicts.
+  /// Whether hot spot a comes before b. What scans show comes before what is predicted.
   static bool is_worse(const HotSpot& a, const HotSpot& b) {
     const auto weight = [](const HotSpot& spot) {
       return spot.error_m.value_or(std::numeric_limits<double>::infinity()) * (1 + spot.length_m);
     };
-    const bool a_is_predicted = a.kind == HotSpot::Kind::kUncertain;
-    const bool b_is_predicted = b.kind == HotSpot::Kind::kUncertain;
+    const auto is_predicted = [](const HotSpot& spot) {
+      return spot.kind == HotSpot::Kind::kUncertain || spot.kind == HotSpot::Kind::kOpenDirection;
+    };
+    const bool a_is_predicted = is_predicted(a);
+    const bool b_is_predicted = is_predicted(b);
     return a_is_predicted != b_is_predicted ? b_is_predicted : weight(a) > weight(b);
   }
 

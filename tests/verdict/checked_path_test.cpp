@@ -47,6 +47,26 @@ TEST(CheckedPath, is_held_between_views_that_fit_another_run) {
       << "views 4 to 8 and 12 to 16, not those between the runs";
 }
 
+// Run 0 meets run 1 at its start and run 2 at its end. Nothing closes a cycle, so nothing checks it.
+TEST(CheckedPath, is_not_held_between_views_that_fit_different_runs) {
+  std::vector<MapView> views = straight_views(30);
+  for (std::size_t i = 10; i < 30; ++i) views[i].run = i / 10;
+  const double held = held_share(views, {check_between(12, 0), check_between(25, 9)}, 0.2);
+  EXPECT_DOUBLE_EQ(held, 4.0 / 30) << "single places only";
+}
+
+TEST(CheckedPath, lists_stretches_of_unknown_uncertainty_first) {
+  const std::vector<MapView> views = straight_views(8);
+  std::vector<std::optional<double>> errors_m(8);
+  errors_m[3] = 0.01;
+  std::vector<std::optional<double>> sigmas_m(8, 0.1);
+  sigmas_m[6].reset();
+  const std::vector<UncheckedStretch> stretches = unchecked_stretches(views, errors_m, sigmas_m, 1);
+  ASSERT_EQ(stretches.size(), 2U);
+  EXPECT_EQ(stretches[0].first_frame, 40U);
+  EXPECT_FALSE(stretches[0].sigma_m) << "one of its views is not placed";
+}
+
 TEST(CheckedPath, lists_the_most_uncertain_unchecked_stretch_first) {
   const std::vector<MapView> views = straight_views(12);
   std::vector<std::optional<double>> errors_m(12);

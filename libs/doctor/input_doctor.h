@@ -38,7 +38,7 @@ struct Finding {
 struct LogDiagnosis {
   std::filesystem::path path;
   LogFacts facts;
-  MaxRange max_range;                               ///< by the readings, without regard to the options
+  MaxRange max_range;                               ///< by the readings; a maximum in `options` does not limit it
   SweepDirectionStudy sweep_direction;              ///< without scans if no sweep time is stated
   LogOptions options;                               ///< options used to read the log
   std::string laser;                                ///< laser that is judged; see SingleLaser::name

@@ -114,13 +114,13 @@ MaxRanges MaxRangeStudy::max_ranges() const {
   return all;
 }
 
-MaxRangeStudy study_max_ranges(FrameSource& log) {
+MaxRanges study_max_ranges(FrameSource& log) {
   MaxRangeStudy study;
   try {
     while (const std::optional<Frame> frame = log.next()) study.add(frame->scan);
   } catch (const UserError&) {  // damage is reported where the log is mapped or checked
   }
-  return study;
+  return study.max_ranges();
 }
 
 void apply_max_range(const MaxRanges& max_ranges, LaserScan& scan) {

@@ -79,8 +79,8 @@ class MaxRangeStudy {
   std::size_t views_ = 0;
 };
 
-/// Studies a whole log. Ends without an error where the log is damaged.
-MaxRangeStudy study_max_ranges(FrameSource& log);
+/// Returns the maximum ranges by a study of a whole log. Ends without an error where the log is damaged.
+MaxRanges study_max_ranges(FrameSource& log);
 
 /// Applies the maximum range of its laser to a scan. Leaves a scan unchanged if its log states a maximum and
 /// the laser has no code below it.

@@ -18,8 +18,8 @@ namespace psi_slam {
 void check_options_for(LogFormat format, const std::string& log, const LogOptions& options);
 
 /// Maximum ranges of the lasers of a log by the readings of the whole log. Reads no point clouds, which hold
-/// no codes for "no return" and are large. Throws UserError as open_log_reader() does. Requires that the
-/// options state no maximum range.
+/// no codes for "no return" and are large. Throws UserError as open_log_reader() does. A maximum range that
+/// the options state replaces that of the log: readings beyond it are not studied.
 MaxRanges max_ranges_of_log(const std::filesystem::path& path, const LogOptions& options);
 
 /// Returns the frames of the log of a file for mapping. `max_ranges` yields the result of

@@ -23,7 +23,7 @@ std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, co
 
 MaxRanges max_ranges_of_log(const std::filesystem::path& path, const LogOptions& options) {
   const auto log = open_log_reader(path, options);
-  return height_slice(options) ? MaxRanges() : study_max_ranges(*log).max_ranges();
+  return height_slice(options) ? MaxRanges() : study_max_ranges(*log);
 }
 
 std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const LogOptions& options) {

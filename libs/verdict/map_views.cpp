@@ -53,9 +53,11 @@ std::optional<MapView> view_of_frame(const MappingResult& result, std::size_t fr
   view.frame = frame;
   view.map_T_robot = result.frames[frame].map_T_robot;
   view.scan = &scanned.scan;
-  view.surfaces = evenly_chosen(surface_points(matching_points(scanned.scan, filter)), options.max_points);
-  view.open_direction =
-      open_direction(evenly_chosen(surface_points(matching_points(scanned, filter)), options.max_points));
+  const auto chosen_surfaces = [&](const auto& seen) {
+    return evenly_chosen(surface_points(matching_points(seen, filter)), options.max_points);
+  };
+  view.surfaces = chosen_surfaces(scanned.scan);
+  view.open_direction = open_direction(scanned.companions.empty() ? view.surfaces : chosen_surfaces(scanned));
   return view;
 }
 

@@ -66,7 +66,7 @@ TEST(MaxRangeSource, a_late_code_of_a_file_is_no_return_from_the_first_scan) {
   std::size_t studies = 0;
   MaxRangeSource source(in_memory(frames), [&] {
     ++studies;
-    return study_max_ranges(*in_memory(frames)).max_ranges();
+    return study_max_ranges(*in_memory(frames));
   });
   EXPECT_EQ(studies, 0U) << "opening a log takes no time";
   EXPECT_EQ(frames_with_code_in(source, frames), 0U);

@@ -104,6 +104,11 @@ std::string proposal(const std::vector<OptionSection>& sections, const OptionSec
   return "";
 }
 
+// Returns the file of a place such as "my.ini:12".
+std::string file_of(std::string_view where) {
+  return std::string(where.substr(0, where.rfind(':')));
+}
+
 }  // namespace
 
 bool NumberRange::contains(double value) const {
@@ -236,6 +241,12 @@ OptionTable& OptionTable::alias(std::string old_name, std::string new_name) {
   return *this;
 }
 
+OptionTable& OptionTable::obsolete(std::string name) {
+  if (knows(name)) throw std::logic_error("obsolete option " + name + " is in use");
+  obsolete_.insert(std::move(name));
+  return *this;
+}
+
 std::string OptionTable::current_name(std::string_view name) const {
   if (const auto renamed = aliases_.find(name); renamed != aliases_.end()) return renamed->second;
   const auto [section, key] = parts(name);
@@ -278,6 +289,7 @@ const Option& OptionTable::option(std::string_view name, std::string_view where)
 }
 
 void OptionTable::check(std::string_view name, std::string_view text, std::string_view where) const {
+  if (obsolete_.count(name) > 0) return;
   const Option& target = option(name, where);
   if (target.accepts(text)) return;
   throw UserError(std::string(where) + ": " + target.name() + " = " + quotable(text) + ": expected " +
@@ -286,6 +298,12 @@ void OptionTable::check(std::string_view name, std::string_view text, std::strin
 
 void OptionTable::set(std::string_view name, std::string_view text, std::string_view where) {
   check(name, text, where);
+  if (obsolete_.count(name) > 0) {
+    ObsoleteOptions& found = obsolete_of_[file_of(where)];
+    if (found.names.empty()) found.where = where;
+    found.names.emplace_back(name);
+    return;
+  }
   const Option& target = option(name, where);
   target.assign(text);
   if (target.name() != name) warn_of_old_name(name, target.name(), where);
@@ -302,12 +320,20 @@ void OptionTable::warn_of_old_name(std::string_view old_name, const std::string&
         ']';
   else
     sentence.append("option ").append(old_name).append(" was renamed; write ").append(new_name);
-  if (warned_.insert(std::string(where.substr(0, where.rfind(':'))) + sentence).second)
-    warnings_.push_back(std::string(where) + sentence);
+  if (warned_.insert(file_of(where) + sentence).second) warnings_.push_back(std::string(where) + sentence);
 }
 
 std::vector<std::string> OptionTable::take_warnings() {
   warned_.clear();
+  for (auto& [file, found] : std::exchange(obsolete_of_, {})) {
+    std::sort(found.names.begin(), found.names.end());
+    found.names.erase(std::unique(found.names.begin(), found.names.end()), found.names.end());
+    std::string names;
+    for (const std::string& name : found.names) names += (names.empty() ? "" : ", ") + name;
+    warnings_.push_back(found.where + ": " + names +
+                        (found.names.size() == 1 ? " has no effect any more; remove it"
+                                                 : " have no effect any more; remove them"));
+  }
   return std::exchange(warnings_, {});
 }
 

@@ -134,6 +134,10 @@ class OptionTable {
   /// the old name is in use.
   OptionTable& alias(std::string old_name, std::string new_name);
 
+  /// Makes the table accept an option, "section.key", that exists no more. Its values have no effect, and
+  /// set() adds a warning. Throws std::logic_error if the name is in use.
+  OptionTable& obsolete(std::string name);
+
   const std::vector<OptionSection>& sections() const { return sections_; }
 
   /// Current name of the option that is or was called `name`. Returns an unknown name unchanged.
@@ -149,7 +153,8 @@ class OptionTable {
   /// Throws UserError that begins with `where` unless a section is or was called `name`.
   void require_section(std::string_view name, std::string_view where) const;
 
-  /// Throws UserError that begins with `where` if the option is unknown or does not accept the text.
+  /// Throws UserError that begins with `where` if the option is unknown or does not accept the text. An
+  /// obsolete option accepts any text.
   void check(std::string_view name, std::string_view text, std::string_view where) const;
 
   /// Sets an option to the value of the text. Adds a warning if `name` is an old name. Throws UserError as
@@ -158,7 +163,7 @@ class OptionTable {
 
   /// Returns the warnings since the last call and clears them. Each file gets one warning, a sentence without
   /// full stop, for each old name that set() received from it: "my.ini:12: section [last_pass] was renamed;
-  /// write [final_search]".
+  /// write [final_search]". All obsolete options of a file share one warning.
   std::vector<std::string> take_warnings();
 
  private:
@@ -173,6 +178,12 @@ class OptionTable {
   std::vector<OptionSection> sections_;
   /// Maps old names to new names; names of sections have no dot.
   std::map<std::string, std::string, std::less<>> aliases_;
+  std::set<std::string, std::less<>> obsolete_;
+  struct ObsoleteOptions {
+    std::string where;  ///< place of the first one
+    std::vector<std::string> names;
+  };
+  std::map<std::string, ObsoleteOptions> obsolete_of_;  ///< those that set() received, by file
   std::vector<std::string> warnings_;
   std::set<std::string> warned_;  ///< warnings without line numbers, to warn once per file
 };

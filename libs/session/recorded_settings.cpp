@@ -35,16 +35,17 @@ std::vector<ChangedSetting> changed_settings(const std::map<std::string, std::st
 
 std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts& facts,
                                        const std::filesystem::path& file) {
-  std::vector<std::string> unknown;
+  std::string obsolete;
   for (const IniValue& value : parse_ini(facts.settings, file).values) {
     const std::string name = value.section + '.' + value.key;
     if (bound.table.knows(name))
       bound.table.set(name, value.text, value.where);
     else
-      unknown.push_back(file.string() + ": " + name + " is obsolete and is ignored");
+      obsolete += (obsolete.empty() ? "" : ", ") + name;
   }
   bound.table.take_warnings();  // drops warnings about old names, which users cannot edit in a session
-  return unknown;
+  if (obsolete.empty()) return {};
+  return {file.string() + ": ignores obsolete options: " + obsolete};
 }
 
 std::optional<std::string> other_version_text(const std::filesystem::path& file, const SessionFacts& facts) {

@@ -15,8 +15,8 @@
 namespace psi_slam {
 
 /// Takes all settings of a recording that was read from `file`. Ignores obsolete options and returns a
-/// warning for each, a sentence without full stop. Accepts old names of options without warning. Throws
-/// UserError for a value that is not accepted.
+/// warning that names them, a sentence without full stop; empty without obsolete options. Accepts old names
+/// of options without warning. Throws UserError for a value that is not accepted.
 std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts& facts,
                                        const std::filesystem::path& file);
 

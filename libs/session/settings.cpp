@@ -225,6 +225,48 @@ void require_at_most(const Named& smaller, const Named& larger) {
     throw UserError(smaller.words() + " must not be more than " + larger.words());
 }
 
+// Options that once set numbers of the method. A settings file that still has them is accepted.
+constexpr const char* kObsoleteOptions[] = {"front_end.refine_max_iterations",
+                                            "front_end.refine_converged_step_m",
+                                            "front_end.refine_max_shift_m",
+                                            "front_end.prior_sigma_m",
+                                            "front_end.prior_sigma_theta_deg",
+                                            "front_end.prior_per_metre",
+                                            "front_end.prior_theta_per_turn",
+                                            "front_end.prior_per_surprise",
+                                            "front_end.prediction_share",
+                                            "front_end.odometry_sigma_m",
+                                            "front_end.odometry_sigma_per_metre",
+                                            "front_end.odometry_sigma_per_radian",
+                                            "front_end.odometry_sigma_theta_deg",
+                                            "front_end.odometry_sigma_theta_per_metre_deg",
+                                            "front_end.odometry_sigma_theta_per_radian_deg",
+                                            "loop_closure.refine_max_iterations",
+                                            "loop_closure.refine_converged_step_m",
+                                            "loop_closure.refine_max_shift_m",
+                                            "consensus.same_place_m",
+                                            "consensus.same_heading_deg",
+                                            "consensus.min_weight",
+                                            "pose_graph.local_map_kernel",
+                                            "pose_graph.local_map_kernel_width",
+                                            "pose_graph.loop_kernel",
+                                            "pose_graph.loop_kernel_width",
+                                            "pose_graph.relative_tolerance",
+                                            "pose_graph.absolute_tolerance",
+                                            "pose_graph.initial_lambda",
+                                            "joint_refinement.references",
+                                            "joint_refinement.reach_m",
+                                            "joint_refinement.max_turn_deg",
+                                            "joint_refinement.neighbours",
+                                            "joint_refinement.max_distance_m",
+                                            "joint_refinement.max_normal_turn_deg",
+                                            "joint_refinement.kernel_m",
+                                            "joint_refinement.prior_sigma_m",
+                                            "joint_refinement.prior_sigma_theta_deg",
+                                            "joint_refinement.iterations",
+                                            "joint_refinement.search_again_m",
+                                            "joint_refinement.min_points"};
+
 }  // namespace
 
 void describe(OptionTable& table, Settings& settings) {
@@ -242,6 +284,7 @@ void describe(OptionTable& table, Settings& settings) {
       .alias("front_end.max_strain_m", "front_end.max_doubtful_correction_m")
       .alias("front_end.strain_travel_m", "front_end.doubtful_correction_travel_m")
       .alias("consensus.max_rival_share", "consensus.max_other_place_share");
+  for (const char* name : kObsoleteOptions) table.obsolete(name);
 }
 
 void BoundSettings::load(const std::filesystem::path& config, const std::vector<std::string>& assignments) {

@@ -14,18 +14,10 @@ std::vector<std::pair<std::string, Choice>> matcher_choices() {
 
 /// Describes the options refine_* and adds them to the current section of the table.
 void describe_refinement(OptionTable& table, RefinementOptions& refinement) {
-  table
-      .integer("refine_max_iterations", refinement.max_iterations, between(0, 1000), "iterations",
-               "Largest number of Levenberg-Marquardt iterations that refine a match below the cell size. 0 "
-               "keeps the best pose of the grid search.")
-      .number("refine_score_sigma", refinement.score_sigma, between(0.0001, 100), "",
-              "Standard deviation of a point's score in the refinement of a match. A larger value trusts the "
-              "scan less.")
-      .number("refine_converged_step_m", refinement.converged_step_m, above(0).at_most(1), "m",
-              "The refinement of a match ends when its step is shorter than this.")
-      .number(
-          "refine_max_shift_m", refinement.max_shift_m, above(0).at_most(10), "m",
-          "A refinement that moves the match farther than this has reached another peak and is discarded.");
+  table.number(
+      "refine_score_sigma", refinement.score_sigma, between(0.0001, 100), "",
+      "Standard deviation of a point's score in the refinement of a match. A larger value trusts the "
+      "scan less.");
 }
 
 void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
@@ -82,26 +74,9 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
           "it.")
       .number("known_speed_s", front_end.constant_velocity.longest_s, at_least(0), "s",
               "Without odometry: after this time without a match, the robot's speed counts as unknown.")
-      .number("prior_sigma_m", front_end.prior_sigma_m, above(0).at_most(100), "m",
-              "Standard deviation of the predicted position. The prediction fixes the pose where the scan "
-              "does not, as along a corridor.")
-      .angle_deg("prior_sigma_theta_deg", front_end.prior_sigma_rad, above(0).at_most(180),
-                 "Standard deviation of the predicted heading. The prediction fixes the heading where the "
-                 "scan does not.")
-      .number("prior_per_metre", front_end.prior_per_metre, at_least(0).at_most(100), "",
-              "Metres added to prior_sigma_m for each metre that the robot moved since the last scan.")
-      .number(
-          "prior_theta_per_turn", front_end.prior_per_radian, at_least(0).at_most(100), "",
-          "Degrees added to prior_sigma_theta_deg for each degree that the robot turned since the last scan.")
-      .number("prior_per_surprise", front_end.prior_per_surprise, at_least(0).at_most(100), "",
-              "Growth of prior_sigma_m and prior_sigma_theta_deg for each metre or degree by which odometry "
-              "differs from the robot's last motion.")
       .flag("along_walls", front_end.along_walls,
             "Lets no point of a wall hold the robot along the wall while odometry says that it moves. Keeps "
             "the length of bare corridors.")
-      .number("prediction_share", front_end.prediction_share, between(0, 1), "",
-              "The refined prediction is preferred to the searched pose if it reaches this share of its "
-              "response.")
       .number("held_share", front_end.held_share, between(0, 1), "",
               "A correction is doubtful if the pose predicted by odometry reaches this share of the matched "
               "pose's response.")
@@ -115,25 +90,6 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
           "larger for odometry with larger errors, and for scans far apart.")
       .number("doubtful_correction_travel_m", front_end.doubtful_corrections.travel_m, above(0).at_most(1000),
               "m", "Travel over which the sum of doubtful corrections decays to 37 %.")
-      .number(
-          "odometry_sigma_m", front_end.odometry_sigma_m, at_least(0).at_most(10), "m",
-          "Standard deviation of odometry's position after one second at rest. It grows with the square root "
-          "of the time and enters the covariance of the poses.")
-      .number(
-          "odometry_sigma_per_metre", front_end.odometry_sigma_per_metre, at_least(0).at_most(10), "m",
-          "Standard deviation of odometry's position after one metre. It grows with the square root of the "
-          "path.")
-      .number(
-          "odometry_sigma_per_radian", front_end.odometry_sigma_per_radian, at_least(0).at_most(10), "m",
-          "Standard deviation of odometry's position after a turn of one radian. It grows with the square "
-          "root of the turns.")
-      .angle_deg("odometry_sigma_theta_deg", front_end.odometry_sigma_rad, at_least(0).at_most(180),
-                 "Standard deviation of odometry's heading after one second at rest.")
-      .angle_deg("odometry_sigma_theta_per_metre_deg", front_end.odometry_sigma_rad_per_metre,
-                 at_least(0).at_most(180), "Standard deviation of odometry's heading after one metre.")
-      .angle_deg("odometry_sigma_theta_per_radian_deg", front_end.odometry_sigma_rad_per_radian,
-                 at_least(0).at_most(180),
-                 "Standard deviation of odometry's heading after a turn of one radian.")
       .number("node_distance_m", front_end.node_distance_m, at_least(0).at_most(100), "m",
               "A scan becomes a node of the graph when the robot has moved this far since the last node.")
       .angle_deg(
@@ -337,34 +293,10 @@ void describe_consensus(OptionTable& table, LoopConsensusOptions& consensus) {
           "Travel after which a waiting match no longer counts. A larger value lets false matches along "
           "equal doors confirm each other, a smaller one loses loops of sparse logs. In searches of a whole "
           "map, matches wait for at least 15 m.")
-      .number("same_place_m", consensus.same_place_m, above(0).at_most(100), "m",
-              "Matches agree only if they place the robot at most this far apart.")
-      .angle_deg("same_heading_deg", consensus.same_heading_rad, above(0).at_most(180),
-                 "Matches agree only if their headings differ by at most this much.")
       .number("min_span_m", consensus.min_span_m, at_least(0), "m",
               "Least travel from the first to the last of the matches that agree.")
-      .number("min_weight", consensus.min_weight, above(0), "",
-              "Least total weight of the matches that agree. The weight of a match is 1 minus its ambiguity, "
-              "or 0 if that is below 0.05. "
-              "While mapping, a response below 0.6 multiplies it by (response / 0.6)².")
       .number("max_other_place_share", consensus.max_rival_share, between(0, 1), "",
               "Largest weight of any other place, as a share of the weight of the matches that agree.");
-}
-
-void describe_kernel(OptionTable& table, const std::string& prefix, const std::string& constraints,
-                     RobustKernel& kernel) {
-  using Type = RobustKernel::Type;
-  table
-      .choice(prefix + "_kernel", kernel.type,
-              {{"none", Type::kNone},
-               {"huber", Type::kHuber},
-               {"cauchy", Type::kCauchy},
-               {"dynamic_scaling", Type::kDynamicScaling},
-               {"geman_mcclure", Type::kGemanMcClure}},
-              "Robust kernel of " + constraints + ".")
-      .number(prefix + "_kernel_width", kernel.width, above(0), "sigma",
-              "Width of the robust kernel of " + constraints +
-                  ". Residuals of more standard deviations than this weigh less.");
 }
 
 void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
@@ -383,19 +315,9 @@ void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
           "max_loop_chi", mapper.back_end.max_loop_chi, above(0), "sigma",
           "A loop whose residual in the finished graph exceeds this many standard deviations is switched "
           "off, unless the path without it explains three quarters of this many, or nearly all loops agree "
-          "along a path five times as uncertain.");
-  describe_kernel(table, "local_map", "the constraints between nodes and their local maps",
-                  solver.local_map_kernel);
-  describe_kernel(table, "loop", "loops", solver.loop_kernel);
-  table
+          "along a path five times as uncertain.")
       .integer("max_iterations", solver.max_iterations, between(1, 10000), "iterations",
-               "Largest number of iterations of an optimisation.")
-      .number("relative_tolerance", solver.relative_tolerance, at_least(0).below(1), "",
-              "An optimisation ends when the error can fall by at most this share of its value.")
-      .number("absolute_tolerance", solver.absolute_tolerance, at_least(0), "",
-              "An optimisation ends when the error can fall by at most this much.")
-      .number("initial_lambda", solver.initial_lambda, at_least(0), "",
-              "Damping of the first iteration of an optimisation. 0 is Gauss-Newton.");
+               "Largest number of iterations of an optimisation.");
 }
 
 void describe_final_search(OptionTable& table, FinalSearchOptions& final_search) {
@@ -415,40 +337,13 @@ void describe_final_search(OptionTable& table, FinalSearchOptions& final_search)
 }
 
 void describe_joint_refinement(OptionTable& table, JointRefinementOptions& refinement) {
-  SurfaceAlignmentOptions& alignment = refinement.alignment;
   table
       .section(
           "joint_refinement",
           "Final scan refinement: aligns each scan with the surfaces that nearby scans saw, if loops are "
           "closed")
       .integer("rounds", refinement.rounds, between(0, 100), "rounds",
-               "Number of rounds of the final scan refinement. 0 skips it.")
-      .integer("references", refinement.references, between(1, 1000), "nodes",
-               "Largest number of nodes whose scans a scan is aligned with. The nearest nodes are taken.")
-      .number("reach_m", refinement.reach_m, above(0).at_most(100), "m",
-              "Largest distance to the nodes whose scans a scan is aligned with.")
-      .angle_deg("max_turn_deg", refinement.max_turn_rad, above(0).at_most(180),
-                 "Largest difference in heading to the nodes whose scans a scan is aligned with.")
-      .integer("neighbours", alignment.neighbours, between(1, 100), "points",
-               "Number of nearest surface points whose mean a point of the scan is compared with.")
-      .number("max_distance_m", alignment.max_distance_m, above(0).at_most(10), "m",
-              "Points farther apart than this belong to different surfaces.")
-      .angle_deg("max_normal_turn_deg", alignment.max_turn_rad, above(0).at_most(80),
-                 "Points whose normals differ by more than this belong to different surfaces.")
-      .number("kernel_m", alignment.kernel_m, above(0).at_most(10), "m",
-              "Residual at which a point has lost three quarters of its weight.")
-      .number("prior_sigma_m", alignment.prior_sigma_m, above(0).at_most(10), "m",
-              "Standard deviation of the optimised position that the refinement starts from.")
-      .angle_deg("prior_sigma_theta_deg", alignment.prior_sigma_rad, above(0).at_most(180),
-                 "Standard deviation of the optimised heading that the refinement starts from.")
-      .integer("iterations", alignment.iterations, between(1, 100), "iterations",
-               "Number of Gauss-Newton iterations for each scan.")
-      .number(
-          "search_again_m", alignment.search_again_m, at_least(0), "m",
-          "The surface points near a scan are searched again when one of its points may have moved farther.")
-      .integer(
-          "min_points", alignment.min_points, between(1, 1000000), "points",
-          "Least number of a scan's points near surfaces. A scan with fewer such points keeps its pose.");
+               "Number of rounds of the final scan refinement. 0 skips it.");
 }
 
 }  // namespace

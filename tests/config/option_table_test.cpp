@@ -162,5 +162,18 @@ TEST_F(OptionTableTest, rejects_contradictory_aliases) {
   EXPECT_THROW(table_.alias("old", "log"), std::logic_error);
 }
 
+TEST_F(OptionTableTest, accepts_obsolete_options_with_one_warning_for_each_file) {
+  table_.obsolete("front_end.gone").obsolete("old.gone");
+  EXPECT_FALSE(table_.knows("front_end.gone"));
+  EXPECT_THROW(table_.obsolete("front_end.passes"), std::logic_error);
+  table_.set("old.gone", "7", "my.ini:12");
+  table_.set("front_end.gone", "any text", "my.ini:15");
+  table_.set("old.gone", "8", "other.ini:2");
+  EXPECT_THAT(table_.take_warnings(),
+              testing::ElementsAre("my.ini:12: front_end.gone, old.gone have no effect any more; remove them",
+                                   "other.ini:2: old.gone has no effect any more; remove it"));
+  EXPECT_THAT(table_.take_warnings(), testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -227,7 +227,6 @@ void require_at_most(const Named& smaller, const Named& larger) {
 
 // Options that once set numbers of the method. A settings file that still has them is accepted.
 constexpr const char* kObsoleteOptions[] = {"front_end.refine_max_iterations",
-                                            "front_end.refine_converged_step_m",
                                             "front_end.refine_max_shift_m",
                                             "front_end.prior_sigma_m",
                                             "front_end.prior_sigma_theta_deg",
@@ -242,7 +241,6 @@ constexpr const char* kObsoleteOptions[] = {"front_end.refine_max_iterations",
                                             "front_end.odometry_sigma_theta_per_metre_deg",
                                             "front_end.odometry_sigma_theta_per_radian_deg",
                                             "loop_closure.refine_max_iterations",
-                                            "loop_closure.refine_converged_step_m",
                                             "loop_closure.refine_max_shift_m",
                                             "consensus.same_place_m",
                                             "consensus.same_heading_deg",

@@ -14,10 +14,12 @@ std::vector<std::pair<std::string, Choice>> matcher_choices() {
 
 /// Describes the options refine_* and adds them to the current section of the table.
 void describe_refinement(OptionTable& table, RefinementOptions& refinement) {
-  table.number(
-      "refine_score_sigma", refinement.score_sigma, between(0.0001, 100), "",
-      "Standard deviation of a point's score in the refinement of a match. A larger value trusts the "
-      "scan less.");
+  table
+      .number("refine_score_sigma", refinement.score_sigma, between(0.0001, 100), "",
+              "Standard deviation of a point's score in the refinement of a match. A larger value trusts the "
+              "scan less.")
+      .number("refine_converged_step_m", refinement.converged_step_m, above(0).at_most(1), "m",
+              "The refinement of a match ends when its step is shorter than this.");
 }
 
 void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {

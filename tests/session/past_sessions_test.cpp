@@ -71,9 +71,8 @@ TEST(PastSessions, version_1_gives_the_same_map) {
   EXPECT_FALSE(result.interrupted);
   EXPECT_EQ(unjoined_log(result), std::nullopt);
   EXPECT_LT(distance_m(result.frames[54].map_T_robot, room_pose(2 * M_PI * 54 / 50) - room_pose(0)), 0.01);
-  // Numbers of the method that are no options any more have the values of today.
-  EXPECT_LT(distance_m(result.frames[102].map_T_robot, room_pose(2 * M_PI * 59 / 40) - room_pose(0)), 0.02);
-  EXPECT_LT(distance_m(result.frames[102].map_T_robot, TPose2D(0.4067, 7.9528, 0)), 0.02)
+  EXPECT_LT(distance_m(result.frames[102].map_T_robot, room_pose(2 * M_PI * 59 / 40) - room_pose(0)), 0.015);
+  EXPECT_LT(distance_m(result.frames[102].map_T_robot, TPose2D(0.4067, 7.9528, 0)), 0.015)
       << "the map is the same as when the session was recorded";
 }
 

@@ -45,12 +45,13 @@ class SettingsTest : public testing::Test {
 TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
   // LaserMount describes the pose of the laser, which is one member of LogOptions.
   const std::size_t log = member_count<LogOptions>() - 1 + member_count<LaserMount>();
-  // How the method works is no option: of a refinement, only the score's deviation is one, of the final
-  // refinement the rounds, of the solver the iterations; three numbers of the consensus are none.
-  constexpr std::size_t kOfRefinement = 1;
+  // How the method works is no option: of a refinement, only the score's deviation and the last step
+  // are options, of the final refinement the rounds, of the solver the iterations. Three numbers of the
+  // consensus are no options.
+  constexpr std::size_t kOfRefinement = 2;
   constexpr std::size_t kOfJointRefinement = 1;
   constexpr std::size_t kOfSolver = 1;
-  // Of the front end, six numbers of odometry's noise, five of the prior and one share are none.
+  // Of the front end, six numbers of odometry's noise, five of the prior and one share are no options.
   constexpr std::size_t kNoOptionsOfFrontEnd = 12;
   const std::size_t front_end = member_count<FrontEndOptions>() - 5 - kNoOptionsOfFrontEnd +
                                 member_count<ScanFilterOptions>() + member_count<LocalMapOptions>() +

@@ -289,7 +289,7 @@ const Option& OptionTable::option(std::string_view name, std::string_view where)
 }
 
 void OptionTable::check(std::string_view name, std::string_view text, std::string_view where) const {
-  if (obsolete_.count(name) > 0) return;
+  if (is_obsolete(name)) return;
   const Option& target = option(name, where);
   if (target.accepts(text)) return;
   throw UserError(std::string(where) + ": " + target.name() + " = " + quotable(text) + ": expected " +
@@ -298,7 +298,7 @@ void OptionTable::check(std::string_view name, std::string_view text, std::strin
 
 void OptionTable::set(std::string_view name, std::string_view text, std::string_view where) {
   check(name, text, where);
-  if (obsolete_.count(name) > 0) {
+  if (is_obsolete(name)) {
     ObsoleteOptions& found = obsolete_of_[file_of(where)];
     if (found.names.empty()) found.where = where;
     found.names.emplace_back(name);

@@ -138,6 +138,9 @@ class OptionTable {
   /// set() adds a warning. Throws std::logic_error if the name is in use.
   OptionTable& obsolete(std::string name);
 
+  /// Returns whether obsolete() has the option.
+  bool is_obsolete(std::string_view name) const { return obsolete_.count(name) > 0; }
+
   const std::vector<OptionSection>& sections() const { return sections_; }
 
   /// Current name of the option that is or was called `name`. Returns an unknown name unchanged.

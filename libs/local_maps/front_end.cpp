@@ -203,25 +203,26 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(const Frame& frame) const {
 // odometry, and the match reduces the covariance. Where only odometry determines the position, as along a
 // corridor, the covariance grows.
 void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& motion) {
-  for (PlacedLocalMap& active : active_) {
-    const TPose2D before = between(active.local_T_map, last_local_T_robot_);
-    const TPose2D after = between(active.local_T_map, step.local_T_robot);
+  const auto propagate = [&](const TPose2D& local_T_origin, Eigen::Matrix3d& covariance) {
+    const TPose2D before = between(local_T_origin, last_local_T_robot_);
+    const TPose2D after = between(local_T_origin, step.local_T_robot);
     Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
     moved(0, 2) = -(after.y - before.y);
     moved(1, 2) = after.x - before.x;
-    Eigen::Matrix3d covariance = moved * active.covariance * moved.transpose();
+    covariance = Eigen::Matrix3d(moved * covariance * moved.transpose());
     covariance.diagonal() += Eigen::Vector3d(motion.sigma_m * motion.sigma_m, motion.sigma_m * motion.sigma_m,
                                              motion.sigma_rad * motion.sigma_rad);
-    if (step.matched) {
-      // Rotation from the axes of the matched map to those of `active`.
-      Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-      turn.topLeftCorner<2, 2>() = rotation_matrix(active_.front().local_T_map.phi - active.local_T_map.phi);
-      const Eigen::Matrix3d information = turn * step.information * turn.transpose();
-      covariance = (Eigen::Matrix3d::Identity() + covariance * information).inverse() * covariance;
-      covariance = Eigen::Matrix3d(0.5 * (covariance + covariance.transpose()));
-    }
-    active.covariance = covariance;
-  }
+    if (!step.matched) return;
+    // Rotation from the axes of the matched map to those of the origin.
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    turn.topLeftCorner<2, 2>() = rotation_matrix(active_.front().local_T_map.phi - local_T_origin.phi);
+    const Eigen::Matrix3d information = turn * step.information * turn.transpose();
+    covariance =
+        Eigen::Matrix3d((Eigen::Matrix3d::Identity() + covariance * information).inverse() * covariance);
+    covariance = Eigen::Matrix3d(0.5 * (covariance + covariance.transpose()));
+  };
+  for (PlacedLocalMap& active : active_) propagate(active.local_T_map, active.covariance);
+  propagate(last_node_local_T_robot_, covariance_since_node_);
 }
 
 bool FrontEnd::moved_enough(const TPose2D& local_T_robot) const {
@@ -261,6 +262,7 @@ void FrontEnd::draw(FrontEndStep& step, const Frame& frame) {
   const std::size_t node = *step.node;
   const double moved_m = node == 0 ? 0 : length_m(between(last_node_local_T_robot_, step.local_T_robot));
   last_node_local_T_robot_ = step.local_T_robot;
+  step.covariance_since_node = std::exchange(covariance_since_node_, Eigen::Matrix3d::Zero());
 
   for (const PlacedLocalMap& active : active_)
     step.memberships.push_back(

@@ -138,6 +138,8 @@ struct FrontEndStep {
     mrpt::math::TPose2D anchor_T_node;
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of anchor_T_node, anchor's axes
   };
+  /// Covariance of this node's pose relative to the node before, along the axes of that node.
+  Eigen::Matrix3d covariance_since_node = Eigen::Matrix3d::Zero();
   std::vector<Membership> memberships;   ///< poses of the node in its local maps, older first
   std::vector<PlacedLocalMap> finished;  ///< local maps that ended at this node, older first
 };
@@ -258,6 +260,7 @@ class FrontEnd {
   int misses_ = 0;                  ///< number of successive scans without a match
   double unmatched_travel_m_ = 0;   ///< path since the last match, or since all local maps ended
   mrpt::math::TPose2D last_node_local_T_robot_;
+  Eigen::Matrix3d covariance_since_node_ = Eigen::Matrix3d::Zero();  ///< along the axes of the last node
 };
 
 }  // namespace psi_slam

@@ -2,7 +2,6 @@
 #include "loop_closure/keyframe_store.h"
 
 #include <algorithm>
-
 #include <cmath>
 #include <utility>
 
@@ -50,16 +49,63 @@ void remember_node(const FrontEndStep& step, std::size_t frame, KeyframeStore& k
   keyframes.nodes.push_back(std::move(node));
 }
 
-void constrain_to_local_maps(const FrontEndStep& step, const LocalMapNoise& noise, PoseGraph& graph) {
-  for (const FrontEndStep::Membership& membership : step.memberships) {
-    Constraint constraint;
-    constraint.kind = Constraint::Kind::kLocalMap;
-    constraint.from = membership.anchor;
-    constraint.to = step.node.value();
-    constraint.from_T_to = membership.anchor_T_node;
-    constraint.information = noisy_information(membership.covariance, noise.sigma_m, noise.sigma_rad);
-    graph.add_constraint(constraint);
+void constrain_to_path(const FrontEndStep& step, const PathNoise& noise, KeyframeStore& keyframes,
+                       PoseGraph& graph) {
+  const std::size_t node = *step.node;
+  NodeScan& here = keyframes.nodes[node];
+  here.segment = node;
+  Eigen::Matrix3d covariance = keyframes.covariance_in_segment;
+  keyframes.covariance_in_segment.setZero();
+  if (step.memberships.empty()) return;
+
+  const NodeScan& before = keyframes.nodes.at(node - 1);
+  const NodeScan& first = keyframes.nodes[before.segment];
+  const mrpt::math::TPose2D first_T_before = between(first.local_T_robot, before.local_T_robot);
+  const mrpt::math::TPose2D first_T_here = between(first.local_T_robot, here.local_T_robot);
+  const mrpt::math::TPose2D motion = between(before.local_T_robot, here.local_T_robot);
+  const double length_m = portable::hypot(motion.x, motion.y);
+  const double drift_m2 = noise.sigma_m_per_sqrt_m * noise.sigma_m_per_sqrt_m * length_m;
+  const double drift_rad2 =
+      noise.sigma_rad_per_sqrt_m * noise.sigma_rad_per_sqrt_m * length_m +
+      noise.sigma_rad_per_sqrt_rad * noise.sigma_rad_per_sqrt_rad * std::abs(motion.phi);
+  Eigen::Matrix3d step_covariance = noise.stated_share * noise.stated_share * step.covariance_since_node;
+  step_covariance.diagonal() += Eigen::Vector3d(drift_m2, drift_m2, drift_rad2);
+  Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
+  moved(0, 2) = first_T_before.y - first_T_here.y;
+  moved(1, 2) = first_T_here.x - first_T_before.x;
+  covariance = Eigen::Matrix3d(moved * covariance * moved.transpose()) +
+               in_turned_axes(step_covariance, first_T_before.phi);
+
+  const bool begins = here.travelled_m - first.travelled_m >= kSegment_m;
+  Constraint constraint;
+  constraint.kind = Constraint::Kind::kLocalMap;
+  constraint.from = before.segment;
+  constraint.to = node;
+  constraint.from_T_to = first_T_here;
+  constraint.information = begins ? noisy_information(covariance, 0, 0)
+                                  : noisy_information(covariance, noise.scan_sigma_m, noise.scan_sigma_rad);
+  graph.add_constraint(constraint);
+  if (begins) return;
+  here.segment = before.segment;
+  keyframes.covariance_in_segment = covariance;
+}
+
+void set_reference(LoopRecord& loop, const KeyframeStore& keyframes) {
+  const PlacedLocalMap& local_map = keyframes.local_maps[loop.local_map];
+  const mrpt::math::TPose2D& local_T_anchor = keyframes.nodes[local_map.anchor].local_T_robot;
+  const mrpt::math::TPose2D local_T_node = compose(local_T_anchor, loop.anchor_T_node);
+  std::size_t nearest = local_map.anchor;
+  double nearest_m = distance_m(local_T_anchor, local_T_node);
+  for (std::size_t node = local_map.first_node; node <= local_map.last_node; ++node) {
+    if (node == loop.node) continue;  // a match by hand, with a local map that holds the scan itself
+    const double apart_m = distance_m(keyframes.nodes[node].local_T_robot, local_T_node);
+    if (apart_m >= nearest_m) continue;
+    nearest_m = apart_m;
+    nearest = node;
   }
+  const std::size_t segment = keyframes.nodes[nearest].segment;
+  loop.reference = segment == keyframes.nodes[loop.node].segment ? nearest : segment;
+  loop.reference_T_node = between(keyframes.nodes[loop.reference].local_T_robot, local_T_node);
 }
 
 void remember_local_map(const PlacedLocalMap& finished, KeyframeStore& keyframes) {

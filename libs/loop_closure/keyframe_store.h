@@ -7,12 +7,15 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "base/degrees.h"
 #include "base/worker_pool.h"
 #include "local_maps/front_end.h"
 #include "loop_closure/local_map_cache.h"
 #include "matching/scan_points.h"
+#include "psi_slam/loop_record.h"
 #include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
@@ -21,6 +24,7 @@ struct NodeScan {
   std::size_t frame = 0;              ///< index of the scan in MappingResult::frames
   mrpt::math::TPose2D local_T_robot;  ///< pose of the robot in the front end's frame
   double travelled_m = 0;             ///< path length from the first node to this one
+  std::size_t segment = 0;            ///< first node of the path segment that holds this node
   std::shared_ptr<const ScanPoints> points;
 };
 
@@ -40,6 +44,8 @@ struct KeyframeStore {
   std::shared_ptr<LocalMapCache> cache;    ///< holds the same local maps; null: no local map is ever packed
   /// Runs whose place in the map is unknown, in ascending order. The last one may still grow.
   std::vector<UnplacedRun> unplaced;
+  /// Covariance of the newest node relative to the first node of its segment, along the axes of that node.
+  Eigen::Matrix3d covariance_in_segment = Eigen::Matrix3d::Zero();
 };
 
 /// A turn of 1 rad counts as this much travel: by default, after both of them the front end adds about
@@ -62,15 +68,38 @@ KeyframeStore make_keyframe_store();
 /// Appends the node of a front-end step. `frame` is the index of the scan in MappingResult::frames.
 void remember_node(const FrontEndStep& step, std::size_t frame, KeyframeStore& keyframes);
 
-/// Extra noise of a node's pose in a local map. The squares are added to the front end's covariance.
-struct LocalMapNoise {
-  double sigma_m = 0;
-  double sigma_rad = 0;
+/// Errors of the path that the front end measures: a random walk.
+struct PathNoise {
+  /// Share of the standard deviations that the front end states for a step. The next scan is matched with the
+  /// same local map and takes most of the error of a step back.
+  double stated_share = 0.2;
+  /// Drift that successive scans share, as standard deviations.
+  double sigma_m_per_sqrt_m = 0.002;  ///< of the position, after one metre
+  /// Of the heading, after one metre and after a turn of one radian. A wrong scale of the bearings makes the
+  /// heading wrong where the robot turns.
+  double sigma_rad_per_sqrt_m = radians_from_degrees(0.02L);
+  double sigma_rad_per_sqrt_rad = radians_from_degrees(0.06L);
+  /// Error of the pose of a single scan, which later scans do not inherit.
+  double scan_sigma_m = 0.0075;
+  double scan_sigma_rad = radians_from_degrees(0.12L);
 };
 
-/// Adds constraints from the anchors of the step's local maps to the step's node. The node and the anchors
-/// must be in the graph.
-void constrain_to_local_maps(const FrontEndStep& step, const LocalMapNoise& noise, PoseGraph& graph);
+/// How many times as wrong as the random walk states the path may be, where places are searched and loops are
+/// rejected: errors that repeat, such as a wrong scale of the bearings, add up along the path.
+inline constexpr double kPathDoubt = 5;
+
+/// Length of a path segment, metres. Short enough to bend with the path, long enough that the scans of a
+/// segment, which see the same walls, are one place.
+inline constexpr double kSegment_m = 3;
+
+/// Adds the constraint of the newest node, which remember_node() added, from the first node of its path
+/// segment; or, if it begins a segment, from the first node of the segment before. A node that no local map
+/// holds begins a run, and gets no constraint.
+void constrain_to_path(const FrontEndStep& step, const PathNoise& noise, KeyframeStore& keyframes,
+                       PoseGraph& graph);
+
+/// Sets the reference of a matched loop, see LoopRecord::reference.
+void set_reference(LoopRecord& loop, const KeyframeStore& keyframes);
 
 void remember_local_map(const PlacedLocalMap& finished, KeyframeStore& keyframes);
 

@@ -55,10 +55,12 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
     return attempt;
   }
   loop.anchor_T_node = match.map_T_robot;
+  set_reference(loop, keyframes);
   loop.covariance = match.covariance;
   loop.response = match.response;
   loop.ambiguity = match.ambiguity.value_or(0);
   loop.moved_m = distance_m(candidate.anchor_T_node, match.map_T_robot);
+  loop.prior = path_prior(distance_m(candidate.anchor_T_predicted, match.map_T_robot), candidate.sigma_m);
   verify(loop, scan, keyframes, verification);
   return attempt;
 }

@@ -5,20 +5,29 @@
 #include <cmath>
 #include <limits>
 
+#include "base/portable_math.h"
 #include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
 
-double nearest_node_m(const PlacedLocalMap& local_map, const mrpt::math::TPose2D& map_T_node,
-                      const PoseGraph& graph) {
+struct NearestNode {
+  double distance_m = std::numeric_limits<double>::infinity();
+  std::size_t segment = 0;  ///< first node of its path segment
+};
+
+NearestNode nearest_node(const PlacedLocalMap& local_map, const mrpt::math::TPose2D& map_T_node,
+                         const KeyframeStore& keyframes, const PoseGraph& graph) {
   double nearest_squared = std::numeric_limits<double>::infinity();
+  std::size_t nearest = local_map.anchor;
   for (std::size_t other = local_map.first_node; other <= local_map.last_node; ++other) {
     const double dx = graph.pose(other).x - map_T_node.x;
     const double dy = graph.pose(other).y - map_T_node.y;
-    nearest_squared = std::min(nearest_squared, dx * dx + dy * dy);
+    if (dx * dx + dy * dy >= nearest_squared) continue;
+    nearest_squared = dx * dx + dy * dy;
+    nearest = other;
   }
-  return std::sqrt(nearest_squared);
+  return {std::sqrt(nearest_squared), keyframes.nodes[nearest].segment};
 }
 
 double travel_between_m(std::size_t node, const PlacedLocalMap& local_map, const KeyframeStore& keyframes) {
@@ -54,8 +63,8 @@ LoopCandidate whole_local_map(std::size_t m, const mrpt::math::TPose2D& map_T_no
   }
   LoopCandidate candidate;
   candidate.local_map = m;
-  candidate.anchor_T_node = {0.5 * (x_min + x_max), 0.5 * (y_min + y_max),
-                             (between(map_T_anchor, map_T_node)).phi};
+  candidate.anchor_T_predicted = between(map_T_anchor, map_T_node);
+  candidate.anchor_T_node = {0.5 * (x_min + x_max), 0.5 * (y_min + y_max), candidate.anchor_T_predicted.phi};
   candidate.extent = {0.5 * (x_max - x_min) + options.reach_m, 0.5 * (y_max - y_min) + options.reach_m,
                       options.max_window.theta_rad};
   return candidate;
@@ -63,30 +72,41 @@ LoopCandidate whole_local_map(std::size_t m, const mrpt::math::TPose2D& map_T_no
 
 }  // namespace
 
+double path_prior(double moved_m, double sigma_m) {
+  constexpr double kWidth = 2.5;
+  const double off = moved_m / (kWidth * sigma_m);
+  return portable::exp(-off * off / 2);
+}
+
 std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore& keyframes,
                                            const PoseGraph& graph, const LoopCandidateOptions& options,
-                                           const SigmasOfAnchors& sigmas_of_anchors) {
+                                           const SigmasOfNodes& sigmas_of_nodes) {
   const mrpt::math::TPose2D& map_T_node = graph.pose(node);
   const double reach_m =
       options.reach_m + std::max({options.max_window.x_m, options.max_window.y_m, options.min_window_m});
   std::vector<LoopCandidate> in_reach;
-  std::vector<std::size_t> local_maps;
+  std::vector<std::size_t> segments;
   for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
     const PlacedLocalMap& local_map = keyframes.local_maps[m];
     if (!are_joined(node, local_map.first_node, keyframes)) continue;
     if (travel_between_m(node, local_map, keyframes) < options.min_travel_m) continue;
-    const double distance_m = nearest_node_m(local_map, map_T_node, graph);
-    if (distance_m > reach_m) continue;
-    in_reach.push_back({m, between(graph.pose(local_map.anchor), map_T_node), {}, distance_m});
-    local_maps.push_back(m);
+    const NearestNode nearest = nearest_node(local_map, map_T_node, keyframes, graph);
+    if (nearest.distance_m > reach_m) continue;
+    LoopCandidate& candidate = in_reach.emplace_back();
+    candidate.local_map = m;
+    candidate.anchor_T_node = candidate.anchor_T_predicted =
+        between(graph.pose(local_map.anchor), map_T_node);
+    candidate.distance_m = nearest.distance_m;
+    segments.push_back(nearest.segment);
   }
   if (in_reach.empty()) return {};
 
-  const std::vector<PositionSigma> sigmas = sigmas_of_anchors(local_maps);
+  const std::vector<PositionSigma> sigmas = sigmas_of_nodes(segments);
   std::vector<LoopCandidate> candidates;
   for (std::size_t i = 0; i < in_reach.size(); ++i) {
     LoopCandidate candidate = in_reach[i];
     candidate.extent = window_of(sigmas[i], options);
+    candidate.sigma_m = std::max(sigmas[i].metres, options.min_window_m / options.window_sigmas);
     if (candidate.distance_m <= options.reach_m + std::max(candidate.extent.x_m, candidate.extent.y_m))
       candidates.push_back(candidate);
   }
@@ -95,32 +115,31 @@ std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore
 
 std::vector<LoopCandidate> far_candidates(std::size_t node, const KeyframeStore& keyframes,
                                           const PoseGraph& graph, const LoopCandidateOptions& options,
-                                          const ChainsToAnchors& chains_to_anchors) {
+                                          const SigmasOfNodes& sigmas_of_nodes) {
   const mrpt::math::TPose2D& map_T_node = graph.pose(node);
   const double largest_window_m = std::max(options.max_window.x_m, options.max_window.y_m);
-  const auto may_have_drifted = [&](double path_m, double distance_m) {
-    const double drift_m = options.drift_per_metre * path_m;
-    return drift_m > largest_window_m && distance_m <= drift_m + options.reach_m;
-  };
   std::vector<std::size_t> local_maps;
+  std::vector<std::size_t> segments;
   std::vector<double> distances_m;
   for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
     if (!are_joined(node, keyframes.local_maps[m].first_node, keyframes)) continue;
     const double travel_m = travel_between_m(node, keyframes.local_maps[m], keyframes);
     if (travel_m < options.min_travel_m) continue;
-    const double distance_m = nearest_node_m(keyframes.local_maps[m], map_T_node, graph);
-    if (!may_have_drifted(travel_m, distance_m)) continue;
     local_maps.push_back(m);
-    distances_m.push_back(distance_m);
+    const NearestNode nearest = nearest_node(keyframes.local_maps[m], map_T_node, keyframes, graph);
+    segments.push_back(nearest.segment);
+    distances_m.push_back(nearest.distance_m);
   }
   if (local_maps.empty()) return {};
 
-  const std::vector<double> chains_m = chains_to_anchors(local_maps);
+  const std::vector<PositionSigma> sigmas = sigmas_of_nodes(segments);
   std::vector<LoopCandidate> candidates;
   for (std::size_t i = 0; i < local_maps.size(); ++i) {
-    if (!may_have_drifted(chains_m[i], distances_m[i])) continue;
+    const double drift_m = options.window_sigmas * sigmas[i].metres;
+    if (drift_m <= largest_window_m || distances_m[i] > drift_m + options.reach_m) continue;
     candidates.push_back(whole_local_map(local_maps[i], map_T_node, keyframes, graph, options));
     candidates.back().distance_m = distances_m[i];
+    candidates.back().sigma_m = sigmas[i].metres;
   }
   return candidates;
 }

@@ -17,23 +17,13 @@ namespace {
 // newest before the interruption. The robot is often still there. The other nodes search all.
 constexpr std::size_t kNewestMaps = 2;
 
+// Largest number of searches in wide windows that are made up for a node at the end of a log.
+constexpr std::size_t kMostMadeUp = 8;
+
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-// Returns the uncertainty of each local map's anchor relative to the node, in the order of `local_maps`.
-std::vector<RelativeUncertainty> relative_to_anchors(std::size_t node,
-                                                     const std::vector<std::size_t>& local_maps,
-                                                     const KeyframeStore& keyframes, const PoseGraph& graph,
-                                                     PathCovarianceSearch& search) {
-  PathCovarianceOptions to_anchors;
-  for (const std::size_t m : local_maps) to_anchors.targets.push_back(keyframes.local_maps[m].anchor);
-  search.run(graph, node, to_anchors);
-  std::vector<RelativeUncertainty> uncertainties;
-  for (const std::size_t anchor : to_anchors.targets) uncertainties.push_back(search.of(anchor));
-  return uncertainties;
-}
-
-// Returns the standard deviations of the relative pose of a node and an anchor. The position error includes
-// the heading error times the distance between node and anchor.
+// Returns the standard deviations of the relative pose of two nodes. The position error includes the heading
+// error times the distance between them.
 PositionSigma sigma_of(const RelativeUncertainty& uncertainty, double distance_m) {
   if (!uncertainty.reached) return {kUnknown, kUnknown};
   const double heading = std::sqrt(uncertainty.covariance(2, 2));
@@ -55,29 +45,23 @@ std::vector<LoopCandidate> LoopCloser::unplaced_candidates(std::size_t node, con
   return maps;
 }
 
-// Returns all candidates with narrow windows, and at most `wide_searches` candidates with wide windows. If no
-// candidate has a narrow window, the wide ones include those of far_candidates(). If the place of the node is
-// unknown, the wide ones are those of whole_map_candidates().
-std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const KeyframeStore& keyframes,
-                                                  const PoseGraph& graph) {
-  const auto sigmas_of_anchors = [&](const std::vector<std::size_t>& local_maps) {
-    const auto uncertainties = relative_to_anchors(node, local_maps, keyframes, graph, search_);
+// Returns the candidates with narrow and with wide windows. If no candidate has a narrow window, the wide
+// ones include those of far_candidates(). If the place of the node is unknown, the wide ones are those of
+// whole_map_candidates().
+LoopCloser::Candidates LoopCloser::candidates(std::size_t node, const KeyframeStore& keyframes,
+                                              const PoseGraph& graph) {
+  const auto sigmas_of_nodes = [&](const std::vector<std::size_t>& others) {
+    PathCovarianceOptions to_others;
+    to_others.path_doubt = kPathDoubt;
+    to_others.targets = others;
+    search_.run(graph, node, to_others);
     std::vector<PositionSigma> sigmas;
-    for (std::size_t i = 0; i < local_maps.size(); ++i) {
-      const mrpt::math::TPose2D anchor_T_node =
-          between(graph.pose(keyframes.local_maps[local_maps[i]].anchor), graph.pose(node));
-      sigmas.push_back(sigma_of(uncertainties[i], portable::hypot(anchor_T_node.x, anchor_T_node.y)));
-    }
+    for (const std::size_t other : others)
+      sigmas.push_back(sigma_of(search_.of(other), distance_m(graph.pose(other), graph.pose(node))));
     return sigmas;
   };
-  const auto chains_to_anchors = [&](const std::vector<std::size_t>& local_maps) {
-    std::vector<double> chains_m;
-    for (const auto& uncertainty : relative_to_anchors(node, local_maps, keyframes, graph, search_))
-      chains_m.push_back(uncertainty.reached ? uncertainty.chain_m : kUnknown);
-    return chains_m;
-  };
   std::vector<LoopCandidate> chosen =
-      loop_candidates(node, keyframes, graph, options_.candidates, sigmas_of_anchors);
+      loop_candidates(node, keyframes, graph, options_.candidates, sigmas_of_nodes);
   const auto first_wide = std::stable_partition(chosen.begin(), chosen.end(), [&](const LoopCandidate& one) {
     return !is_wide(one.extent, options_.verification);
   });
@@ -87,7 +71,7 @@ std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const Keyfra
     wide = unplaced_candidates(node, keyframes, graph);
   } else if (chosen.empty()) {
     const std::vector<LoopCandidate> far =
-        far_candidates(node, keyframes, graph, options_.candidates, chains_to_anchors);
+        far_candidates(node, keyframes, graph, options_.candidates, sigmas_of_nodes);
     const auto is_far = [&](const LoopCandidate& one) {
       return std::any_of(far.begin(), far.end(),
                          [&](const LoopCandidate& other) { return other.local_map == one.local_map; });
@@ -95,20 +79,46 @@ std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const Keyfra
     wide.erase(std::remove_if(wide.begin(), wide.end(), is_far), wide.end());
     wide.insert(wide.end(), far.begin(), far.end());
   }
-  for (const LoopCandidate& one : schedule_.choose(std::move(wide), options_.wide_searches))
-    chosen.push_back(one);
-  std::sort(chosen.begin(), chosen.end(),
-            [](const LoopCandidate& a, const LoopCandidate& b) { return a.local_map < b.local_map; });
-  return chosen;
+  return {std::move(chosen), std::move(wide)};
 }
 
+// Searches all narrow windows, and at most `wide_searches` wide ones.
 LoopCloser::Outcome LoopCloser::close(std::size_t node, const KeyframeStore& keyframes,
                                       const PoseGraph& graph, const NodeMatchers& matchers,
                                       WorkerPool& pool) {
   Outcome outcome;
   if (!begins_stretch(node, keyframes.nodes, options_.attempt_distance_m)) return outcome;
   outcome.searched = true;
-  const std::vector<LoopCandidate> candidates = this->candidates(node, keyframes, graph);
+  auto [chosen, wide] = this->candidates(node, keyframes, graph);
+  for (const LoopCandidate& one : schedule_.choose(std::move(wide), options_.wide_searches))
+    chosen.push_back(one);
+  std::sort(chosen.begin(), chosen.end(),
+            [](const LoopCandidate& a, const LoopCandidate& b) { return a.local_map < b.local_map; });
+  match_all(node, chosen, keyframes, matchers, pool, outcome);
+  for (const LoopRecord& loop : outcome.loops)
+    if (is_wide(loop.window, options_.verification))
+      schedule_.searched(loop.local_map, loop.verdict == LoopVerdict::kPending);
+  return outcome;
+}
+
+LoopCloser::Outcome LoopCloser::close_wide(std::size_t node, const KeyframeStore& keyframes,
+                                           const PoseGraph& graph, const NodeMatchers& matchers,
+                                           WorkerPool& pool,
+                                           const std::function<bool(std::size_t)>& is_known) {
+  Outcome outcome;
+  if (!begins_stretch(node, keyframes.nodes, options_.attempt_distance_m)) return outcome;
+  std::vector<LoopCandidate> wide = this->candidates(node, keyframes, graph).wide;
+  wide.erase(std::remove_if(wide.begin(), wide.end(),
+                            [&](const LoopCandidate& one) { return is_known(one.local_map); }),
+             wide.end());
+  match_all(node, schedule_.choose(std::move(wide), kMostMadeUp), keyframes, matchers, pool, outcome);
+  return outcome;
+}
+
+// Matches a node with its candidates, several in parallel, and adds the attempts to `outcome`.
+void LoopCloser::match_all(std::size_t node, const std::vector<LoopCandidate>& candidates,
+                           const KeyframeStore& keyframes, const NodeMatchers& matchers, WorkerPool& pool,
+                           Outcome& outcome) const {
   std::vector<std::size_t> local_maps;
   for (const LoopCandidate& candidate : candidates) local_maps.push_back(candidate.local_map);
   unpack_local_maps(keyframes, local_maps, pool);
@@ -128,11 +138,8 @@ LoopCloser::Outcome LoopCloser::close(std::size_t node, const KeyframeStore& key
        })) {
     outcome.effort += attempt.effort;
     if (attempt.loop) outcome.effort_of[attempt.loop->matcher] += attempt.effort;
-    if (attempt.loop && is_wide(attempt.loop->window, options_.verification))
-      schedule_.searched(attempt.loop->local_map, attempt.loop->verdict == LoopVerdict::kPending);
     if (attempt.loop) outcome.loops.push_back(*std::move(attempt.loop));
   }
-  return outcome;
 }
 
 std::optional<LoopRecord> LoopCloser::match(std::size_t node, const LoopCandidate& candidate,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -46,6 +47,12 @@ class LoopCloser {
   Outcome close(std::size_t node, const KeyframeStore& keyframes, const PoseGraph& graph,
                 const NodeMatchers& matchers, WorkerPool& pool);
 
+  /// Matches `node` with candidates in wide windows that close() left to later nodes: at most eight of those
+  /// with local maps for which `is_known` is false. For the last nodes of a log, which no nodes follow.
+  Outcome close_wide(std::size_t node, const KeyframeStore& keyframes, const PoseGraph& graph,
+                     const NodeMatchers& matchers, WorkerPool& pool,
+                     const std::function<bool(std::size_t local_map)>& is_known);
+
   /// Matches `node` with one local map in a given window, and verifies the match. Returns nothing if the scan
   /// has no points to match.
   std::optional<LoopRecord> match(std::size_t node, const LoopCandidate& candidate,
@@ -53,8 +60,14 @@ class LoopCloser {
                                   WorkerPool& pool) const;
 
  private:
-  std::vector<LoopCandidate> candidates(std::size_t node, const KeyframeStore& keyframes,
-                                        const PoseGraph& graph);
+  struct Candidates {
+    std::vector<LoopCandidate> narrow;
+    std::vector<LoopCandidate> wide;
+  };
+  Candidates candidates(std::size_t node, const KeyframeStore& keyframes, const PoseGraph& graph);
+  void match_all(std::size_t node, const std::vector<LoopCandidate>& candidates,
+                 const KeyframeStore& keyframes, const NodeMatchers& matchers, WorkerPool& pool,
+                 Outcome& outcome) const;
   std::vector<LoopCandidate> unplaced_candidates(std::size_t node, const KeyframeStore& keyframes,
                                                  const PoseGraph& graph);
 

@@ -21,7 +21,7 @@ constexpr double kFullResponse = 0.6;
 double weight(const LoopConsensus::Vote& vote) {
   const double uniqueness = 1 - vote.ambiguity;
   const double strength = std::min(1.0, vote.response / kFullResponse);
-  return uniqueness < kLeastUniqueness ? 0 : uniqueness * strength * strength;
+  return uniqueness < kLeastUniqueness ? 0 : uniqueness * strength * strength * vote.prior;
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ bool LoopConsensus::agree(const Vote& a, const Vote& b, const PoseGraph& graph) 
 std::vector<std::size_t> LoopConsensus::add(const Vote& vote, const PoseGraph& graph,
                                             const std::function<bool(std::size_t)>& still_waits) {
   const auto too_old = [&](const Vote& old) {
-    return vote.travelled_m - old.travelled_m > options_.memory_m;
+    return std::abs(vote.travelled_m - old.travelled_m) > options_.memory_m;
   };
   votes_.erase(std::remove_if(votes_.begin(), votes_.end(), too_old), votes_.end());
   votes_.push_back(vote);
@@ -48,13 +48,18 @@ std::vector<std::size_t> LoopConsensus::add(const Vote& vote, const PoseGraph& g
                [&](const Vote& one) { return !still_waits || still_waits(one.loop); });
 
   double together = 0;
+  double proof = 0;  // the same sum, of which one match gives at most half of what is needed
   double first_m = vote.travelled_m;
+  double last_m = first_m;  // not always that of the newest vote: searches may be made up for later
   for (const Vote& other : counted) {
     if (!agree(other, vote, graph)) continue;
     together += weight(other);
-    if (weight(other) > 0) first_m = std::min(first_m, other.travelled_m);
+    proof += std::min(weight(other), options_.min_weight / 2);
+    if (weight(other) == 0) continue;
+    first_m = std::min(first_m, other.travelled_m);
+    last_m = std::max(last_m, other.travelled_m);
   }
-  if (together < options_.min_weight || vote.travelled_m - first_m < options_.min_span_m) return {};
+  if (proof < options_.min_weight || last_m - first_m < options_.min_span_m) return {};
   for (const Vote& opponent : counted) {
     if (agree(opponent, vote, graph)) continue;
     double against = 0;

@@ -8,7 +8,8 @@
 // only matches within a few metres of travel count together. A response below 0.6 multiplies the weight by
 // (response / 0.6)^2. If the true place is outside the window or in another local map, several matches with
 // responses of 0.4 to 0.5 may agree on a similar place. But two matches suffice, also with
-// responses of 0.35, if they are not ambiguous.
+// responses of 0.35, if they are not ambiguous. One match alone never suffices: it counts for at most half of
+// the needed weight. The prior by the path multiplies each weight.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -26,7 +27,7 @@ struct LoopConsensusOptions {
   double memory_m = 4.0;                                 ///< path length after which a match no longer counts
   double same_place_m = 0.5;                             ///< largest distance between poses that agree
   double same_heading_rad = radians_from_degrees(3.5L);  ///< largest turn between poses that agree
-  /// Shortest path between the first match that agrees and has a weight, and the last.
+  /// Shortest path between the first and the last match that agree and have a weight.
   double min_span_m = 1.0;
   /// Minimum sum of agreeing weights. A weight is 1 - ambiguity, or 0 if that is below 0.05. A response
   /// below 0.6 multiplies it by (response / 0.6)^2.
@@ -46,6 +47,7 @@ class LoopConsensus {
     mrpt::math::TPose2D anchor_T_robot;  ///< matched pose
     double ambiguity = 0;
     double response = 1;  ///< of the match, 0 to 1; 1 does not weigh it
+    double prior = 1;     ///< weight that the path gives to the matched position, see path_prior()
   };
 
   /// Adds a vote. Returns the loops that it confirms, including its own loop; empty without a confirmation.

@@ -7,6 +7,7 @@
 
 #include "base/portable_math.h"
 #include "frames/pose_operations.h"
+#include "pose_graph/graduated_non_convexity.h"
 #include "pose_graph/information_matrix.h"
 
 namespace psi_slam {
@@ -54,40 +55,70 @@ std::optional<double> LoopLedger::accept(std::size_t index, PoseGraph& graph) {
   const bool may_be = loop.verdict == LoopVerdict::kAccepted || loop.verdict == LoopVerdict::kPending;
   if (!may_be || constraint_of_[index]) return std::nullopt;
   loop.verdict = LoopVerdict::kAccepted;
-  Constraint constraint;
-  constraint.from = loop.anchor;
-  constraint.to = loop.node;
-  constraint.from_T_to = loop.anchor_T_node;
-  constraint.information = noisy_information(loop.covariance, noise_.sigma_m, noise_.sigma_rad);
-  constraint.kind = Constraint::Kind::kLoop;
-  link(index, graph.add_constraint(constraint));
+  add_constraint(index, graph);
   const mrpt::math::TPose2D off =
-      between(between(graph.pose(loop.anchor), graph.pose(loop.node)), loop.anchor_T_node);
+      between(between(graph.pose(loop.reference), graph.pose(loop.node)), loop.reference_T_node);
   return std::max(portable::hypot(off.x, off.y) / noise_.sigma_m, std::abs(off.phi) / noise_.sigma_rad);
 }
 
-bool LoopLedger::settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi,
-                        double doubtful_share) {
-  std::vector<std::size_t> constraints;
-  std::vector<std::size_t> loops;
+// Adds the constraint of a loop. A forced loop has no robust kernel, so it holds whatever contradicts it.
+void LoopLedger::add_constraint(std::size_t index, PoseGraph& graph) {
+  const LoopRecord& loop = loops_[index];
+  Constraint constraint;
+  constraint.from = loop.reference;
+  constraint.to = loop.node;
+  constraint.from_T_to = loop.reference_T_node;
+  constraint.information =
+      noisy_information(in_turned_axes(loop.covariance, loop.reference_T_node.phi - loop.anchor_T_node.phi),
+                        noise_.sigma_m, noise_.sigma_rad);
+  constraint.kind = Constraint::Kind::kLoop;
+  if (is_forced(index)) constraint.kernel = RobustKernel{};
+  link(index, graph.add_constraint(constraint));
+}
+
+bool LoopLedger::is_forced(std::size_t loop) const {
+  const auto wanted = by_hand_.find(pair_of(loops_[loop]));
+  return wanted != by_hand_.end() && wanted->second.kind == LoopEdit::Kind::kForce &&
+         (!wanted->second.of_final_search || loops_[loop].in_final_search);
+}
+
+std::pair<std::vector<std::size_t>, std::vector<std::size_t>> LoopLedger::unforced() const {
+  std::pair<std::vector<std::size_t>, std::vector<std::size_t>> unforced;
   for (const auto& [constraint, loop] : constraints_) {
-    const auto wanted = by_hand_.find(pair_of(loops_[loop]));
-    if (wanted != by_hand_.end() && wanted->second.kind == LoopEdit::Kind::kForce) continue;
-    constraints.push_back(constraint);
-    loops.push_back(loop);
+    if (is_forced(loop)) continue;
+    unforced.first.push_back(constraint);
+    unforced.second.push_back(loop);
   }
-  const std::vector<double> chi =
-      switch_off_outlier_loops(graph, solver, constraints, max_chi, doubtful_share);
-  std::size_t contradicted = 0;
+  return unforced;
+}
+
+void LoopLedger::settle(PoseGraph& graph, SparsePoseAdjustment& solver) {
+  const auto [constraints, loops] = unforced();
+  const std::vector<double> chi = reject_outlier_loops(graph, solver, constraints);
   for (std::size_t i = 0; i < chi.size(); ++i) {
     LoopRecord& loop = loops_[loops[i]];
     const bool fits = graph.enabled(constraints[i]);
     loop.verdict = fits ? LoopVerdict::kAccepted : LoopVerdict::kSwitchedOff;
     loop.refusal.reset();
-    if (!fits) loop.refusal = LoopRefusal{LoopRefusal::Reason::kContradicted, chi[i], max_chi};
-    if (fits && chi[i] > max_chi) ++contradicted;
+    if (!fits) loop.refusal = LoopRefusal{LoopRefusal::Reason::kContradicted, chi[i], kInlierChi};
   }
-  return contradicted >= kFewestAgreeingNodes;
+}
+
+std::vector<LoopLedger::ContradictedForce> LoopLedger::contradicted_forces(
+    const PoseGraph& graph, SparsePoseAdjustment& solver) const {
+  std::vector<ContradictedForce> contradicted;
+  const std::vector<std::size_t> others = unforced().first;
+  for (const auto& [constraint, loop] : constraints_) {
+    if (!is_forced(loop)) continue;
+    PoseGraph rest = graph;
+    rest.set_enabled(constraint, false);
+    reject_outlier_loops(rest, solver, others);
+    const std::optional<double> chi = contradiction(graph.constraint(constraint), rest);
+    if (chi.value_or(0) > kInlierChi) contradicted.push_back({pair_of(loops_[loop]), *chi});
+  }
+  std::sort(contradicted.begin(), contradicted.end(),
+            [](const ContradictedForce& a, const ContradictedForce& b) { return a.pair < b.pair; });
+  return contradicted;
 }
 
 void LoopLedger::refuse_pending() {
@@ -125,11 +156,9 @@ bool LoopLedger::force(const LoopPair& pair, bool of_final_search, PoseGraph& gr
   if (found == attempts.rend()) return false;
   for (const std::size_t other : attempts)
     if (other != *found) strike(other, LoopRefusal::Reason::kOtherMatchForced, graph);
+  if (constraint_of_[*found]) strike(*found, LoopRefusal::Reason::kMatchedAgain, graph);
   accept_by_hand(loops_[*found]);
-  if (constraint_of_[*found])
-    graph.set_enabled(*constraint_of_[*found], true);
-  else
-    accept(*found, graph);
+  accept(*found, graph);
   return true;
 }
 

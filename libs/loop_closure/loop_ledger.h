@@ -43,11 +43,19 @@ class LoopLedger {
   /// returns nothing if the loop has another verdict or already is a constraint.
   std::optional<double> accept(std::size_t loop, PoseGraph& graph);
 
-  /// Optimises the graph and switches off outlier loops; `max_chi` and `doubtful_share` are as in
-  /// switch_off_outlier_loops(). Never switches off forced loops. Returns whether loops stay that the path of
-  /// the front end contradicts.
-  bool settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi,
-              double doubtful_share = kDoubtfulShare);
+  /// Optimises the graph and rejects outlier loops, see reject_outlier_loops(). Never rejects forced loops.
+  void settle(PoseGraph& graph, SparsePoseAdjustment& solver);
+
+  /// A forced loop that the rest of the graph contradicts.
+  struct ContradictedForce {
+    LoopPair pair;
+    double chi = 0;  ///< see contradiction()
+  };
+  /// Returns the forced loops whose contradiction() by the rest of the graph exceeds kInlierChi, in the order
+  /// of their pairs. Settles the rest for each forced loop anew, because loops that agree with the path may
+  /// have been rejected for the forced one. Leaves out a loop whose contradiction() cannot be computed.
+  std::vector<ContradictedForce> contradicted_forces(const PoseGraph& graph,
+                                                     SparsePoseAdjustment& solver) const;
 
   void refuse_pending();
 
@@ -90,7 +98,11 @@ class LoopLedger {
   /// Prepares an edit by hand: undoes earlier edits of the pair, and saves its attempts.
   void take_over(const LoopPair& pair, LoopEdit::Kind kind, PoseGraph& graph);
   std::size_t enter(LoopRecord loop);
+  void add_constraint(std::size_t loop, PoseGraph& graph);
   void link(std::size_t loop, std::size_t constraint);
+  bool is_forced(std::size_t loop) const;
+  /// Returns the constraints of the loops that are not forced, and the numbers of these loops.
+  std::pair<std::vector<std::size_t>, std::vector<std::size_t>> unforced() const;
   void strike(std::size_t loop, LoopRefusal::Reason reason, PoseGraph& graph);
 
   LoopNoise noise_;

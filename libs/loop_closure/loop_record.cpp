@@ -13,7 +13,7 @@ std::string text_of(LoopRefusal::Reason reason) {
     case Reason::kLowResponse:
       return "the response is too low";
     case Reason::kAmbiguous:
-      return "another place fits as well";
+      return "another place fits, or the place is far from the predicted one";
     case Reason::kUncertainPosition:
       return "the scan does not determine the position";
     case Reason::kUnobserved:
@@ -50,7 +50,7 @@ std::string text_of(const std::optional<LoopRefusal>& refusal) {
     case Reason::kLowResponse:
       return reason + ": " + value + ", minimum " + limit;
     case Reason::kAmbiguous:
-      return reason + ": its response is " + value + " of the best, maximum " + limit;
+      return reason + ": doubt " + value + ", maximum " + limit;
     case Reason::kUncertainPosition:
       return reason + ": standard deviation " + value + " m, maximum " + limit + " m";
     case Reason::kUnobserved:

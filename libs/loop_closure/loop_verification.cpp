@@ -80,8 +80,10 @@ std::optional<LoopRefusal> find_objection(LoopRecord& loop, const ScanPoints& sc
   const bool wide = is_wide(loop.window, options);
   const double needed = min_response(loop.window, options);
   if (loop.response < needed) return LoopRefusal{Reason::kLowResponse, loop.response, needed};
-  if (!wide && loop.ambiguity > options.max_ambiguity)
-    return LoopRefusal{Reason::kAmbiguous, loop.ambiguity, options.max_ambiguity};
+  // Far from the prediction, another peak or a place outside the window is more probable.
+  const double doubt = 1 - (1 - loop.ambiguity) * loop.prior;
+  if (!wide && doubt > options.max_ambiguity)
+    return LoopRefusal{Reason::kAmbiguous, doubt, options.max_ambiguity};
   const double sigma_m = std::sqrt(largest_position_variance_m2(loop.covariance));
   if (sigma_m > options.max_sigma_m)
     return LoopRefusal{Reason::kUncertainPosition, sigma_m, options.max_sigma_m};

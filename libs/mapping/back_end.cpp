@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "frames/pose_operations.h"
+#include "pose_graph/graduated_non_convexity.h"
 
 namespace psi_slam {
 
@@ -32,6 +33,14 @@ NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& keyframes, Pose
   NodeLoops loops;
   loops.matcher = matchers.by_psi.kind;
   loops.searched = outcome.searched;
+  enter(std::move(outcome), keyframes, graph, loops);
+  if (loops.searched) factor_.add_search(loops.accepted);
+  return loops;
+}
+
+// Records the attempts of a node, and makes constraints of those that are accepted or confirmed.
+void BackEnd::enter(LoopCloser::Outcome&& outcome, const KeyframeStore& keyframes, PoseGraph& graph,
+                    NodeLoops& loops) {
   loops.effort = outcome.effort;
   loops.effort_of = std::move(outcome.effort_of);
   for (LoopRecord& loop : outcome.loops) {
@@ -44,8 +53,39 @@ NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& keyframes, Pose
       schedule_.add_residual(waits ? std::max(*residual, OptimizationSchedule::kUrgentResidual) : *residual);
     }
   }
-  if (loops.searched) factor_.add_search(loops.accepted);
-  return loops;
+}
+
+// Searches the wide windows that the last nodes left to later nodes, because no nodes follow: those of the
+// nodes whose matches can still confirm each other. Ends early if `progress` was cut short.
+LoopEffort BackEnd::search_pending(const KeyframeStore& keyframes, PoseGraph& graph,
+                                   const NodeMatchers& matchers, FinalProgress& progress) {
+  // A reopened map goes on as if this search had not been made.
+  const LoopConsensus consensus = consensus_;
+  const OptimizationSchedule schedule = schedule_;
+  const std::vector<NodeScan>& nodes = keyframes.nodes;
+  const auto is_last = [&](std::size_t node) {
+    return nodes.back().travelled_m - nodes[node].travelled_m <= options_.loop_consensus.memory_m;
+  };
+  std::size_t first = nodes.size();
+  while (first > 0 && is_last(first - 1)) --first;
+  std::set<LoopPair> matched;
+  for (const LoopRecord& loop : ledger_.loops())
+    if (loop.node >= first) matched.emplace(loop.node, loop.local_map);
+  LoopEffort effort;
+  for (std::size_t node = first; node < nodes.size() && !progress.cut_short(); ++node) {
+    if (is_unplaced(node, keyframes)) continue;
+    NodeLoops loops;
+    enter(closer_.close_wide(node, keyframes, graph, matchers, pool_,
+                             [&](std::size_t local_map) {
+                               return matched.count({node, local_map}) != 0;
+                             }),
+          keyframes, graph, loops);
+    effort += loops.effort;
+    if (loops.effort.attempts > 0) loop_clock_.leave_out([&] { return progress.at(0); });
+  }
+  consensus_ = consensus;
+  schedule_ = schedule;
+  return effort;
 }
 
 // Returns the loops to accept after the loop `index` was found. An accepted loop confirms only itself. A
@@ -58,7 +98,7 @@ std::vector<std::size_t> BackEnd::confirmed_by(std::size_t index, const Keyframe
   const NodeScan& here = keyframes.nodes[loop.node];
   return consensus_.add(
       {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity,
-       loop.response},
+       loop.response, loop.prior},
       graph, [&](std::size_t other) { return ledger_.loops()[other].verdict == LoopVerdict::kPending; });
 }
 
@@ -80,12 +120,10 @@ double BackEnd::optimize(PoseGraph& graph, SparsePoseAdjustment& solver) {
 void BackEnd::settle(PoseGraph& graph, SparsePoseAdjustment& solver, KnownLandmarks* known) {
   graph_clock_.time([&] {
     if (known != nullptr) known->switch_off(graph);
-    const bool path_is_bent = ledger_.settle(graph, solver, options_.max_loop_chi);
+    ledger_.settle(graph, solver);
     if (known == nullptr) return;
-    known->select(graph, options_.max_loop_chi);
-    // The loops were selected without the landmarks. No selection from scratch is needed, unless the path
-    // would contradict the loops again.
-    ledger_.settle(graph, solver, options_.max_loop_chi, path_is_bent ? kDoubtfulShare : 1);
+    known->select(graph, kInlierChi);
+    ledger_.settle(graph, solver);
   });
 }
 
@@ -94,6 +132,7 @@ std::pair<MatcherKind, LoopEffort> BackEnd::finish_loops(const KeyframeStore& ke
                                                          FinalProgress& progress, KnownLandmarks* known) {
   const NodeMatchers matchers = policy_.matchers(std::numeric_limits<double>::infinity());
   LoopEffort effort;
+  loop_clock_.time([&] { effort += search_pending(keyframes, graph, matchers, progress); });
   ledger_.refuse_pending();
   settle(graph, solver, known);
   for (int pass = 0; pass < progress.passes() && !progress.cut_short(); ++pass) {

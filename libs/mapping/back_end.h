@@ -5,6 +5,7 @@
 
 #include <mrpt/math/TPoint2D.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -38,11 +39,9 @@ struct BackEndOptions {
   LoopConsensusOptions loop_consensus;
   FinalSearchOptions final_search;
   JointRefinementOptions joint_refinement;
-  double loop_sigma_m = 0.02;  ///< standard deviations of extra noise of each loop match, see LoopNoise
+  /// Standard deviations of extra noise of each loop match, see LoopNoise.
+  double loop_sigma_m = 0.02;
   double loop_sigma_rad = radians_from_degrees(0.25L);
-  /// Residual in standard deviations above which a loop is switched off, unless the uncertainty along the
-  /// path explains it, see outlier_loops.h.
-  double max_loop_chi = 5.0;
   std::uint64_t seed = 1;  ///< seed of all random numbers
   int threads = 1;         ///< number of threads for matching, without effect on the results
   /// Priority of the threads of the back end. If it is low, the front end answers first on a shared
@@ -67,14 +66,14 @@ class FinalProgress {
   /// steps are skipped.
   FinalProgress(const BackEndOptions& options, std::function<bool(double)> report)
       : passes_(options.final_search.passes),
-        steps_(passes_ + (options.joint_refinement.rounds > 0 ? 1 : 0)),
+        steps_(std::max(1, passes_ + (options.joint_refinement.rounds > 0 ? 1 : 0))),
         report_(std::move(report)) {}
 
   int passes() const { return passes_; }
   /// Reports the number of completed steps; fractions are allowed. Returns whether to continue.
   bool at(double done) {
     const bool go_on = !report_ || report_(done / steps_);
-    cut_short_ = !go_on && done < steps_;
+    cut_short_ = cut_short_ || (!go_on && done < steps_);
     return go_on;
   }
   bool cut_short() const { return cut_short_; }
@@ -105,7 +104,8 @@ class BackEnd {
   /// Solves the whole graph. Returns the time in milliseconds.
   double optimize(PoseGraph& graph, SparsePoseAdjustment& solver);
 
-  /// Runs the final loop search after the last scan. Before the first pass and after each pass, optimises the
+  /// Makes the searches in wide windows that the last nodes left to later nodes, and runs the final loop
+  /// search after the last scan. Before the first pass and after each pass, optimises the
   /// graph and switches off outlier loops. Refuses all pending loops. Returns the matcher of the largest
   /// Psi, which searched all windows, and its effort. `known` are the landmarks of the graph; null: none.
   std::pair<MatcherKind, LoopEffort> finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
@@ -135,6 +135,10 @@ class BackEnd {
   std::vector<std::size_t> confirmed_by(std::size_t loop, const KeyframeStore& keyframes,
                                         const PoseGraph& graph);
   NodeLoops search(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph);
+  void enter(LoopCloser::Outcome&& outcome, const KeyframeStore& keyframes, PoseGraph& graph,
+             NodeLoops& loops);
+  LoopEffort search_pending(const KeyframeStore& keyframes, PoseGraph& graph, const NodeMatchers& matchers,
+                            FinalProgress& progress);
   LoopEffort run_final_search(const KeyframeStore& keyframes, PoseGraph& graph, const NodeMatchers& matchers,
                               const std::function<bool(double)>& progress);
 

@@ -72,7 +72,7 @@ BackEndStep GraphBuilder::add(const TrackedFrame& tracked) {
 void GraphBuilder::add_node(const TrackedFrame& tracked) {
   remember_node(tracked.step, tracked.frame, keyframes_);
   graph_.add_node(compose(map_T_local_, tracked.step.local_T_robot));
-  constrain_to_local_maps(tracked.step, {options_.local_map_sigma_m, options_.local_map_sigma_rad}, graph_);
+  constrain_to_path(tracked.step, options_.path_noise, keyframes_, graph_);
   if (run_start_) join_run();
 }
 

@@ -85,6 +85,9 @@ class GraphBuilder {
   }
   /// Optimises the graph with the landmarks, without searching loops.
   void settle_landmarks();
+  std::vector<LoopLedger::ContradictedForce> contradicted_forces() {
+    return back_end_.ledger().contradicted_forces(graph_, solver_);
+  }
   void refine(RefinedScans& scans, FinalProgress& progress) { back_end_.refine(scans, graph_, progress); }
 
   /// Moves those of `runs` beside the map that no loop joins to it, and returns them.

@@ -330,9 +330,10 @@ void Mapper::Implementation::finish_graph(bool closes_loops, FinalProgress& prog
   else
     builder_.settle_landmarks();
   lay_unjoined_runs_aside();
+  if (!progress.cut_short()) result_.contradictions = contradicted_forces();
   if (!known) return;
-  result_.contradictions =
-      known->contradictions(*builder_.landmarks(), builder_.graph(), options_.back_end.max_loop_chi);
+  for (std::string& sentence : known->contradictions(*builder_.landmarks(), builder_.graph(), kInlierChi))
+    result_.contradictions.push_back(std::move(sentence));
   result_.knowledge = known->counts(*builder_.landmarks(), builder_.graph());
   builder_.move_to_site();
 }
@@ -364,8 +365,8 @@ std::optional<Eigen::Matrix3d> Mapper::Implementation::newest_covariance() const
   Eigen::Matrix3d covariance =
       carried_covariance(covariance_->covariance, covariance_->map_T_node, newest.map_T_robot);
   covariance += static_cast<double>(result_.node_frames.size() - 1 - corrected_node_) * covariance_->drift;
-  const double sigma_m = options_.local_map_sigma_m;
-  const double sigma_rad = options_.local_map_sigma_rad;
+  const double sigma_m = options_.path_noise.scan_sigma_m;
+  const double sigma_rad = options_.path_noise.scan_sigma_rad;
   covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
   return covariance;
 }

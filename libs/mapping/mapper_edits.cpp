@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/number_text.h"
 #include "mapping/mapper_implementation.h"
 
 namespace psi_slam {
@@ -74,6 +75,17 @@ std::vector<std::string> Mapper::Implementation::unmet_edits() const {
     unmet.push_back(text_of({LoopEdit::Kind::kForce, keyframes().nodes[node].frame, local_map}) +
                     ": no match of this scan and local map was found");
   return unmet;
+}
+
+// Returns a sentence for each forced loop that the other loops and the path contradict.
+std::vector<std::string> Mapper::Implementation::contradicted_forces() {
+  std::vector<std::string> sentences;
+  for (const auto& [pair, chi] : builder_.contradicted_forces())
+    sentences.push_back("the forced loop of scan " + std::to_string(keyframes().nodes[pair.first].frame) +
+                        " with local map " + std::to_string(pair.second) +
+                        " holds, but the path and the other loops contradict it by " + fixed_text(chi, 1) +
+                        " standard deviations: undo the edit if the loop is false");
+  return sentences;
 }
 
 void Mapper::Implementation::reopen(MappingResult&& result) {

@@ -80,6 +80,7 @@ class Mapper::Implementation {
   bool can_serve_waiting_edits() const;
   void serve_waiting_edits();
   std::vector<std::string> unmet_edits() const;
+  std::vector<std::string> contradicted_forces();
   void finish_loops(FinalProgress& progress);
   void finish_graph(bool closes_loops, FinalProgress& progress);
   void count_accepted_loops();

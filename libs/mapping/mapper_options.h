@@ -14,9 +14,7 @@ struct MapperOptions {
   PoseAdjustmentOptions pose_graph;
 
   bool close_loops = true;
-  /// Standard deviations of extra noise of a node's pose in a local map, see LocalMapNoise.
-  double local_map_sigma_m = 0.015;
-  double local_map_sigma_rad = radians_from_degrees(0.25L);
+  PathNoise path_noise;
 
   /// Loops found for a node correct the poses while mapping this many nodes later. The finished map does not
   /// depend on it.

@@ -24,7 +24,6 @@ void keep_local_maps(const std::vector<PlacedLocalMap>& finished, KeyframeStore&
 }  // namespace
 
 struct CPsiFrontEndNRD::State {
-  LocalMapNoise local_map_noise;
   bool log_options_set = false;
   std::unique_ptr<EntryFrames> entries;
   std::unique_ptr<FrontEnd> front_end;
@@ -47,7 +46,6 @@ CPsiFrontEndNRD::~CPsiFrontEndNRD() = default;
 void CPsiFrontEndNRD::loadParams(const std::string& source_fname) {
   const DeciderParams params = read_decider_params(source_fname, kNodeDeciderSection);
   const MapperOptions& mapper = params.settings.mapper;
-  state_->local_map_noise = {mapper.local_map_sigma_m, mapper.local_map_sigma_rad};
   if (!state_->log_options_set)
     state_->entries = std::make_unique<EntryFrames>(log_options(params.settings), kSpeaker);
   state_->front_end = std::make_unique<FrontEnd>(mapper.front_end);
@@ -124,7 +122,7 @@ void CPsiFrontEndNRD::add_node() {
   map_->odometry_m.push_back(state_->odometry_m);
 
   graph.add_node(pose);
-  constrain_to_local_maps(state_->step, state_->local_map_noise, graph);
+  constrain_to_path(state_->step, PathNoise(), keyframes, graph);
   keep_local_maps(state_->step.finished, keyframes);
 }
 

@@ -18,13 +18,10 @@ struct Owner {
 };
 
 const std::array<Owner, 3> kOwners{
-    {{kNodeDeciderSection,
-      {"log", "front_end", "local_maps", "pose_graph.local_map_sigma_m",
-       "pose_graph.local_map_sigma_theta_deg"}},
+    {{kNodeDeciderSection, {"log", "front_end", "local_maps"}},
      {kEdgeDeciderSection,
       {"loop_closure", "psi", "genetic", "verification", "consensus", "final_search", "last_pass",
-       "joint_refinement", "run", "pose_graph.loop_sigma_m", "pose_graph.loop_sigma_theta_deg",
-       "pose_graph.max_loop_chi"}},
+       "joint_refinement", "run", "pose_graph.loop_sigma_m", "pose_graph.loop_sigma_theta_deg"}},
      {kOptimizerSection, {"pose_graph"}}}};
 
 /// Whether an option has no effect in the engine, which reads every scan and draws its own map. The choice of
@@ -65,7 +62,8 @@ void load_graphslam_settings(const std::filesystem::path& ini, BoundSettings& bo
   for (const IniValue& value : read_ini(ini).values) {
     const std::size_t dot = value.key.find('.');
     if (!is_deciders_section(value.section) || dot == std::string::npos) continue;
-    require_own_section(value, bound.table.option(value.key, value.where).name());
+    if (!bound.table.is_obsolete(value.key))
+      require_own_section(value, bound.table.option(value.key, value.where).name());
     options.values.push_back({value.key.substr(0, dot), value.key.substr(dot + 1), value.text, value.where});
   }
   apply(options, bound.table);

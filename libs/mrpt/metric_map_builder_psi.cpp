@@ -179,8 +179,8 @@ struct CMetricMapBuilderPsi::Implementation {
     CPosePDFGaussian robot(CPose2D(frames().back().map_T_robot));
     Eigen::Matrix3d covariance = is_aligned_ ? pose_covariance(graph(), node_observations_.size() - 1)
                                              : newest_covariance_.update(graph());
-    const double sigma_m = mapper_options_.local_map_sigma_m;
-    const double sigma_rad = mapper_options_.local_map_sigma_rad;
+    const double sigma_m = mapper_options_.path_noise.scan_sigma_m;
+    const double sigma_rad = mapper_options_.path_noise.scan_sigma_rad;
     covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
     robot.cov = mrpt::math::CMatrixDouble33(covariance);
     CPosePDFGaussian estimate = start_;

@@ -12,8 +12,10 @@ using mrpt::math::TPose2D;
 // Squared width so large that the kernel gives every error the same weight.
 constexpr double kNearlyConvexWidth2 = 1e20;
 
-bool is_enabled_loop(const PoseGraph& graph, std::size_t constraint) {
-  return graph.enabled(constraint) && graph.constraint(constraint).kind == Constraint::Kind::kLoop;
+/// A loop with a kernel of its own is no candidate: a person stated it.
+bool is_enabled_loop(const PoseGraph& graph, std::size_t index) {
+  const Constraint& constraint = graph.constraint(index);
+  return graph.enabled(index) && constraint.kind == Constraint::Kind::kLoop && !constraint.kernel;
 }
 
 double largest_loop_chi2(const PoseGraph& graph, const std::vector<ConstraintFit>& fits) {
@@ -51,6 +53,8 @@ GraduatedReport optimize_graduated(PoseGraph& graph, SparsePoseAdjustment& solve
   const auto solve = [&](double loop_width2, int max_iterations) {
     PoseAdjustmentOptions round = given;
     round.max_iterations = max_iterations;
+    if (options.path_doubt != 1)
+      round.local_map_kernel = {RobustKernel::Type::kScaled, 1 / options.path_doubt};
     round.loop_kernel = {RobustKernel::Type::kGemanMcClure, std::sqrt(loop_width2)};
     solver.set_options(round);
     PoseAdjustmentReport report = solver.optimize(graph);

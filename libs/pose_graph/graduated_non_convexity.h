@@ -14,11 +14,15 @@
 
 namespace psi_slam {
 
+/// Largest residual of a constraint that agrees with the others, in standard deviations. One in 65,000 true
+/// constraints exceeds it: it is the square root of that quantile of the chi-square distribution with 3
+/// degrees of freedom.
+inline constexpr double kInlierChi = 5;
+
 struct GraduatedOptions {
-  /// Width of the final kernel in standard deviations: square root of the 99 % quantile of the chi-square
-  /// distribution with 3 degrees of freedom.
-  double inlier_width = 3.37;
-  double narrowing = 1.2;  ///< factor, > 1, by which the squared width falls per round
+  double inlier_width = kInlierChi;  ///< width of the final kernel, standard deviations
+  double path_doubt = 1;             ///< factor on the standard deviations of the path
+  double narrowing = 1.2;            ///< factor, > 1, by which the squared width falls per round
   int max_rounds = 200;
   int first_iterations = 10;  ///< iterations of the solve with the widest kernel
   int iterations_per_round = 2;
@@ -28,12 +32,13 @@ struct GraduatedReport {
   /// Solution at the inlier width, with the iterations of the last solve and the total time of all solves.
   PoseAdjustmentReport solution;
   int rounds = 0;  ///< solves between the widest kernel and the inlier width
-  /// Enabled constraints of the kind kLoop whose residual exceeds the inlier width, ascending.
+  /// Enabled loops without a kernel of their own whose residual exceeds the inlier width, ascending.
   std::vector<std::size_t> outliers;
 };
 
-/// Moves the poses of the graph and leaves its constraints unchanged. During the call, the Geman-McClure
-/// kernel replaces the solver's kernel for loops; constraints with their own kernel keep it. Throws UserError
+/// Moves the poses of the graph and leaves its constraints unchanged. During the call, the
+/// Geman-McClure kernel replaces the solver's kernel for loops, and a kernel with the doubt that for the
+/// path; constraints with their own kernel keep it. Throws UserError
 /// as SparsePoseAdjustment::optimize() does.
 GraduatedReport optimize_graduated(PoseGraph& graph, SparsePoseAdjustment& solver,
                                    const GraduatedOptions& options = {});

@@ -34,13 +34,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using mrpt::math::TPose2D;
 
-// Largest factors on the covariance of drift, see drift_factor(). Single stretches are up to ten standard
-// deviations off (share/doc/covariances.md). Along a bare corridor with a wrong scale of odometry, all of
-// them are far more, which only several marks can tell from a mark at a wrong place.
-constexpr double kMostDriftOfFew = 100;
-constexpr double kMostDrift = 1e4;
-constexpr std::size_t kManyPairs = 6;  // of four marks
-
 Matrix3d covariance_of(const MeasuredPose& measured) {
   const double of_heading = measured.sigma_rad.value_or(0);
   const double of_position = measured.sigma_m * measured.sigma_m;
@@ -57,14 +50,14 @@ Matrix3d information_of(const MeasuredPose& measured) {
   return information;
 }
 
-Constraint known_constraint(std::size_t from, std::size_t to, const MeasuredPose& from_T_to, double weight) {
+Constraint known_constraint(std::size_t from, std::size_t to, const MeasuredPose& from_T_to) {
   Constraint constraint;
   constraint.from = from;
   constraint.to = to;
   constraint.from_T_to = from_T_to.pose;
-  constraint.information = weight * information_of(from_T_to);
+  constraint.information = information_of(from_T_to);
   constraint.kind = Constraint::Kind::kKnown;
-  constraint.kernel = RobustKernel{RobustKernel::Type::kHuber, kKnownKernelWidth * std::sqrt(weight)};
+  constraint.kernel = RobustKernel{};  // consistent() has left out what is false; the rest holds
   return constraint;
 }
 
@@ -118,12 +111,8 @@ struct Disagreement {
   MatrixXd of_drift;       // covariance by the pose of one node relative to the other
   MatrixXd of_statements;  // covariance by the sightings and the places
 
-  /// Returns e^T C^-1 e, with the covariance of drift times `drift`.
-  double chi2(double drift) const {
-    return std::max(0.0, error.dot((drift * of_drift + of_statements).ldlt().solve(error)));
-  }
-  /// Whether drift that is `most` times as large would show.
-  bool tells_of_drift(double most) const { return most * of_drift.trace() > of_statements.trace(); }
+  /// Returns e^T C^-1 e.
+  double chi2() const { return std::max(0.0, error.dot((of_drift + of_statements).ldlt().solve(error))); }
 };
 
 // `a_T_b` is the pose of node b in node a.
@@ -161,47 +150,25 @@ Disagreement disagreement_of(const SeenMark& a, const SeenMark& b, const TPose2D
           statements.topLeftCorner(size, size) + kLeastVariance * MatrixXd::Identity(size, size)};
 }
 
-// Returns the factor on the covariance of drift with which a disagreement has the median of its
-// distribution, from 1 to `most`.
-double explaining_drift(const Disagreement& disagreement, double most) {
-  const auto dimension = static_cast<double>(disagreement.error.size());
-  const double median = dimension * portable::pow(1 - 2 / (9 * dimension), 3);  // of chi-square
-  double low = 1;
-  double high = most;
-  if (disagreement.chi2(low) <= median) return low;
-  if (disagreement.chi2(high) >= median) return high;
-  constexpr int kHalvings = 40;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = std::sqrt(low * high);
-    (disagreement.chi2(middle) > median ? low : high) = middle;
-  }
-  return high;
-}
-
-// Returns the factor by which the covariances of drift are too small: the median over the disagreements that
-// drift could explain. Errors that repeat, such as a wrong scale of odometry along
-// bare corridors, make it large.
-double drift_factor(const std::vector<Disagreement>& disagreements) {
-  const double most = disagreements.size() < kManyPairs ? kMostDriftOfFew : kMostDrift;
-  std::vector<double> factors;
-  for (const Disagreement& one : disagreements)
-    if (one.tells_of_drift(most)) factors.push_back(explaining_drift(one, most));
-  if (factors.empty()) return 1;
-  const auto middle = factors.begin() + static_cast<std::ptrdiff_t>((factors.size() - 1) / 2);
-  std::nth_element(factors.begin(), middle, factors.end());
-  return *middle;
+// Returns the covariance of the pose of node b in node a, plus the error of the scale of odometry. It is the
+// same for the whole path, so the chain of path segments, a random walk, does not contain it.
+Matrix3d with_scale_error(Matrix3d covariance, const TPose2D& a_T_b) {
+  constexpr double kScaleSigma = 0.03;
+  const double sigma_m = kScaleSigma * portable::hypot(a_T_b.x, a_T_b.y);
+  covariance.topLeftCorner<2, 2>() += sigma_m * sigma_m * Eigen::Matrix2d::Identity();
+  return covariance;
 }
 
 // Returns a consistent subset of `count` marks: drops the mark with the most conflicts, then the one with the
 // largest conflicts, until no two marks are more than `max_chi` standard deviations apart. The disagreements
 // are those of all pairs, in the order (0, 1), (0, 2), ... (1, 2), ...
-std::vector<bool> consistent(std::size_t count, const std::vector<Disagreement>& disagreements, double drift,
+std::vector<bool> consistent(std::size_t count, const std::vector<Disagreement>& disagreements,
                              double max_chi) {
   MatrixXd chi = MatrixXd::Zero(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(count));
   auto pair = disagreements.begin();
   for (Eigen::Index a = 0; a < chi.rows(); ++a)
     for (Eigen::Index b = a + 1; b < chi.rows() && pair != disagreements.end(); ++b, ++pair)
-      chi(a, b) = chi(b, a) = std::sqrt(pair->chi2(drift));
+      chi(a, b) = chi(b, a) = std::sqrt(pair->chi2());
   std::vector<bool> kept(count, true);
   while (true) {
     std::pair<int, double> worst{0, 0.0};
@@ -223,17 +190,6 @@ std::vector<bool> consistent(std::size_t count, const std::vector<Disagreement>&
   }
 }
 
-// Returns the disagreements between the marks that are kept. The order of pairs is that of consistent().
-std::vector<Disagreement> of_kept(const std::vector<bool>& kept,
-                                  const std::vector<Disagreement>& disagreements) {
-  std::vector<Disagreement> result;
-  auto pair = disagreements.begin();
-  for (std::size_t a = 0; a < kept.size(); ++a)
-    for (std::size_t b = a + 1; b < kept.size() && pair != disagreements.end(); ++b, ++pair)
-      if (kept[a] && kept[b]) result.push_back(*pair);
-  return result;
-}
-
 void enable(const std::vector<std::size_t>& constraints, const std::vector<bool>& enabled, PoseGraph& graph) {
   for (std::size_t i = 0; i < constraints.size(); ++i) graph.set_enabled(constraints[i], enabled[i]);
 }
@@ -249,8 +205,7 @@ KnownResidual residual_of(const Constraint& constraint, const PoseGraph& graph) 
   KnownResidual residual;
   residual.distance_m = error.head<2>().norm();
   if (constraint.information(2, 2) > 0) residual.turn_rad = std::abs(error.z());
-  residual.chi =
-      std::sqrt(std::max(0.0, error.dot(constraint.information * error)) / weight_of_known(constraint));
+  residual.chi = std::sqrt(std::max(0.0, error.dot(constraint.information * error)));
   return residual;
 }
 
@@ -273,10 +228,12 @@ class KnownLandmarks::Consistency {
     std::vector<Disagreement> pairs;
     for (std::size_t a = 0; a + 1 < marks.size() && is_determined_; ++a) {
       const std::vector<Matrix3d> covariances = relative_to_later(marks, a);
-      for (std::size_t b = a + 1; b < marks.size(); ++b)
-        pairs.push_back(disagreement_of(marks[a], marks[b],
-                                        between(graph_.pose(marks[a].node), graph_.pose(marks[b].node)),
-                                        covariances[b - a - 1], comparison_of(marks[a], marks[b], is_same)));
+      for (std::size_t b = a + 1; b < marks.size(); ++b) {
+        const TPose2D a_T_b = between(graph_.pose(marks[a].node), graph_.pose(marks[b].node));
+        pairs.push_back(disagreement_of(marks[a], marks[b], a_T_b,
+                                        with_scale_error(covariances[b - a - 1], a_T_b),
+                                        comparison_of(marks[a], marks[b], is_same)));
+      }
     }
     return pairs;
   }
@@ -323,56 +280,35 @@ KnownLandmarks::KnownLandmarks(std::vector<Landmark> landmarks, PoseGraph& graph
     site_T_root_ = {first_placed->site_T_mark->pose.x, first_placed->site_T_mark->pose.y, 0};
     site_ = add_node();
   }
-  for (std::size_t i = 0; i < landmarks_.size(); ++i) numbers_.push_back({add_node(), {}, {}, {}});
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) numbers_.push_back({add_node(), {}, {}});
 }
 
 void KnownLandmarks::switch_off(PoseGraph& graph) const {
   for (const Numbers& numbers : numbers_) {
     if (numbers.place) graph.set_enabled(*numbers.place, false);
     for (const std::size_t sighting : numbers.sightings) graph.set_enabled(sighting, false);
-    for (const auto& [sighting, tie] : numbers.ties) graph.set_enabled(tie, false);
   }
 }
 
 void KnownLandmarks::enable_sightings(std::size_t landmark, const std::vector<bool>& enabled,
                                       PoseGraph& graph) const {
   enable(numbers_[landmark].sightings, enabled, graph);
-  for (const auto& [sighting, tie] : numbers_[landmark].ties) graph.set_enabled(tie, enabled[sighting]);
 }
 
-// Ties the node of a sighting to its local maps as firmly as the sighting holds it. The graph takes the
-// errors of all nodes of a local map for independent. Without the ties, a sighting would pull its node alone
-// off the nodes around it, although they share the error of their local map.
-void KnownLandmarks::add_ties(std::size_t landmark, std::size_t sighting, double weight, PoseGraph& graph) {
-  const std::size_t node = landmarks_[landmark].sightings[sighting].node;
-  const std::vector<std::uint32_t> constraints = graph.constraints_of(node);
-  for (const std::uint32_t index : constraints) {
-    Constraint tie = graph.constraint(index);
-    if (tie.kind != Constraint::Kind::kLocalMap || tie.to != node || !graph.enabled(index)) continue;
-    tie.from_T_to = between(graph.pose(tie.from), graph.pose(node));
-    tie.information *= weight;
-    tie.kind = Constraint::Kind::kKnown;
-    tie.kernel = RobustKernel{RobustKernel::Type::kNone, kKnownKernelWidth * std::sqrt(weight)};
-    numbers_[landmark].ties.emplace_back(sighting, graph.add_constraint(tie));
-  }
-}
-
-// Adds the constraints of all landmarks with this weight instead of those added before.
-void KnownLandmarks::add_constraints(double weight, PoseGraph& graph) {
+// Adds the constraints of all landmarks instead of those added before.
+void KnownLandmarks::add_constraints(PoseGraph& graph) {
   switch_off(graph);
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     Numbers& numbers = numbers_[i];
     numbers.sightings.clear();
-    numbers.ties.clear();
     for (std::size_t k = 0; k < landmarks_[i].sightings.size(); ++k) {
       const LandmarkSighting& sighting = landmarks_[i].sightings[k];
       numbers.sightings.push_back(
-          graph.add_constraint(known_constraint(sighting.node, numbers.node, sighting.node_T_mark, weight)));
-      add_ties(i, k, weight, graph);
+          graph.add_constraint(known_constraint(sighting.node, numbers.node, sighting.node_T_mark)));
     }
     if (landmarks_[i].site_T_mark)
-      numbers.place = graph.add_constraint(known_constraint(
-          *site_, numbers.node, relative_to(site_T_root_, *landmarks_[i].site_T_mark), weight));
+      numbers.place = graph.add_constraint(
+          known_constraint(*site_, numbers.node, relative_to(site_T_root_, *landmarks_[i].site_T_mark)));
   }
 }
 
@@ -400,27 +336,16 @@ void KnownLandmarks::select(PoseGraph& graph, double max_chi) {
       seen.push_back({sighting.node, sighting.node_T_mark, {{0, 0, 0}, 0, 0}});
     of_sightings.push_back(consistency.of(seen, true));
   }
-  add_constraints(kOverconfidence, graph);
+  add_constraints(graph);
   std::vector<std::size_t> placed;
-  std::vector<Disagreement> of_places = consistency.of(placed_marks(graph, placed), false);
-  std::vector<Disagreement> all = of_places;
-  for (const std::vector<Disagreement>& one : of_sightings) all.insert(all.end(), one.begin(), one.end());
-  const double drift = drift_factor(all);
 
   std::vector<std::vector<bool>> kept_sightings;
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-    kept_sightings.push_back(consistent(landmarks_[i].sightings.size(), of_sightings[i], drift, max_chi));
+    kept_sightings.push_back(consistent(landmarks_[i].sightings.size(), of_sightings[i], max_chi));
     enable_sightings(i, kept_sightings.back(), graph);
   }
-  of_places = consistency.of(placed_marks(graph, placed), false);
-  const std::vector<bool> kept_places = consistent(placed.size(), of_places, drift, max_chi);
-
-  // The weight follows from the drift without the contradictions.
-  all = of_kept(kept_places, of_places);
-  for (std::size_t i = 0; i < landmarks_.size(); ++i)
-    for (Disagreement& one : of_kept(kept_sightings[i], of_sightings[i])) all.push_back(std::move(one));
-  add_constraints(kOverconfidence * drift_factor(all), graph);
-  for (std::size_t i = 0; i < landmarks_.size(); ++i) enable_sightings(i, kept_sightings[i], graph);
+  const std::vector<Disagreement> of_places = consistency.of(placed_marks(graph, placed), false);
+  const std::vector<bool> kept_places = consistent(placed.size(), of_places, max_chi);
   for (std::size_t k = 0; k < placed.size(); ++k)
     graph.set_enabled(*numbers_[placed[k]].place, kept_places[k]);
   place_nodes(graph);

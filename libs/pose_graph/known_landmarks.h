@@ -5,12 +5,10 @@
 //
 // The graph gets a node for each mark, and one for the frame of the site if the place of any mark is known.
 // The site's node is a point of the site near the first mark, with the axes of the site: coordinates of a
-// site may be large. All constraints of the marks have a robust kernel. Before they are used, pairwise
-// consistency decides which of them are false (Mangelson et al., "Pairwise consistent measurement set
-// maximization for robust multi-robot map merging", ICRA 2018). The covariance between two nodes is that of
-// the model of shared errors, because that of the graph is too small. The model knows no errors that repeat,
-// such as a wrong scale of odometry along bare corridors. So a common factor on all these covariances is
-// estimated from the disagreements: their median then has the value that is expected.
+// site may be large. Before the constraints are used, pairwise consistency decides which of them are false
+// (Mangelson et al., "Pairwise consistent measurement set maximization for robust multi-robot map merging",
+// ICRA 2018). The others have no robust kernel, so they hold. The covariance between two nodes is that of the
+// path, see graph_with_shared_errors(), plus the error of the scale of odometry.
 #pragma once
 
 #include <Eigen/Core>
@@ -79,12 +77,10 @@ class KnownLandmarks {
     std::size_t node = 0;
     std::optional<std::size_t> place;
     std::vector<std::size_t> sightings;
-    std::vector<std::pair<std::size_t, std::size_t>> ties;  ///< index of the sighting, constraint
   };
   class Consistency;
 
-  void add_constraints(double weight, PoseGraph& graph);
-  void add_ties(std::size_t landmark, std::size_t sighting, double weight, PoseGraph& graph);
+  void add_constraints(PoseGraph& graph);
   void enable_sightings(std::size_t landmark, const std::vector<bool>& enabled, PoseGraph& graph) const;
   std::vector<SeenMark> placed_marks(const PoseGraph& graph, std::vector<std::size_t>& numbers) const;
   std::size_t best_sighting(std::size_t landmark, const PoseGraph& graph) const;

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/newest_covariance.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <optional>
+
+#include "pose_graph/information_matrix.h"
+#include "pose_graph/marginal_covariance.h"
+#include "pose_graph/shared_errors.h"
 
 namespace psi_slam {
 namespace {
@@ -12,6 +17,22 @@ using Eigen::Matrix3d;
 // Growth of the graph, as a share of its nodes, after which the covariance is computed again.
 constexpr double kGrowth = 0.02;
 constexpr double kGrowthWithLoops = 0.005;
+
+// Constraint of the path to a node. The covariance is in the axes of the map.
+struct PathLink {
+  std::size_t from = 0;
+  Matrix3d covariance;
+};
+
+std::optional<PathLink> path_link(const PoseGraph& graph, std::size_t node) {
+  for (const std::uint32_t i : graph.constraints_of(node)) {
+    const Constraint& constraint = graph.constraint(i);
+    if (constraint.kind != Constraint::Kind::kLocalMap || constraint.to != node) continue;
+    const Matrix3d covariance = constraint.information.inverse();
+    return PathLink{constraint.from, in_turned_axes(covariance, graph.pose(constraint.from).phi)};
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -35,7 +56,15 @@ const Matrix3d& NewestCovariance::update(const PoseGraph& graph) {
 
 Matrix3d NewestCovariance::newest_drift(const PoseGraph& graph) const {
   if (graph.num_nodes() < 2) return Matrix3d::Zero();
-  return drift_covariance(graph, graph.num_nodes() - 1, mean_local_map_).value_or(Matrix3d::Zero());
+  std::size_t end = graph.num_nodes() - 1;
+  std::optional<PathLink> link = path_link(graph, end);
+  if (!link) return Matrix3d::Zero();
+  // From segment to segment, because the link of a single node holds the error of its scan, too.
+  if (const std::optional<PathLink> whole = path_link(graph, link->from)) {
+    end = link->from;
+    link = whole;
+  }
+  return link->covariance / static_cast<double>(end - link->from);
 }
 
 bool NewestCovariance::is_due(std::size_t nodes) const {
@@ -43,19 +72,30 @@ bool NewestCovariance::is_due(std::size_t nodes) const {
   return static_cast<double>(nodes - computed_nodes_) >= std::max(1.0, share * static_cast<double>(nodes));
 }
 
-// Returns false if the model has no drift to one of the new nodes.
+// Returns false if the path does not lead to one of the new nodes.
 bool NewestCovariance::carry_to_newest(const PoseGraph& graph) {
   for (std::size_t node = nodes_; node < graph.num_nodes(); ++node) {
-    const std::optional<Matrix3d> drift = drift_covariance(graph, node, mean_local_map_);
-    if (!drift) return false;
-    covariance_ = carried_covariance(covariance_, graph.pose(node - 1), graph.pose(node)) + *drift;
+    const std::optional<PathLink> link = path_link(graph, node);
+    if (!link) return false;
+    if (link->from == node - 1) {
+      first_ = link->from;
+      first_covariance_ = covariance_;
+    }
+    if (link->from != first_) return false;
+    covariance_ =
+        carried_covariance(first_covariance_, graph.pose(first_), graph.pose(node)) + link->covariance;
   }
   return true;
 }
 
 void NewestCovariance::compute(const PoseGraph& graph) {
-  covariance_ = pose_covariance(graph, graph.num_nodes() - 1);
-  mean_local_map_ = mean_local_map(graph);
+  const std::size_t newest = graph.num_nodes() - 1;
+  const std::optional<PathLink> link = path_link(graph, newest);
+  first_ = link ? link->from : newest;
+  MarginalCovariance of_model;
+  of_model.update(graph_with_shared_errors(graph));
+  covariance_ = of_model.marginal(newest);
+  first_covariance_ = of_model.marginal(first_);
   computed_nodes_ = graph.num_nodes();
   gained_loops_ = false;
   ++computations_;

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 
-#include "pose_graph/shared_errors.h"
 #include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
@@ -20,7 +19,7 @@ Eigen::Matrix3d carried_covariance(const Eigen::Matrix3d& covariance, const mrpt
 /// Covariance of the newest node as pose_covariance() defines it, for callers that ask after each node.
 /// Computes it again only after the graph has grown by a share: 0.5 % if it gained loops, otherwise 2 %. So
 /// the cost of asking after each node is proportional to the size of the graph. In between, the last
-/// covariance is carried along by the motion, and the drift of the model is added.
+/// covariance is carried along by the motion, and the drift of the path is added.
 class NewestCovariance {
  public:
   /// Returns the covariance of (x, y, theta) of the newest node relative to the root, in the axes of the map:
@@ -28,8 +27,9 @@ class NewestCovariance {
   /// have gained nodes and constraints. Throws UserError like pose_covariance().
   const Eigen::Matrix3d& update(const PoseGraph& graph);
 
-  /// Returns the drift of the model to the newest node of the graph of the last update(), see
-  /// drift_covariance(). Zero if the model has none.
+  /// Returns the mean drift of a node of the newest whole path segment, in the axes of the map, for the graph
+  /// of the last update(); in the first segment of a run, that of the nodes so far. Zero if the newest node
+  /// begins a run.
   Eigen::Matrix3d newest_drift(const PoseGraph& graph) const;
 
   /// Number of times that the covariance was computed from the whole graph.
@@ -41,7 +41,8 @@ class NewestCovariance {
   void compute(const PoseGraph& graph);
 
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
-  MeanLocalMap mean_local_map_;
+  std::size_t first_ = 0;  // node from which the path constraint of the newest node begins
+  Eigen::Matrix3d first_covariance_ = Eigen::Matrix3d::Zero();
   std::size_t nodes_ = 0;           // of the graph at the last call
   std::size_t constraints_ = 0;     // of the graph at the last call
   std::size_t computed_nodes_ = 0;  // of the graph at the last computation

@@ -40,10 +40,10 @@ void add(PoseCovariance& a, const PoseCovariance& b) {
 // Extends a chain by one link. Forwards, the error of the next node is the error of the previous node,
 // carried to the next node, plus the error of the measurement. Backwards, the heading error of the
 // measurement also turns the step, so both errors are carried.
-PoseCovariance extended(const PoseCovariance& at_previous, const GraphLink& link, const RotatedPose& previous,
-                        const RotatedPose& next, bool forwards) {
+PoseCovariance extended(const PoseCovariance& at_previous, const PoseCovariance& of_link,
+                        const RotatedPose& previous, const RotatedPose& next, bool forwards) {
   const RotatedPose& from = forwards ? previous : next;
-  const PoseCovariance measured = turned_covariance(link.covariance, from.cosine, from.sine);
+  const PoseCovariance measured = turned_covariance(of_link, from.cosine, from.sine);
   const double dx = next.x - previous.x;
   const double dy = next.y - previous.y;
   PoseCovariance result = at_previous;
@@ -55,9 +55,8 @@ PoseCovariance extended(const PoseCovariance& at_previous, const GraphLink& link
 
 // Returns the cost of extended(), with less work: a trace needs no rotation of the position part of the
 // measurement.
-double extended_cost(const PoseCovariance& at_previous, const GraphLink& link, const RotatedPose& previous,
-                     const RotatedPose& next, bool forwards, double lever2) {
-  const PoseCovariance& measured = link.covariance;
+double extended_cost(const PoseCovariance& at_previous, const PoseCovariance& measured,
+                     const RotatedPose& previous, const RotatedPose& next, bool forwards, double lever2) {
   double xt = at_previous.xt;
   double yt = at_previous.yt;
   double tt = at_previous.tt;
@@ -100,6 +99,12 @@ void PathCovarianceSearch::rotate(Node& node) {
   node.pose = RotatedPose({node.pose.x, node.pose.y, node.pose.theta});
 }
 
+PoseCovariance PathCovarianceSearch::measured_by(const GraphLink& link) const {
+  const PoseCovariance& stated = link.covariance;
+  const double f = link.of_path ? path_variance_ : 1;
+  return {f * stated.xx, f * stated.xy, f * stated.xt, f * stated.yy, f * stated.yt, f * stated.tt};
+}
+
 void PathCovarianceSearch::settle(const PoseGraph& graph, std::uint32_t here) {
   Node& node = nodes_[here];
   node.settled = true;
@@ -107,7 +112,8 @@ void PathCovarianceSearch::settle(const PoseGraph& graph, std::uint32_t here) {
   Node& previous = nodes_[node.previous];
   const GraphLink& link = graph.links()[node.constraint];
   rotate(link.to == here ? previous : node);
-  node.covariance = extended(previous.covariance, link, previous.pose, node.pose, link.to == here);
+  node.covariance =
+      extended(previous.covariance, measured_by(link), previous.pose, node.pose, link.to == here);
   node.chain_m = previous.chain_m + distance_m(previous.pose, node.pose);
 }
 
@@ -121,7 +127,8 @@ void PathCovarianceSearch::look_around(const PoseGraph& graph, std::uint32_t her
     Node& next = node_at(graph, there);
     if (next.settled || !graph.enabled(index)) continue;
     if (!forwards) rotate(next);
-    const double cost = extended_cost(node.covariance, link, node.pose, next.pose, forwards, lever2);
+    const double cost =
+        extended_cost(node.covariance, measured_by(link), node.pose, next.pose, forwards, lever2);
     if (!(cost < next.cost) || cost > max_cost) continue;
     next.cost = cost;
     next.constraint = index;
@@ -137,6 +144,7 @@ void PathCovarianceSearch::run(const PoseGraph& graph, std::size_t source,
   ++run_;
   seen_ = 0;
   source_ = source;
+  path_variance_ = options.path_doubt * options.path_doubt;
   nodes_.resize(graph.num_nodes());
   queue_ = {};
   std::size_t num_wanted = 0;

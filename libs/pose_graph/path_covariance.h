@@ -20,6 +20,8 @@
 namespace psi_slam {
 
 struct PathCovarianceOptions {
+  /// Factor on the standard deviations of constraints of the kind kLocalMap.
+  double path_doubt = 1;
   /// The cost of a chain, in m^2, is the trace of its position covariance, plus its heading variance times
   /// the square of this length. Heading errors become position errors along the chain.
   double heading_lever_m = 2;
@@ -76,12 +78,14 @@ class PathCovarianceSearch {
   Node& node_at(const PoseGraph& graph, std::size_t node);
   static void rotate(Node& node);
   void settle(const PoseGraph& graph, std::uint32_t here);
+  PoseCovariance measured_by(const GraphLink& link) const;
   void look_around(const PoseGraph& graph, std::uint32_t here, double lever2, double max_cost);
 
   std::vector<Node> nodes_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
   std::uint64_t run_ = 0;
   std::size_t source_ = 0;
+  double path_variance_ = 1;  // factor on the covariances of the path
   std::size_t seen_ = 0;
 };
 

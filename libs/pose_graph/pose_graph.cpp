@@ -30,6 +30,7 @@ GraphLink link_of(const Constraint& constraint) {
   GraphLink link;
   link.from = static_cast<std::uint32_t>(constraint.from);
   link.to = static_cast<std::uint32_t>(constraint.to);
+  link.of_path = constraint.kind == Constraint::Kind::kLocalMap;
   Eigen::Matrix3d covariance;
   bool invertible = false;
   // Scales the matrix to a unit diagonal, so that the units do not decide whether it counts as singular.
@@ -54,6 +55,8 @@ double RobustKernel::cost(double chi2) const {
   switch (type) {
     case Type::kNone:
       return chi2;
+    case Type::kScaled:
+      return width2 * chi2;
     case Type::kHuber:
       return chi2 <= width2 ? chi2 : 2 * width * std::sqrt(chi2) - width2;
     case Type::kCauchy:
@@ -71,6 +74,8 @@ double RobustKernel::weight(double chi2) const {
   switch (type) {
     case Type::kNone:
       return 1;
+    case Type::kScaled:
+      return width2;
     case Type::kHuber:
       return chi2 <= width2 ? 1 : width / std::sqrt(chi2);
     case Type::kCauchy:

@@ -29,8 +29,8 @@ const RobustKernel& kernel_of(const Constraint& constraint, const PoseAdjustment
   if (constraint.kernel) return *constraint.kernel;
   switch (constraint.kind) {
     case Constraint::Kind::kOdometry:
-      return options.odometry_kernel;
     case Constraint::Kind::kRunStart:
+      return options.odometry_kernel;
     case Constraint::Kind::kLocalMap:
       return options.local_map_kernel;
     case Constraint::Kind::kLoop:

@@ -24,8 +24,8 @@ struct PoseAdjustmentOptions {
   double relative_tolerance = 1e-6;  ///< converged if E can fall by at most this share of E
   double absolute_tolerance = 1e-9;  ///< decrease of E added to relative_tolerance times E
   double initial_lambda = 0;         ///< damping of the first step; 0 is a Gauss-Newton step
-  RobustKernel odometry_kernel;      ///< kernel for constraints of the kind kOdometry
-  RobustKernel local_map_kernel;     ///< kernel for constraints of the kinds kLocalMap and kRunStart
+  RobustKernel odometry_kernel;      ///< kernel for constraints of the kinds kOdometry and kRunStart
+  RobustKernel local_map_kernel;     ///< kernel for constraints of the kind kLocalMap
   /// Kernel for loops, and for constraints of the kind kKnown. Huber's kernel is convex, so that a true loop
   /// is closed after any drift. With a kernel that bounds the cost, a true loop may stay open. If loops can
   /// be false, use optimize_graduated().

@@ -174,7 +174,7 @@ std::string loop_layer(const std::string& name, const MappingResult& result,
   for (const std::size_t index : drawn) {
     const LoopRecord& loop = result.loops[index];
     if (loop.verdict != verdict) continue;
-    svg += "<path d=\"M" + place(loop.anchor) + 'L' + place(loop.node) + "\"><title>" +
+    svg += "<path d=\"M" + place(loop.reference) + 'L' + place(loop.node) + "\"><title>" +
            escape_html(loop_title(loop)) + "</title></path>\n";
   }
   return layer("loop " + name, svg);

@@ -154,11 +154,6 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
       .number("min_travel_m", candidates.min_travel_m, at_least(0), "m",
               "Least travel since the last node of a local map before that map is searched for loops. Nearer "
               "nodes share scans with the map.")
-      .number(
-          "drift_per_metre", candidates.drift_per_metre, at_least(0).at_most(1), "",
-          "Drift of the position for each metre of the shortest chain of constraints to a local map. A node "
-          "with no local map nearby searches local maps that this drift may have moved out of the largest "
-          "window, each as a whole.")
       .integer(
           "wide_searches", loops.wide_searches, between(1, 1000), "windows",
           "Largest number of wide windows that a node searches. The next nodes search the remaining windows.")
@@ -273,7 +268,9 @@ void describe_verification(OptionTable& table, LoopVerificationOptions& verifica
       .number("min_context_response", verification.min_context_response, between(0, 1), "",
               "Wide windows: least response of a scan together with the scans before it.")
       .number("max_ambiguity", verification.max_ambiguity, between(0, 1), "",
-              "Narrow windows: largest response of another distinct peak, as a share of the best response.")
+              "Narrow windows: largest response of another distinct peak, as a share of the best response. "
+              "For a match far "
+              "from the predicted position, the limit is smaller.")
       .number("max_sigma_m", verification.max_sigma_m, above(0), "m",
               "Largest standard deviation of the matched position.")
       .number("min_observed_share", verification.min_observed_share, between(0, 1), "",
@@ -304,20 +301,10 @@ void describe_consensus(OptionTable& table, LoopConsensusOptions& consensus) {
 void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
   PoseAdjustmentOptions& solver = mapper.pose_graph;
   table.section("pose_graph", "Pose graph and its optimisation")
-      .number("local_map_sigma_m", mapper.local_map_sigma_m, above(0).at_most(1000), "m",
-              "Standard deviation of a node's position in a local map, added to the front end's covariance.")
-      .angle_deg(
-          "local_map_sigma_theta_deg", mapper.local_map_sigma_rad, above(0).at_most(180),
-          "Standard deviation of a node's heading in a local map, added to the front end's covariance.")
       .number("loop_sigma_m", mapper.back_end.loop_sigma_m, above(0).at_most(1000), "m",
               "Standard deviation of a loop's position, added to the covariance of its match.")
       .angle_deg("loop_sigma_theta_deg", mapper.back_end.loop_sigma_rad, above(0).at_most(180),
                  "Standard deviation of a loop's heading, added to the covariance of its match.")
-      .number(
-          "max_loop_chi", mapper.back_end.max_loop_chi, above(0), "sigma",
-          "A loop whose residual in the finished graph exceeds this many standard deviations is switched "
-          "off, unless the path without it explains three quarters of this many, or nearly all loops agree "
-          "along a path five times as uncertain.")
       .integer("max_iterations", solver.max_iterations, between(1, 10000), "iterations",
                "Largest number of iterations of an optimisation.");
 }

@@ -9,6 +9,7 @@
 
 #include "base/portable_math.h"
 #include "frames/pose_operations.h"
+#include "pose_graph/information_matrix.h"
 
 namespace psi_slam {
 namespace {
@@ -26,12 +27,11 @@ std::vector<LoopResidual> loop_residuals(const MappingResult& result) {
     const LoopRecord& loop = result.loops[i];
     if (loop.verdict != LoopVerdict::kAccepted) continue;
     const auto pose = [&](std::size_t node) { return result.frames[result.node_frames[node]].map_T_robot; };
-    const mrpt::math::TPose2D error =
-        between(loop.anchor_T_node, between(pose(loop.anchor), pose(loop.node)));
-    const mrpt::math::TPose2D mapped = between(pose(loop.anchor), pose(loop.node));
-    const Eigen::Vector3d difference(mapped.x - loop.anchor_T_node.x, mapped.y - loop.anchor_T_node.y,
-                                     mrpt::math::wrapToPi(error.phi));
-    Eigen::Matrix3d covariance = loop.covariance;
+    const mrpt::math::TPose2D mapped = between(pose(loop.reference), pose(loop.node));
+    const mrpt::math::TPose2D& matched = loop.reference_T_node;
+    const Eigen::Vector3d difference(mapped.x - matched.x, mapped.y - matched.y,
+                                     mrpt::math::wrapToPi(mapped.phi - matched.phi));
+    Eigen::Matrix3d covariance = in_turned_axes(loop.covariance, matched.phi - loop.anchor_T_node.phi);
     covariance.diagonal() +=
         Eigen::Vector3d(kModel_m * kModel_m, kModel_m * kModel_m, kModel_rad * kModel_rad);
     residuals.push_back({i, portable::hypot(difference.x(), difference.y()), std::abs(difference.z()),

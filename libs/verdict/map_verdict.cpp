@@ -102,8 +102,9 @@ class Judge {
 
   Suspect suspect_of(const LoopResidual& residual) const {
     const LoopRecord& loop = result_.loops[residual.loop];
-    return {Suspect::Kind::kLoop, residual.loop, loop.local_map, result_.node_frames[loop.anchor], loop.frame,
-            place_of(loop.frame), true};
+    return {
+        Suspect::Kind::kLoop, residual.loop, loop.local_map, result_.node_frames[loop.reference], loop.frame,
+        place_of(loop.frame), true};
   }
 
   Suspect suspect_of(const PathSuspect& suspect) const {
@@ -146,21 +147,22 @@ class Judge {
     return residual.chi >= options_.conflict_chi && residual.residual_m >= options_.conflict_m;
   }
 
-  /// Whether the path that a loop bends, from its anchor to its node, overlaps the path between two frames.
+  /// Whether the path that a loop bends, from its reference to its node, overlaps the path between two
+  /// frames.
   bool bends_between(const LoopResidual& residual, std::size_t first_frame, std::size_t last_frame) const {
     const LoopRecord& loop = result_.loops[residual.loop];
-    const auto [first, last] = std::minmax(result_.node_frames[loop.anchor], loop.frame);
+    const auto [first, last] = std::minmax(result_.node_frames[loop.reference], loop.frame);
     return first < last_frame && last > first_frame;
   }
 
   /// Stretches that explain a displacement of the passes across them: loops in conflict bend the path from
-  /// anchor to node, and long unmatched motion has errors.
+  /// reference to node, and long unmatched motion has errors.
   std::vector<FrameSpan> explained_stretches() const {
     std::vector<FrameSpan> stretches;
     for (const LoopResidual& residual : residuals_) {
       if (!is_conflict(residual)) continue;
       const LoopRecord& loop = result_.loops[residual.loop];
-      const auto [first, last] = std::minmax(result_.node_frames[loop.anchor], loop.frame);
+      const auto [first, last] = std::minmax(result_.node_frames[loop.reference], loop.frame);
       stretches.push_back({first, last});
     }
     for (const PathSuspect& suspect : path_suspects_)
@@ -267,7 +269,8 @@ class Judge {
     const auto switched_off =
         std::find_if(result_.loops.begin(), result_.loops.end(), [&](const LoopRecord& loop) {
           return loop.by_hand && loop.verdict == LoopVerdict::kSwitchedOff &&
-                 loop.frame >= suspect.last_frame && result_.node_frames[loop.anchor] <= suspect.first_frame;
+                 loop.frame >= suspect.last_frame &&
+                 result_.node_frames[loop.reference] <= suspect.first_frame;
         });
     if (switched_off != result_.loops.end())
       return LoopEdit{LoopEdit::Kind::kForce, switched_off->frame, switched_off->local_map};

@@ -13,7 +13,7 @@ std::vector<std::size_t> ends_of_loops(const MappingResult& result) {
   for (const LoopRecord& loop : result.loops) {
     if (loop.verdict != LoopVerdict::kAccepted) continue;
     frames.push_back(loop.frame);
-    frames.push_back(result.node_frames[loop.anchor]);
+    frames.push_back(result.node_frames[loop.reference]);
   }
   std::sort(frames.begin(), frames.end());
   return frames;

@@ -369,14 +369,15 @@ void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopSty
     colour.A = faint ? kFaint : clear;
     CSetOfLines::Ptr& lines = by_colour[{!faint, colour.R, colour.G, colour.B}];
     if (!lines) lines = lines_of(colour, faint ? 1.0F : 1.5F);
-    join(*lines, snapshot.map_T_node->at(loop.anchor), snapshot.map_T_node->at(loop.node), height_m::kLoops);
+    join(*lines, snapshot.map_T_node->at(loop.reference), snapshot.map_T_node->at(loop.node),
+         height_m::kLoops);
   }
   for (const auto& [key, lines] : by_colour) layer.insert(lines);
 }
 
 void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t index) {
   const LoopRecord& loop = (*snapshot.loops)[index];
-  insert_line_with_ends(layer, snapshot.map_T_node->at(loop.anchor), snapshot.map_T_node->at(loop.node),
+  insert_line_with_ends(layer, snapshot.map_T_node->at(loop.reference), snapshot.map_T_node->at(loop.node),
                         height_m::kChosenLoop, palette::kChosen, 4, 10);
   auto window = lines_of(palette::kWindow, 1.5F);
   add_loop_window(*window, snapshot, loop);

@@ -54,7 +54,7 @@ void draw_odometry(SceneLayer& layer, const ReplaySnapshot& snapshot);
 void draw_trajectory(SceneLayer& layer, const ReplaySnapshot& snapshot);
 
 void draw_nodes(SceneLayer& layer, const ReplaySnapshot& snapshot);
-/// Draws lines from each node to the anchors of the finished local maps that contain its scan.
+/// Draws which finished local maps hold a scan: lines from each node to the anchors of these maps.
 void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot);
 /// Draws the ellipses that contain the true positions of nodes with a probability of 95 %, true to scale, at
 /// nodes at least 1 m apart. Draws nothing unless the run is finished.

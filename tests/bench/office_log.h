@@ -26,7 +26,10 @@ inline MappedLog map_office() {
     const FrontEndStep step = front_end.add(frame);
     keep(step.finished);
     if (!step.node) continue;
-    NodeScan node{frame.index, step.local_T_robot, 0, step.points};
+    NodeScan node;
+    node.frame = frame.index;
+    node.local_T_robot = step.local_T_robot;
+    node.points = step.points;
     if (!log.memory.nodes.empty()) {
       const mrpt::math::TPose2D motion = step.local_T_robot - log.memory.nodes.back().local_T_robot;
       node.travelled_m = log.memory.nodes.back().travelled_m + std::hypot(motion.x, motion.y);

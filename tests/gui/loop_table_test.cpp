@@ -55,9 +55,9 @@ TEST_F(LoopTableTest, sorts_by_frame_by_default_and_by_any_column) {
 TEST_F(LoopTableTest, lists_loops_without_a_residual_last) {
   auto snapshot = std::make_shared<ReplaySnapshot>(*snapshot_);
   auto loops = *snapshot_->loops;
-  loops[0].anchor_T_node = {0.1, 0, 0};  // both nodes are at the origin
-  loops[1].anchor_T_node = {9, 0, 0};    // refused
-  loops[2].anchor_T_node = {0.2, 0, 0};
+  loops[0].reference_T_node = {0.1, 0, 0};  // both nodes are at the origin
+  loops[1].reference_T_node = {9, 0, 0};    // refused
+  loops[2].reference_T_node = {0.2, 0, 0};
   loops[2].verdict = LoopVerdict::kSwitchedOff;
   snapshot->loops = std::make_shared<std::vector<LoopRecord>>(loops);
   table_.show(snapshot);

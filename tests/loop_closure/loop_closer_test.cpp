@@ -110,7 +110,7 @@ TEST(LoopCloser, searches_once_in_each_stretch) {
   EXPECT_EQ(attempts(rounds.node + 1), 0U);
 }
 
-TEST(LoopCloser, searches_an_unconnected_node_in_the_largest_window) {
+TEST(LoopCloser, searches_an_unconnected_node_around_whole_local_maps) {
   const SearchExtent largest = LoopCandidateOptions().max_window;
   const AskedMatcher linked;
   close(two_rounds().graph(), linked);
@@ -126,9 +126,19 @@ TEST(LoopCloser, searches_an_unconnected_node_in_the_largest_window) {
   const AskedMatcher apart;
   close(graph, apart);
   ASSERT_FALSE(apart.questions().empty());
+  const std::vector<LoopCandidate> whole =
+      far_candidates(two_rounds().node, two_rounds().keyframes, graph, near_maps_too().candidates,
+                     [](const std::vector<std::size_t>& segments) {
+                       const double unknown = std::numeric_limits<double>::infinity();
+                       return std::vector<PositionSigma>(segments.size(), {unknown, unknown});
+                     });
   for (const auto& question : apart.questions()) {
-    EXPECT_EQ(question.extent.x_m, largest.x_m);
-    EXPECT_EQ(question.extent.y_m, largest.y_m);
+    EXPECT_TRUE(std::any_of(whole.begin(), whole.end(),
+                            [&](const LoopCandidate& one) {
+                              return question.extent.x_m == one.extent.x_m &&
+                                     question.extent.y_m == one.extent.y_m;
+                            }))
+        << question.extent.x_m << ' ' << question.extent.y_m;
     EXPECT_EQ(question.extent.theta_rad, largest.theta_rad);
     EXPECT_GT(question.points, two_rounds().keyframes.nodes[two_rounds().node].points->points.size())
         << "wide windows use the context";
@@ -151,6 +161,26 @@ TEST(LoopCloser, a_node_searches_few_wide_windows_and_the_next_nodes_the_others)
     ASSERT_EQ(outcome.loops.size(), 1U);
     EXPECT_TRUE(searched.insert(outcome.loops.front().local_map).second) << "every local map gets its turn";
   }
+}
+
+TEST(LoopCloser, the_windows_that_a_node_left_are_made_up_for_at_the_end) {
+  PoseGraph graph = two_rounds().graph();
+  for (const std::uint32_t constraint : graph.constraints_of(two_rounds().node))
+    graph.set_enabled(constraint, false);
+  LoopCloser closer(near_maps_too(), 5);
+  WorkerPool pool(1);
+  const AskedMatcher matcher;
+  const NodeMatchers matchers = {{MatcherKind::kCsm, matcher}};
+  const KeyframeStore& keyframes = two_rounds().keyframes;
+  const LoopCloser::Outcome first = closer.close(two_rounds().node, keyframes, graph, matchers, pool);
+  ASSERT_EQ(first.loops.size(), 1U);
+  const std::size_t known = first.loops.front().local_map;
+  const LoopCloser::Outcome others =
+      closer.close_wide(two_rounds().node, keyframes, graph, matchers, pool,
+                        [&](std::size_t local_map) { return local_map == known; });
+  EXPECT_GT(others.loops.size(), 1U);
+  EXPECT_LE(others.loops.size(), 8U);
+  for (const LoopRecord& loop : others.loops) EXPECT_NE(loop.local_map, known);
 }
 
 TEST(LoopCloser, a_search_by_hand_reports_lower_responses_of_wide_windows) {
@@ -225,15 +255,19 @@ TEST(LoopCloser, a_run_whose_place_is_unknown_searches_the_newest_local_maps_fir
 
 // Drift has moved the node in the graph farther from its true place than the largest window reaches.
 TEST(LoopCloser, finds_a_place_that_drift_has_moved_out_of_the_largest_window) {
-  PoseGraph graph = two_rounds().graph();
+  PoseGraph graph;
+  for (const TPose2D& pose : two_rounds().truth) graph.add_node(pose);
+  const PoseGraph exact = two_rounds().graph();
+  for (Constraint step : exact.constraints()) {
+    step.information = Eigen::Vector3d(1, 1, 1e4).asDiagonal();  // large errors, because the path is short
+    graph.add_constraint(step);
+  }
   const std::size_t node = two_rounds().node;
   const TPose2D truth = graph.pose(node);
   graph.set_pose(node, {truth.x + 20, truth.y - 15, truth.phi});
   const KeyframeStore& keyframes = two_rounds().keyframes;
   const CorrelativeMatcher matcher({});
-  LoopClosureOptions options = near_maps_too();
-  options.candidates.drift_per_metre = 5;  // large, because the path is short
-  LoopCloser closer(options, 5);
+  LoopCloser closer(near_maps_too(), 5);
   WorkerPool pool(1);
   bool found = false;
   for (int attempt = 0; attempt < 8 && !found; ++attempt) {

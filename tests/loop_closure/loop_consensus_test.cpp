@@ -54,6 +54,13 @@ TEST(LoopConsensus, two_unambiguous_matches_a_metre_apart_are_confirmed) {
   EXPECT_EQ(consensus.add(vote(9, 6.1), graph), Loops({7, 9}));
 }
 
+TEST(LoopConsensus, a_search_made_up_for_later_counts_like_one_in_time) {
+  const PoseGraph graph = two_anchors();
+  LoopConsensus consensus({});
+  EXPECT_EQ(consensus.add(vote(9, 6.1), graph), Loops());
+  EXPECT_EQ(consensus.add(vote(7, 5), graph), Loops({9, 7}));
+}
+
 TEST(LoopConsensus, only_matches_that_still_wait_count) {
   const PoseGraph graph = two_anchors();
   LoopConsensus consensus({});
@@ -106,6 +113,30 @@ TEST(LoopConsensus, two_weak_matches_suffice_where_no_other_place_is_similar) {
     match.response = 0.35;
     EXPECT_EQ(consensus.add(match, graph).size(), 2 * i);
   }
+}
+
+TEST(LoopConsensus, one_strong_match_needs_more_than_a_weak_one) {
+  const PoseGraph graph = two_anchors();
+  LoopConsensus consensus({});
+  EXPECT_EQ(consensus.add(vote(0, 5, 0.9), graph), Loops());
+  EXPECT_EQ(consensus.add(vote(1, 6.5, 0), graph), Loops()) << "1.1 in sum, but 1.0 by one match";
+  EXPECT_EQ(consensus.add(vote(2, 7.5, 0.8), graph), Loops({0, 1, 2})) << "0.1 + 0.2 + half of 0.5";
+}
+
+TEST(LoopConsensus, matches_far_from_the_prediction_need_more_others) {
+  const PoseGraph graph = two_anchors();
+  const auto needed = [&](double prior) {
+    LoopConsensus consensus({});
+    Loops confirmed;
+    for (std::size_t i = 0; i < 10 && confirmed.empty(); ++i) {
+      LoopConsensus::Vote match = vote(i, 0.6 * static_cast<double>(i), 0.8);
+      match.prior = prior;
+      confirmed = consensus.add(match, graph);
+    }
+    return confirmed.size();
+  };
+  EXPECT_EQ(needed(1), 3U);
+  EXPECT_EQ(needed(0.5), 6U) << "0.1 each, within 4 m";
 }
 
 // These matches of a simulated log led to another corridor, 15 m off. The true corridor was not searched.

@@ -109,6 +109,18 @@ TEST(LoopVerification, an_ambiguous_match_is_refused_in_narrow_windows_only) {
   EXPECT_EQ(wide.verdict, LoopVerdict::kPending) << text_of(wide.refusal);
 }
 
+TEST(LoopVerification, a_match_far_from_its_prediction_must_be_less_ambiguous) {
+  LoopRecord loop = two_rounds().loop(kNarrow_m);
+  loop.prior = 0.15;
+  loop.ambiguity = 0.3;
+  judge(loop);
+  EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << text_of(loop.refusal);
+  loop.ambiguity = 0.4;
+  judge(loop);
+  expect_refused(loop, Reason::kAmbiguous);
+  EXPECT_NEAR(loop.refusal->value, 0.91, 1e-9);
+}
+
 TEST(LoopVerification, the_response_needed_depends_on_the_window) {
   const LoopVerificationOptions options;
   EXPECT_FALSE(is_wide({options.wide_window_m, options.wide_window_m, 9}, options));

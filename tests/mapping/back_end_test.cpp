@@ -90,6 +90,31 @@ TEST(BackEnd, the_final_search_finds_more) {
   EXPECT_EQ(graph.num_enabled_constraints() - two_rounds().graph().num_constraints(), back_end.accepted());
 }
 
+// The node searches one window in turn, and the log ends before the others have theirs.
+TEST(BackEnd, wide_windows_that_wait_are_searched_at_the_end_of_a_log) {
+  PoseGraph graph = two_rounds().graph();
+  const std::size_t last = graph.num_nodes() - 1;
+  for (const std::uint32_t constraint : graph.constraints_of(last))
+    graph.set_enabled(constraint,
+                      graph.constraint(constraint).from + 1 != last);  // the path does not know it
+  BackEndOptions options = near_maps_too();
+  options.loop_closure.attempt_distance_m = 0;
+  options.final_search.passes = 0;
+  BackEnd back_end(options);
+  back_end.close(last, two_rounds().keyframes, graph);
+  ASSERT_EQ(back_end.loops().size(), 1U);
+  Constraint weak;  // keeps the graph connected
+  weak.from = last - 1;
+  weak.to = last;
+  weak.from_T_to = graph.pose(last) - graph.pose(last - 1);
+  weak.information = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
+  graph.add_constraint(weak);
+  FinalProgress progress(options, {});
+  const auto [matcher, effort] = finish(back_end, graph, progress);
+  EXPECT_GT(effort.attempts, 1U);
+  EXPECT_GT(back_end.loops().size(), 2U);
+}
+
 TEST(BackEnd, a_final_search_cut_short_is_reported_and_not_refined) {
   PoseGraph graph = two_rounds().graph();
   BackEnd back_end(near_maps_too());

@@ -84,7 +84,8 @@ class MapperEditsTest : public testing::Test {
     for (const std::uint32_t index : graph.constraints_of(loop.node)) {
       const Constraint& constraint = graph.constraint(index);
       if (graph.enabled(index) && constraint.kind == Constraint::Kind::kLoop &&
-          constraint.from == loop.anchor && constraint.to == loop.node)
+          constraint.from == loop.reference && constraint.to == loop.node &&
+          constraint.from_T_to == loop.reference_T_node)
         return true;
     }
     return false;
@@ -161,7 +162,10 @@ TEST_F(MapperEditsTest, a_refused_loop_can_be_forced_and_nothing_switches_it_off
 
 TEST_F(MapperEditsTest, a_loop_is_matched_again_by_any_matcher) {
   map_all();
-  const LoopRecord loop = first(LoopVerdict::kAccepted);
+  const LoopRecord loop =
+      *std::max_element(mapper_.loops().begin(), mapper_.loops().end(),
+                        [](const LoopRecord& a, const LoopRecord& b) { return a.response < b.response; });
+  ASSERT_EQ(loop.verdict, LoopVerdict::kAccepted);
   for (const MatcherKind matcher : {MatcherKind::kGa, MatcherKind::kCsmGa, MatcherKind::kCsm}) {
     LoopEdit edit = edit_of(Kind::kMatch, loop);
     edit.matcher = matcher;

@@ -239,7 +239,10 @@ TEST(Mapper, counts_the_loops_that_became_constraints_at_each_frame) {
   MapperOptions options;
   // Most windows count as wide, so many loops are pending.
   options.back_end.loop_closure.verification.wide_window_m = options.back_end.final_search.window_m;
-  const MappingResult result = map_of(office_drive().frames, options);
+  Mapper mapper(options);
+  for (const Frame& frame : office_drive().frames) mapper.add(frame);
+  const std::vector<LoopRecord> loops = mapper.loops();  // before those after the last scan
+  const MappingResult result = mapper.finish();
   std::size_t counted = 0;
   bool several_at_once = false;
   for (const FrameRecord& frame : result.frames) {
@@ -248,11 +251,7 @@ TEST(Mapper, counts_the_loops_that_became_constraints_at_each_frame) {
     EXPECT_TRUE(frame.node || frame.loops_accepted == 0);
   }
   std::size_t constraints = 0;
-  for (const LoopRecord& loop : result.loops) {
-    const bool constraint =
-        loop.verdict == LoopVerdict::kAccepted || loop.verdict == LoopVerdict::kSwitchedOff;
-    constraints += constraint && !loop.in_final_search ? 1 : 0;
-  }
+  for (const LoopRecord& loop : loops) constraints += loop.verdict == LoopVerdict::kAccepted ? 1 : 0;
   EXPECT_EQ(counted, constraints);
   EXPECT_TRUE(several_at_once) << "loops found at earlier frames were confirmed";
 }
@@ -280,7 +279,11 @@ TEST(Mapper, counts_attempts_without_a_match) {
   EXPECT_EQ(by_search.attempts, sum.attempts);
   EXPECT_EQ(by_search.evaluations, sum.evaluations);
   EXPECT_GT(sum.of(SearchKind::kLocal).attempts, 0U) << "small windows of genetic matchers";
-  EXPECT_GT(sum.of(SearchKind::kExhaustive).attempts, 0U) << "small windows of csm, before the first loops";
+  MapperOptions csm;
+  csm.back_end.matcher = MatcherKind::kCsm;
+  const MappingResult by_csm = map_of(office_drive().frames, csm);
+  EXPECT_GT(by_csm.loop_matchers.at(MatcherKind::kCsm).effort.of(SearchKind::kExhaustive).attempts, 0U)
+      << "small windows of csm";
 
   LoopEffort of_frames;
   for (const FrameRecord& frame : result.frames) {
@@ -348,7 +351,7 @@ TEST(Mapper, uses_the_matcher_chosen_by_psi_and_that_of_frequent_loops_in_the_fi
 
   MapperOptions options;
   options.back_end.psi.psi_1 = 0.5;
-  options.back_end.psi.psi_2 = 3;
+  options.back_end.psi.psi_2 = 7;
   const MappingResult by_thresholds = map_of(office_drive().frames, options);
   std::set<MatcherKind> used;
   for (const FrameRecord& frame : by_thresholds.frames) {
@@ -368,8 +371,23 @@ TEST(Mapper, uses_the_matcher_chosen_by_psi_and_that_of_frequent_loops_in_the_fi
 TEST(Mapper, outlier_loops_are_switched_off_without_a_final_search_too) {
   MapperOptions options;
   options.back_end.final_search.passes = 0;
-  options.back_end.max_loop_chi = 0.9;
-  const MappingResult result = map_of(office_drive().frames, options);
+  LoopVerificationOptions& verification = options.back_end.loop_closure.verification;
+  verification.max_ambiguity = 1;
+  verification.min_response = verification.min_context_response = 0.1;
+  verification.min_observed_share = verification.min_neighbours_agree = verification.min_reverse_agree = 0;
+  Mapper mapper(options);
+  for (const Frame& frame : office_drive().frames) mapper.add(frame);
+  const auto& loops = mapper.loops();
+  const auto true_loop = std::find_if(loops.begin(), loops.end(), [](const LoopRecord& loop) {
+    return loop.verdict == LoopVerdict::kAccepted;
+  });
+  ASSERT_NE(true_loop, loops.end());
+  // A person has it matched again 1.5 m along the corridor.
+  LoopEdit edit{LoopEdit::Kind::kMatch, true_loop->frame, true_loop->local_map};
+  edit.place = LoopPlace{true_loop->anchor_T_node + TPose2D(1.5, 0, 0), {0.3, 0.3, 0.05}};
+  ASSERT_EQ(mapper.edit(edit).state, LoopEditOutcome::State::kDone);
+  ASSERT_EQ(true_loop->verdict, LoopVerdict::kAccepted);
+  const MappingResult result = mapper.finish();
   expect_consistent(result, office_drive().frames.size());
   std::size_t off = 0;
   for (const LoopRecord& loop : result.loops) {

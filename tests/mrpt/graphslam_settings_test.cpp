@@ -31,6 +31,12 @@ TEST(GraphSlamSettings, reads_keys_with_a_dot_and_ignores_others) {
   EXPECT_EQ(settings.mapper.pose_graph.max_iterations, 9);
 }
 
+TEST(GraphSlamSettings, obsolete_options_are_accepted_in_any_section) {
+  const Settings settings =
+      read("[EdgeRegistrationDeciderParameters]\npose_graph.max_loop_chi = 5\nrun.seed = 7\n");
+  EXPECT_EQ(settings.run.seed, 7U);
+}
+
 TEST(GraphSlamSettings, errors_name_file_and_line) {
   const std::string node = "[NodeRegistrationDeciderParameters]\n";
   EXPECT_THAT(sentence_of([&] { read(node + "front_end.node_distanc_m = 1\n"); }),

@@ -144,6 +144,14 @@ TEST_P(EveryRobustKernel, keeps_small_errors_and_never_increases_an_error) {
   }
 }
 
+TEST(RobustKernel, a_scale_changes_the_standard_deviation) {
+  const RobustKernel kernel{Type::kScaled, 0.5};
+  for (const double chi2 : {0.0, 1.0, 1e6}) {
+    EXPECT_EQ(kernel.cost(chi2), chi2 / 4);
+    EXPECT_EQ(kernel.weight(chi2), 0.25);
+  }
+}
+
 TEST(RobustKernel, bounds_the_cost_of_the_redescending_ones) {
   EXPECT_NEAR((RobustKernel{Type::kGemanMcClure, 3}.cost(1e12)), 9, 1e-6);
   EXPECT_NEAR((RobustKernel{Type::kDynamicScaling, 3}.cost(1e12)), 27, 1e-6);

@@ -65,9 +65,10 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
   const std::size_t choice = member_count<PsiOptions>() + member_count<GeneticOptions>() - 3 +
                              member_count<PaperGeneticOptions>() + member_count<MemeticGeneticOptions>() +
                              member_count<CoarseCellOptions>();
-  // MapperOptions has three structs as members and takes two flags of the back end from elsewhere.
-  // BackEndOptions has seven structs, and takes seed, threads and their priority from elsewhere.
-  const std::size_t mapper = member_count<MapperOptions>() - 5 + member_count<BackEndOptions>() - 10 +
+  // MapperOptions has three structs and the noise of the path as members, and takes two flags of the back end
+  // from elsewhere. BackEndOptions has seven structs, and takes seed, threads and their priority from
+  // elsewhere.
+  const std::size_t mapper = member_count<MapperOptions>() - 6 + member_count<BackEndOptions>() - 10 +
                              choice + front_end + matcher + loops + kOfSolver;
   const std::size_t files =
       member_count<MapFileOptions>() - 2 + member_count<MapDrawingOptions>() + member_count<GeoReference>();
@@ -148,7 +149,7 @@ TEST_F(SettingsTest, rejects_options_that_contradict_each_other) {
 TEST_F(SettingsTest, rejects_deviations_whose_squares_overflow) {
   for (const char* assignment :
        {"front_end.refine_score_sigma=1e-300", "loop_closure.refine_score_sigma=1e-300",
-        "pose_graph.local_map_sigma_m=1e300", "pose_graph.loop_sigma_m=1e300", "map.print_scale=1e-300"})
+        "pose_graph.loop_sigma_m=1e300", "map.print_scale=1e-300"})
     EXPECT_THROW(apply_override(assignment, table_), UserError) << assignment;
 }
 

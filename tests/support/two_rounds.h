@@ -38,6 +38,11 @@ struct TwoRounds {
         const mrpt::math::TPose2D motion = step.local_T_robot - keyframes.nodes.back().local_T_robot;
         scan.travelled_m = keyframes.nodes.back().travelled_m + std::hypot(motion.x, motion.y);
       }
+      scan.segment = keyframes.nodes.size();
+      if (!keyframes.nodes.empty()) {
+        const std::size_t before = keyframes.nodes.back().segment;
+        if (scan.travelled_m - keyframes.nodes[before].travelled_m < kSegment_m) scan.segment = before;
+      }
       keyframes.nodes.push_back(scan);
       truth.push_back(drive.map_T_robot[i]);
       for (const PlacedLocalMap& finished : step.finished) keyframes.local_maps.push_back(finished);
@@ -53,6 +58,7 @@ struct TwoRounds {
     result.local_map = local_map;
     result.anchor = keyframes.local_maps[local_map].anchor;
     result.anchor_T_node = (truth[node] - truth[result.anchor]) + off;
+    set_reference(result, keyframes);
     result.covariance.diagonal() << 1e-4, 1e-4, 1e-5;
     result.window = {half_width_m, half_width_m, 0.1};
     result.response = 0.8;

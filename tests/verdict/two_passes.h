@@ -46,6 +46,8 @@ inline LoopRecord loop_between(const MappingResult& result, std::size_t anchor, 
   loop.node = node;
   loop.frame = result.node_frames[node];
   loop.anchor_T_node = (result.graph.pose(node) - result.graph.pose(anchor)) + off;
+  loop.reference = anchor;
+  loop.reference_T_node = loop.anchor_T_node;
   loop.covariance = Eigen::Matrix3d::Identity() * 1e-4;
   loop.verdict = LoopVerdict::kAccepted;
   return loop;

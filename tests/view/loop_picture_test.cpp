@@ -55,9 +55,9 @@ TEST_F(LoopPictureTest, residuals_of_true_loops_are_small) {
 
 TEST(LoopResidual, is_the_error_of_the_node) {
   LoopRecord loop;
-  loop.anchor = 0;
+  loop.reference = 0;
   loop.node = 1;
-  loop.anchor_T_node = {1, 0, 0};
+  loop.reference_T_node = {1, 0, 0};
   EXPECT_NEAR(loop_residual_m(loop, {{5, 5, M_PI / 2}, {5, 6.3, M_PI / 2 + 0.1}}), 0.3, 1e-12);
 }
 

@@ -23,21 +23,21 @@ namespace {
 using mrpt::math::TPose2D;
 
 struct Material {
-  std::vector<std::size_t> anchors;
-  std::vector<Constraint> loops;  ///< enabled loops
+  std::vector<std::size_t> references;  ///< nodes where loops may begin: first nodes of path segments
+  std::vector<Constraint> loops;        ///< enabled loops
 };
 
 Material material_of(const PoseGraph& graph) {
   Material material;
-  std::set<std::size_t> anchors;
+  std::set<std::size_t> references;
   for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
     const Constraint& constraint = graph.constraint(i);
-    if (constraint.kind == Constraint::Kind::kLocalMap) anchors.insert(constraint.from);
+    if (constraint.kind == Constraint::Kind::kLocalMap) references.insert(constraint.from);
     if (constraint.kind != Constraint::Kind::kLoop || !graph.enabled(i)) continue;
-    anchors.insert(constraint.from);
+    references.insert(constraint.from);
     material.loops.push_back(constraint);
   }
-  material.anchors.assign(anchors.begin(), anchors.end());
+  material.references.assign(references.begin(), references.end());
   return material;
 }
 
@@ -54,7 +54,8 @@ bool is_false(const TPose2D& place, const TPose2D& truth, const FalseLoopOptions
          std::abs(error.phi) >= options.min_error_rad;
 }
 
-/// Draws loops that join one node, or a group of successive nodes, to one random pose near a random anchor.
+/// Draws loops that join one node, or a group of successive nodes, to one random pose near a random
+/// reference.
 std::vector<Constraint> draw_elsewhere(const Material& material, const std::vector<TPose2D>& map_T_node,
                                        const FalseLoopOptions& options, RandomDraws& draws) {
   std::size_t group = 1;
@@ -62,12 +63,12 @@ std::vector<Constraint> draw_elsewhere(const Material& material, const std::vect
     group = options.smallest_group + draws.index(options.largest_group - options.smallest_group + 1);
   const std::size_t first = draws.index(map_T_node.size());
   const std::size_t last = std::min(first + group, map_T_node.size());
-  const std::size_t anchor = material.anchors[draws.index(material.anchors.size())];
+  const std::size_t reference = material.references[draws.index(material.references.size())];
   const TPose2D place = draw_place(options.reach_m, draws);
   std::vector<Constraint> loops;
   for (std::size_t node = first; node < last; ++node) {
     Constraint loop;
-    loop.from = anchor;
+    loop.from = reference;
     loop.to = node;
     loop.from_T_to = compose(place, between(map_T_node[first], map_T_node[node]));
     loop.information = material.loops[draws.index(material.loops.size())].information;
@@ -99,7 +100,6 @@ LoopTrial trial_of(const MappingResult& run, const MapperOptions& options,
   trial.graph = run.graph;
   for (const std::size_t frame : run.node_frames)
     trial.unlooped.push_back(run.frames[frame].front_end_T_robot);
-  trial.max_chi = options.back_end.max_loop_chi;
   trial.solver = options.pose_graph;
   trial.error = [&run, &relations](const std::vector<TPose2D>& map_T_node) {
     std::vector<FrameRecord> frames = run.frames;
@@ -182,7 +182,7 @@ FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double s
   };
   const auto defended = [&](const std::vector<TPose2D>& start) {
     return settled(start, [&](PoseGraph& graph, SparsePoseAdjustment& solver) {
-      switch_off_outlier_loops(graph, solver, loops, trial.max_chi);
+      reject_outlier_loops(graph, solver, loops);
     });
   };
   row.kind = kind;

@@ -37,7 +37,7 @@ struct FalseLoopOptions {
   std::size_t count = 0;
   std::size_t smallest_group = 5;
   std::size_t largest_group = 10;
-  double reach_m = 10;  ///< largest distance of a wrong place from the anchor of the local map
+  double reach_m = 10;  ///< largest distance of a wrong place from the reference
   /// Nearby loops are moved by min_error_m to nearby_m and rotated by up to min_error_rad.
   double nearby_m = 3;
   /// A loop is false if it differs from the truth by at least this distance or at least this angle.
@@ -47,11 +47,11 @@ struct FalseLoopOptions {
 };
 
 /// Adds `count` false loops and returns the indices of their constraints. Scattered loops and groups join
-/// random nodes with random anchors of local maps. Their place is random within reach_m of the anchor, with
-/// any heading, and their information is that of a random loop of the graph. Successive nodes of a group move
-/// as in the true poses `map_T_node`. The loops of a group agree exactly, so they are harder to reject than
-/// loops of a matcher. Adds nothing to a graph without enabled loops.
-/// Slips are no loops: see bent().
+/// random nodes with random references: first nodes of path segments. Their place is random within reach_m of
+/// the reference, with any heading, and their information is that of a random loop of the graph. Successive
+/// nodes of a group move as in the true poses `map_T_node`. The loops of a group agree exactly, so they are
+/// harder to reject than loops of a matcher. Adds nothing to a graph without enabled loops. Slips are no
+/// loops: see bent().
 std::vector<std::size_t> add_false_loops(PoseGraph& graph, const std::vector<mrpt::math::TPose2D>& map_T_node,
                                          const FalseLoopOptions& options);
 
@@ -68,7 +68,6 @@ struct FalseLoopBenchmarkOptions {
 struct LoopTrial {
   PoseGraph graph;                            ///< optimised graph
   std::vector<mrpt::math::TPose2D> unlooped;  ///< poses of the nodes before any loop was closed
-  double max_chi = 5;                         ///< largest residual of an enabled loop, standard deviations
   PoseAdjustmentOptions solver;
   struct Error {
     double translation_m = 0;
@@ -81,7 +80,7 @@ struct LoopTrial {
 struct LoopTrialOutcome {
   LoopTrial::Error error;
   std::size_t false_kept = 0;  ///< false loops that stay enabled
-  std::size_t true_lost = 0;   ///< true loops that are switched off
+  std::size_t true_lost = 0;   ///< true loops that are rejected
   double milliseconds = 0;
 };
 
@@ -94,7 +93,7 @@ struct FalseLoopRow {
   std::size_t false_loops = 0;  ///< number of added false loops, or of bent stretches
   // The first two treatments start at the poses before any loop was closed.
   LoopTrialOutcome undefended;  ///< optimised with all loops
-  LoopTrialOutcome defended;    ///< switches off outlier loops as the mapper does
+  LoopTrialOutcome defended;    ///< rejects outlier loops as the mapper does
   LoopTrialOutcome from_map;    ///< as `defended`, but starts at the finished map
 };
 

@@ -124,9 +124,9 @@ std::string markdown_of(const FalseLoopBenchmark& benchmark, const FalseLoopBenc
   text +=
       "- share: number of false loops added to the finished graph, as a percentage of the loops accepted "
       "during mapping; of slips, the percentage of the path's stretches that are bent\n"
-      "- scattered: join random nodes and local maps, at a random place and heading within " +
+      "- scattered: join random nodes and path segments, at a random place and heading within " +
       fixed_text(how.reach_m, 0) +
-      " m of the anchor of the local map\n- groups: " + std::to_string(how.smallest_group) + " to " +
+      " m of the first node of the segment\n- groups: " + std::to_string(how.smallest_group) + " to " +
       std::to_string(how.largest_group) +
       " successive nodes agree on such a random place\n- nearby: true loops, shifted by " +
       fixed_text(how.min_error_m, 0) + " to " + fixed_text(how.nearby_m, 0) + " m and rotated by up to " +

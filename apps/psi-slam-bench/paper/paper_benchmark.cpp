@@ -13,8 +13,8 @@ namespace psi_slam {
 namespace {
 
 /// Settings that make the searches those of the paper: windows of fixed size, each with a single scan.
-/// Without drift_per_metre, no local map outside these windows is searched. Without a final search and
-/// refinement, the map depends only on the loops found in time.
+/// Whole local maps are searched only where the path is uncertain by more than such a window. Without a final
+/// search and refinement, the map depends only on the loops found in time.
 const std::vector<std::string> kPaperSearch{
     "run.threads=1",
     "loop_closure.window_x_m=8",
@@ -22,7 +22,6 @@ const std::vector<std::string> kPaperSearch{
     "loop_closure.window_theta_deg=30",
     "loop_closure.min_window_m=8",
     "loop_closure.min_window_theta_deg=30",
-    "loop_closure.drift_per_metre=0",
     "verification.wide_window_m=8",
     "final_search.passes=0",
     "joint_refinement.rounds=0",

@@ -10,6 +10,7 @@
 
 #include "base/random_draws.h"
 #include "frames/pose_operations.h"
+#include "loop_closure/keyframe_store.h"
 #include "pose_graph/constraint_error.h"
 #include "pose_graph/marginal_covariance.h"
 #include "pose_graph/path_covariance.h"
@@ -41,6 +42,8 @@ PairSquares squares_of_pairs(const PoseGraph& graph, const TruePose& a_T_b, std:
   MarginalCovariance of_graph;
   of_graph.update(graph);
   PathCovarianceSearch of_path;
+  PathCovarianceOptions doubtful;
+  doubtful.path_doubt = kPathDoubt;
   RandomDraws random(seed, "pairs of nodes", 0);
   PairSquares squares;
   for (std::size_t i = 0; i < kFirsts; ++i) {
@@ -49,7 +52,7 @@ PairSquares squares_of_pairs(const PoseGraph& graph, const TruePose& a_T_b, std:
     while (others.size() < kOthers)
       if (const std::size_t b = random.index(graph.num_nodes()); b != a) others.push_back(b);
     const std::vector<Eigen::Matrix3d> covariances = of_graph.relative(a, others);
-    of_path.run(graph, a);
+    of_path.run(graph, a, doubtful);
     for (std::size_t k = 0; k < others.size(); ++k) {
       const TPose2D found = between(graph.pose(a), graph.pose(others[k]));
       const TPose2D true_pose = a_T_b(a, others[k]);
@@ -129,7 +132,7 @@ std::vector<NormalisedErrors> check_covariances(const MappingResult& result, con
   };
   std::set<std::pair<std::size_t, std::size_t>> loops;
   for (const LoopRecord& loop : result.loops)
-    if (loop.verdict == LoopVerdict::kAccepted) loops.emplace(loop.anchor, loop.node);
+    if (loop.verdict == LoopVerdict::kAccepted) loops.emplace(loop.reference, loop.node);
   std::vector<double> of_maps;
   std::vector<double> of_loops;
   for (std::size_t i = 0; i < graph.num_constraints(); ++i) {

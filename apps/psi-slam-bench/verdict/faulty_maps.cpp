@@ -11,7 +11,9 @@
 #include "common/aligned_error.h"
 #include "exports/mapped_trajectory.h"
 #include "false_loops/false_loop_benchmark.h"
+#include "frames/pose_operations.h"
 #include "mapping/carried_frames.h"
+#include "pose_graph/information_matrix.h"
 #include "pose_graph/sparse_pose_adjustment.h"
 #include "verdict/known_run.h"
 
@@ -47,13 +49,21 @@ void record_loop(std::size_t index, MappingResult& result) {
   LoopRecord loop;
   loop.node = constraint.to;
   loop.frame = result.node_frames[loop.node];
-  loop.anchor = constraint.from;
-  const auto map = std::find_if(result.local_maps.begin(), result.local_maps.end(),
-                                [&](const LocalMapRecord& one) { return one.anchor == loop.anchor; });
-  if (map != result.local_maps.end())
-    loop.local_map = static_cast<std::size_t>(map - result.local_maps.begin());
-  loop.anchor_T_node = constraint.from_T_to;
+  loop.reference = loop.anchor = constraint.from;
+  loop.reference_T_node = loop.anchor_T_node = constraint.from_T_to;
+  const auto map =
+      std::find_if(result.local_maps.begin(), result.local_maps.end(), [&](const LocalMapRecord& one) {
+        return one.first_node <= loop.reference && loop.reference <= one.last_node;
+      });
   loop.covariance = constraint.information.inverse();
+  if (map != result.local_maps.end()) {
+    loop.local_map = static_cast<std::size_t>(map - result.local_maps.begin());
+    loop.anchor = map->anchor;
+    const TPose2D anchor_T_reference =
+        between(result.graph.pose(loop.anchor), result.graph.pose(loop.reference));
+    loop.anchor_T_node = compose(anchor_T_reference, constraint.from_T_to);
+    loop.covariance = in_turned_axes(loop.covariance, anchor_T_reference.phi);
+  }
   loop.verdict = LoopVerdict::kAccepted;
   result.loops.push_back(loop);
 }
@@ -71,7 +81,7 @@ void keep_few_loops(std::size_t nth, MappingResult& result) {
       result.graph.set_enabled(i, false);
   }
   const auto is_dropped = [&](const LoopRecord& loop) {
-    return loop.verdict != LoopVerdict::kAccepted || kept.count({loop.anchor, loop.node}) == 0;
+    return loop.verdict != LoopVerdict::kAccepted || kept.count({loop.reference, loop.node}) == 0;
   };
   result.loops.erase(std::remove_if(result.loops.begin(), result.loops.end(), is_dropped),
                      result.loops.end());

@@ -44,10 +44,9 @@ struct SharedMap;
 
 /// Matches each scan with the active local map. Registers a node when the robot has moved or turned enough.
 ///
-/// Edges connect a node with the anchors of the local maps that hold its scan, not with the previous node.
-/// Scans matched with one local map share its errors, so edges between successive nodes would count these
-/// errors twice. The engine registers the first two nodes together, then one node per entry. If an entry
-/// yields a second node, that node waits for the next entry.
+/// An edge connects a node with the first node of its path segment of 3 m, not with the previous node: scans
+/// of a segment share its errors. The engine registers the first two nodes together, then one node per entry.
+/// If an entry yields a second node, that node waits for the next entry.
 class CPsiFrontEndNRD : public NodeDecider {
  public:
   CPsiFrontEndNRD();

@@ -43,7 +43,7 @@ struct LoopRefusal {
   enum class Reason {
     kNothingFound,        ///< no match in the window; limit: minimum response
     kLowResponse,         ///< value: response of the match
-    kAmbiguous,           ///< value: response of the second-best distinct pose, divided by the best
+    kAmbiguous,           ///< value: 1 - prior * (1 - ambiguity)
     kUncertainPosition,   ///< value: largest standard deviation of the position, metres
     kUnobserved,          ///< value: share of the scan's points in space that the local map observed
     kNeighboursDisagree,  ///< value: share of the points of scans nearby on the path that fit the local map
@@ -72,7 +72,10 @@ struct LoopRecord {
   std::size_t frame = 0;      ///< index of the scan in MappingResult::frames
   std::size_t node = 0;       ///< number of the node in the pose graph
   std::size_t local_map = 0;  ///< number of the matched local map
-  std::size_t anchor = 0;     ///< anchor node of the local map; the constraint leads from anchor to node
+  std::size_t anchor = 0;     ///< anchor node of the local map
+  /// Node where the constraint begins: the first of the path segment of the local map that is nearest to the
+  /// scan. Errors of the path between this segment and the anchor do not enter the constraint.
+  std::size_t reference = 0;
   MatcherKind matcher = MatcherKind::kCsm;      ///< matcher chosen for the window, by Psi or by a setting
   SearchKind search = SearchKind::kExhaustive;  ///< search that the matcher ran in the window
   bool in_final_search = false;                 ///< whether the final loop search found this match
@@ -81,8 +84,10 @@ struct LoopRecord {
   mrpt::math::TPose2D anchor_T_node;       ///< matched pose of the node
   /// Covariance of (x, y, theta) of anchor_T_node, along the anchor's axes: m^2, m rad, rad^2.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  SearchExtent window;           ///< half-widths of the search window
-  double response = 0;           ///< response of the match, in [0, 1]
+  mrpt::math::TPose2D reference_T_node;  ///< matched pose of the node in the frame of `reference`
+  SearchExtent window;                   ///< half-widths of the search window
+  double response = 0;                   ///< response of the match, in [0, 1]
+  double prior = 1;              ///< weight that the path gives to the matched position, see path_prior()
   double ambiguity = 0;          ///< response of the second-best distinct peak, divided by the best
   double observed_share = 0;     ///< share of the scan's points in space that the local map observed
   double neighbours_agree = 0;   ///< share of the points of scans nearby on the path that fit the local map

@@ -17,12 +17,13 @@
 namespace psi_slam {
 
 /// Robust kernel: a constraint adds the cost rho(s) to the error sum instead of its squared error s = e^T
-/// Omega e. The kernel limits the effect of a false constraint on the map. All kernels approach rho(s) = s
-/// for small s.
+/// Omega e. The kernel limits the effect of a false constraint on the map. All kernels but kScaled
+/// approach rho(s) = s for small s.
 struct RobustKernel {
   /// Form of the cost function.
   enum class Type {
     kNone,            ///< rho(s) = s
+    kScaled,          ///< rho(s) = width^2 s: standard deviations 1 / width times as large
     kHuber,           ///< rho(s) grows as sqrt(s) beyond the width; convex in the error
     kCauchy,          ///< rho(s) grows logarithmically
     kDynamicScaling,  ///< dynamic covariance scaling (Agarwal et al., ICRA 2013): bounded by 3 width^2
@@ -35,8 +36,8 @@ struct RobustKernel {
   /// Returns rho(chi2) for chi2 >= 0.
   double cost(double chi2) const;
 
-  /// Returns drho/dchi2, in [0, 1]: the factor on the information matrix in iteratively reweighted least
-  /// squares.
+  /// Returns drho/dchi2, in [0, 1] unless the kernel is kScaled: the factor on the information matrix in
+  /// iteratively reweighted least squares.
   double weight(double chi2) const;
 };
 
@@ -45,7 +46,7 @@ struct Constraint {
   /// Origin of the measurement.
   enum class Kind {
     kOdometry,  ///< odometry between successive nodes
-    kLocalMap,  ///< from the anchor of a local map to a node placed in that map
+    kLocalMap,  ///< of the path: from the first node of a path segment to a later node
     kRunStart,  ///< from a node of an earlier run to the first node of a later run
     kLoop,      ///< from a loop closure; can be entirely false
     kKnown,     ///< from what is known from outside, see FixedKnowledge; can be entirely false
@@ -74,6 +75,7 @@ struct PoseCovariance {
 struct GraphLink {
   std::uint32_t from = 0;  ///< node where the constraint begins
   std::uint32_t to = 0;    ///< node where the constraint ends
+  bool of_path = false;    ///< whether the constraint is of the kind kLocalMap
   /// Covariance of from_T_to along the axes of `from`. The variances are infinite if the information is
   /// singular.
   PoseCovariance covariance;

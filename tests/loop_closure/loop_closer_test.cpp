@@ -43,6 +43,19 @@ class AskedMatcher : public Matcher {
   mutable std::vector<Question> questions_;
 };
 
+/// Matcher that finds the centre of every window.
+class CentreMatcher : public Matcher {
+ public:
+  MatchResult match(const MatchProblem& problem) const override {
+    MatchResult result;
+    result.found = true;
+    result.map_T_robot = problem.map_T_robot;
+    result.response = 1;
+    return result;
+  }
+  std::string name() const override { return "centre"; }
+};
+
 LoopClosureOptions near_maps_too() {
   LoopClosureOptions options;
   options.candidates.min_travel_m = 3;
@@ -161,6 +174,25 @@ TEST(LoopCloser, a_node_searches_few_wide_windows_and_the_next_nodes_the_others)
     ASSERT_EQ(outcome.loops.size(), 1U);
     EXPECT_TRUE(searched.insert(outcome.loops.front().local_map).second) << "every local map gets its turn";
   }
+}
+
+TEST(LoopCloser, a_match_far_from_the_prediction_has_a_small_prior) {
+  LoopCandidate candidate;
+  candidate.extent = {0.3, 0.3, 0.05};
+  candidate.anchor_T_node = {1, 2, 0.1};
+  candidate.anchor_T_predicted = {4, 6, 0.1};
+  WorkerPool pool(1);
+  const CentreMatcher matcher;
+  const LoopCloser closer(near_maps_too(), 5);
+  const auto prior = [&](double sigma_m) {
+    candidate.sigma_m = sigma_m;
+    return closer
+        .match(two_rounds().node, candidate, two_rounds().keyframes, {{MatcherKind::kCsm, matcher}}, pool)
+        .value()
+        .prior;
+  };
+  EXPECT_DOUBLE_EQ(prior(2), path_prior(5, 2));
+  EXPECT_EQ(prior(std::numeric_limits<double>::infinity()), 1) << "no path states the place";
 }
 
 TEST(LoopCloser, the_windows_that_a_node_left_are_made_up_for_at_the_end) {

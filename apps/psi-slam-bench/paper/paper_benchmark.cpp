@@ -14,7 +14,7 @@ namespace {
 
 /// Settings that make the searches those of the paper: windows of fixed size, each with a single scan.
 /// Whole local maps are searched only where the path is uncertain by more than such a window. Without a final
-/// search and refinement, the map depends only on the loops found in time.
+/// search and refinement, the map depends only on the loops found in time, and those of the last nodes.
 const std::vector<std::string> kPaperSearch{
     "run.threads=1",
     "loop_closure.window_x_m=8",

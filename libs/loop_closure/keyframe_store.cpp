@@ -8,6 +8,7 @@
 #include "base/portable_math.h"
 #include "frames/pose_operations.h"
 #include "pose_graph/information_matrix.h"
+#include "pose_graph/newest_covariance.h"
 
 namespace psi_slam {
 namespace {
@@ -70,10 +71,7 @@ void constrain_to_path(const FrontEndStep& step, const PathNoise& noise, Keyfram
       noise.sigma_rad_per_sqrt_rad * noise.sigma_rad_per_sqrt_rad * std::abs(motion.phi);
   Eigen::Matrix3d step_covariance = noise.stated_share * noise.stated_share * step.covariance_since_node;
   step_covariance.diagonal() += Eigen::Vector3d(drift_m2, drift_m2, drift_rad2);
-  Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
-  moved(0, 2) = first_T_before.y - first_T_here.y;
-  moved(1, 2) = first_T_here.x - first_T_before.x;
-  covariance = Eigen::Matrix3d(moved * covariance * moved.transpose()) +
+  covariance = carried_covariance(covariance, first_T_before, first_T_here) +
                in_turned_axes(step_covariance, first_T_before.phi);
 
   const bool begins = here.travelled_m - first.travelled_m >= kSegment_m;

@@ -87,17 +87,24 @@ TEST(LoopConsensus, confirmed_matches_are_forgotten) {
   EXPECT_EQ(consensus.add(vote(3, 9.5), graph), Loops({2, 3}));
 }
 
-TEST(LoopConsensus, weak_matches_need_more_others_than_strong_ones) {
+// Returns how many matches, 0.6 m apart and with an ambiguity of 0.8, confirm each other. `change` changes
+// each match.
+template <class Change>
+std::size_t needed_matches(const Change& change) {
   const PoseGraph graph = two_anchors();
-  const auto needed = [&](double response) {
-    LoopConsensus consensus({});
-    Loops confirmed;
-    for (std::size_t i = 0; i < 10 && confirmed.empty(); ++i) {
-      LoopConsensus::Vote match = vote(i, 0.6 * static_cast<double>(i), 0.8);
-      match.response = response;
-      confirmed = consensus.add(match, graph);
-    }
-    return confirmed.size();
+  LoopConsensus consensus({});
+  Loops confirmed;
+  for (std::size_t i = 0; i < 10 && confirmed.empty(); ++i) {
+    LoopConsensus::Vote match = vote(i, 0.6 * static_cast<double>(i), 0.8);
+    change(match);
+    confirmed = consensus.add(match, graph);
+  }
+  return confirmed.size();
+}
+
+TEST(LoopConsensus, weak_matches_need_more_others_than_strong_ones) {
+  const auto needed = [](double response) {
+    return needed_matches([&](LoopConsensus::Vote& match) { match.response = response; });
   };
   EXPECT_EQ(needed(0.9), 3U);  // 3 * 0.2 is more than 0.5
   EXPECT_EQ(needed(0.6), 3U);
@@ -124,16 +131,8 @@ TEST(LoopConsensus, one_strong_match_needs_more_than_a_weak_one) {
 }
 
 TEST(LoopConsensus, matches_far_from_the_prediction_need_more_others) {
-  const PoseGraph graph = two_anchors();
-  const auto needed = [&](double prior) {
-    LoopConsensus consensus({});
-    Loops confirmed;
-    for (std::size_t i = 0; i < 10 && confirmed.empty(); ++i) {
-      LoopConsensus::Vote match = vote(i, 0.6 * static_cast<double>(i), 0.8);
-      match.prior = prior;
-      confirmed = consensus.add(match, graph);
-    }
-    return confirmed.size();
+  const auto needed = [](double prior) {
+    return needed_matches([&](LoopConsensus::Vote& match) { match.prior = prior; });
   };
   EXPECT_EQ(needed(1), 3U);
   EXPECT_EQ(needed(0.5), 6U) << "0.1 each, within 4 m";

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "frames/pose_operations.h"
 #include "frames/position_variance.h"
 
 namespace psi_slam {
@@ -114,7 +113,6 @@ void PathCovarianceSearch::settle(const PoseGraph& graph, std::uint32_t here) {
   rotate(link.to == here ? previous : node);
   node.covariance =
       extended(previous.covariance, measured_by(link), previous.pose, node.pose, link.to == here);
-  node.chain_m = previous.chain_m + distance_m(previous.pose, node.pose);
 }
 
 void PathCovarianceSearch::look_around(const PoseGraph& graph, std::uint32_t here, double lever2,
@@ -180,7 +178,6 @@ RelativeUncertainty PathCovarianceSearch::of(std::size_t index) const {
   uncertainty.reached = true;
   uncertainty.previous = node.previous;
   uncertainty.constraint = node.constraint;
-  uncertainty.chain_m = node.chain_m;
   uncertainty.covariance << own.xx, own.xy, own.xt, own.xy, own.yy, own.yt, own.xt, own.yt, own.tt;
   return uncertainty;
 }

@@ -36,7 +36,6 @@ struct RelativeUncertainty {
   bool reached = false;
   std::size_t previous = 0;  ///< previous node on the chain from the source; the source itself for the source
   std::size_t constraint = 0;  ///< number of the constraint to the previous node; undefined for the source
-  double chain_m = 0;          ///< length of the chain from the source, from node to node
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of (x, y, theta): m^2, m rad, rad^2
 
   /// Largest standard deviation of the position over all directions, in metres.
@@ -67,7 +66,6 @@ class PathCovarianceSearch {
     double cost = std::numeric_limits<double>::infinity();
     std::uint32_t constraint = 0;
     std::uint32_t previous = 0;
-    double chain_m = 0;
     bool settled = false;
     bool wanted = false;
     bool rotated = false;       // whether sine and cosine of `pose` are set

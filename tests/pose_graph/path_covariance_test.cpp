@@ -132,12 +132,6 @@ TEST(PathCovariance, is_the_propagation_along_its_chain) {
       trace_back(all, source, node, nodes, constraints);
       const Eigen::Matrix3d expected = propagated(graph, nodes, constraints);
       EXPECT_LT((all[node].covariance - expected).norm(), 1e-6 * (1e-12 + expected.norm()));
-      double chain_m = 0;
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const TPose2D step = graph.pose(k + 1 < nodes.size() ? nodes[k + 1] : node) - graph.pose(nodes[k]);
-        chain_m += std::hypot(step.x, step.y);
-      }
-      EXPECT_NEAR(all[node].chain_m, chain_m, 1e-9 * chain_m);
     }
   }
 }

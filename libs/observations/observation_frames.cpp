@@ -78,7 +78,7 @@ RawlogLasers::Laser& RawlogLasers::laser(std::size_t number, const mrpt::obs::CO
   const Laser added{first.sensorLabel, RawlogLaser(own), first.sensorPose, own.robot_T_laser.has_value()};
   for (const auto& [other_number, other] : lasers_)
     if (!added.is_stated && !other.is_stated && added.robot_T_sensor == other.robot_T_sensor)
-      throw UserError(
+      throw MissingMount(
           place + ": the lasers \"" + other.label + "\" and \"" + added.label +
           "\" have the same pose on the robot. State their mounts with log.laser_mounts, such as \"" +
           added.label + " -0.3 0 180\" (metres, degrees)");

@@ -22,6 +22,7 @@
 #include "psi_slam/frame.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/log_options.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 
@@ -43,6 +44,12 @@ class RawlogLaser {
   BeamBearings bearings_;
 };
 
+/// Error for a laser whose mount the user has to state.
+class MissingMount : public UserError {
+ public:
+  using UserError::UserError;
+};
+
 /// Selects the lasers to read among MRPT's observations, by their sensor labels.
 class RawlogLasers {
  public:
@@ -50,8 +57,8 @@ class RawlogLasers {
       : options_(options), chosen_(laser_choice("log.laser", options.laser)) {}
 
   /// Converts a scan, or returns nothing if its laser is not read. Throws UserError that starts with `place`
-  /// for the errors of RawlogLaser::scan(). Also throws it if two lasers without a mount in the options have
-  /// the same pose on the robot, which means that the poses were never set.
+  /// for the errors of RawlogLaser::scan(). Throws MissingMount if two lasers without a mount in the options
+  /// have the same pose on the robot, which means that the poses were never set.
   std::optional<LaserScan> scan(const mrpt::obs::CObservation2DRangeScan& observation,
                                 const std::string& place);
 

@@ -299,7 +299,7 @@ class RawlogReader : public LogReader {
   RawlogReader(const std::filesystem::path& path, const LogOptions& options)
       : RawlogReader(std::make_unique<RawlogArchive>(path), find_sensors(path, options)) {}
 
-  /// Reads objects from their beginning. With `of_stream`, skips invalid observations.
+  /// Reads objects from their beginning. With `of_stream`, skips scans whose mount the user has to state.
   RawlogReader(std::unique_ptr<ObjectSource> objects, Sensors found, bool of_stream = false)
       : archive_(std::move(objects)),
         found_(std::move(found)),
@@ -325,7 +325,7 @@ class RawlogReader : public LogReader {
       if (at_end_ && frames_given() == 0 && invalid_.count > 0) throw UserError(invalid_.first);
       if (at_end_) return std::nullopt;
       if (const auto object = archive_->next()) {
-        take_or_skip(*object);
+        take(*object);
       } else {
         at_end_ = true;
         frames_.end_of_log();
@@ -334,27 +334,29 @@ class RawlogReader : public LogReader {
   }
 
  private:
-  void take_or_skip(mrpt::serialization::CSerializable& object) {
-    try {
-      take(object);
-    } catch (const UserError& error) {
-      if (!is_stream_) throw;
-      if (invalid_.count++ == 0) invalid_.first = error.what();
-    }
-    contents_.skipped = frames_.skipped() + invalid_ + archive_->dropped();
-  }
-
   void take(mrpt::serialization::CSerializable& object) {
     if (const auto* actions = dynamic_cast<const CActionCollection*>(&object))
       frames_.take(*actions, archive_->place());
-    for_each_observation(object, [&](const CObservation& observation) {
-      const std::size_t scans = frames_.scans();
-      frames_.take(observation, archive_->place());
-      const bool is_scan = dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;
-      if (is_scan && frames_.scans() == scans) ++contents_.other_lasers[observation.sensorLabel];
-      if (const auto labels = frames_.labels(); labels.size() > contents_.laser_names.size())
-        name_lasers(labels);
-    });
+    for_each_observation(object, [&](const CObservation& observation) { take_or_skip(observation); });
+    contents_.skipped = frames_.skipped() + invalid_ + archive_->dropped();
+  }
+
+  void take_or_skip(const CObservation& observation) {
+    try {
+      take(observation);
+    } catch (const UserError& error) {
+      if (!is_stream_ && dynamic_cast<const MissingMount*>(&error) != nullptr) throw;
+      if (invalid_.count++ == 0) invalid_.first = error.what();
+    }
+  }
+
+  void take(const CObservation& observation) {
+    const std::size_t scans = frames_.scans();
+    frames_.take(observation, archive_->place());
+    const bool is_scan = dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;
+    if (is_scan && frames_.scans() == scans) ++contents_.other_lasers[observation.sensorLabel];
+    if (const auto labels = frames_.labels(); labels.size() > contents_.laser_names.size())
+      name_lasers(labels);
   }
 
   void name_lasers(const std::vector<std::string>& labels) {
@@ -366,7 +368,7 @@ class RawlogReader : public LogReader {
   Sensors found_;
   ObservationFrames frames_;
   bool is_stream_;
-  SkippedLines invalid_;  // observations of a stream that were skipped
+  SkippedLines invalid_;  // observations besides odometry with an invalid pose
   bool at_end_ = false;
 };
 

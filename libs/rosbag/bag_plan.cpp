@@ -163,17 +163,16 @@ class Planner {
     bag_->want(wanted);
     for (BagMessage message; !is_complete();) {
       try {
-        if (!bag_->next(message)) return;
+        if (!bag_->next(message)) break;
         take(message);
       } catch (const MalformedBytes& error) {
-        if (has_enough_scans()) return;
-        throw UserError(bag_->place() + ": the message on " + message.topic->name +
-                        " is damaged: " + error.what() + ". Record the bag again");
+        if (damage_.empty()) damage_ = damage_text(*bag_, message, error);
       } catch (const UserError&) {
         if (!has_enough_scans()) throw;
         return;
       }
     }
+    if (!has_enough_scans() && !damage_.empty()) throw UserError(damage_);
   }
 
   void take(const BagMessage& message) {
@@ -427,6 +426,7 @@ class Planner {
   std::vector<BagTopic> topics_;
   BagPlan plan_;
   std::map<std::string, std::string> scan_frames_;  // key: topic of the scans; value: frame of the laser
+  std::string damage_;                              // message about the first damaged message
   std::string invalid_pose_;                        // message about the first odometry with an invalid pose
   bool expects_odometry_ = true;                    // whether the user wants odometry and the bag may hold it
   std::string choice_of_odometry_;   // assumption about the topic of odometry; empty if there is one topic
@@ -449,6 +449,11 @@ Names BagPlan::topics() const {
 std::string invalid_pose_text(const std::string& topic) {
   return "the odometry on " + topic +
          " is not finite, or the length of its quaternion is not 1, or it is beyond 10,000 km";
+}
+
+std::string damage_text(const BagFile& bag, const BagMessage& message, const MalformedBytes& damage) {
+  return bag.place() + ": the message on " + message.topic->name + " is damaged: " + damage.what() +
+         ". Record the bag again";
 }
 
 bool is_transforms(const BagTopic& topic) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/byte_cursor.h"
 #include "psi_slam/log_options.h"
 #include "rosbag/bag_file.h"
 #include "rosbag/transform_tree.h"
@@ -30,6 +31,9 @@ struct BagPlan {
 
 /// Error message for odometry with an invalid pose, without the place.
 std::string invalid_pose_text(const std::string& topic);
+
+/// Error message for the last message of a bag, whose bytes are damaged.
+std::string damage_text(const BagFile& bag, const BagMessage& message, const MalformedBytes& damage);
 
 /// Returns whether the messages of the topic are transforms.
 bool is_transforms(const BagTopic& topic);

@@ -5,8 +5,8 @@
 // scans with the heading by a gyroscope (sensor_msgs/Imu). The laser's mount comes from the transforms. A
 // message without a stamp has the time at which it was recorded.
 //
-// A damaged or truncated bag yields all frames before the damage, then a UserError. Odometry with an invalid
-// pose is skipped, and so are damaged messages of a bag that is still being recorded.
+// A damaged or truncated bag yields all frames before the damage, then a UserError. Messages that are invalid
+// by themselves are skipped and counted.
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -121,7 +121,6 @@ class RosbagReader : public LogReader {
   RosbagReader(BagPlan plan, std::unique_ptr<BagFile> bag, const LogOptions& options, bool is_stream)
       : plan_(std::move(plan)),
         bag_(std::move(bag)),
-        is_stream_(is_stream),
         slice_(height_slice(options)),
         interpolator_(is_stream ? kMostWaitingOfStream : OdometryInterpolator::kMaxWaiting) {
     bag_->want(plan_.topics());
@@ -167,7 +166,6 @@ class RosbagReader : public LogReader {
     try {
       take(message);
     } catch (const UserError& error) {
-      if (!is_stream_) throw;
       if (invalid_.count++ == 0) invalid_.first = error.what();
       if (contents_.skipped.count++ == 0) contents_.skipped.first = error.what();
     }
@@ -189,8 +187,7 @@ class RosbagReader : public LogReader {
         take_scan(read_ros_laser_scan(message), laser_of(message.topic->name));
       }
     } catch (const MalformedBytes& error) {
-      throw UserError(bag_->place() + ": the message on " + message.topic->name +
-                      " is damaged: " + error.what() + ". Record the bag again");
+      throw UserError(damage_text(*bag_, message, error));
     }
   }
 
@@ -258,8 +255,7 @@ class RosbagReader : public LogReader {
 
   BagPlan plan_;
   std::unique_ptr<BagFile> bag_;
-  bool is_stream_;
-  SkippedLines invalid_;  // damaged messages of a stream
+  SkippedLines invalid_;  // messages besides odometry with an invalid pose
   std::optional<HeightSlice> slice_;
   std::vector<LogOptions> sensor_options_;  // in the order of plan_.scan_topics
   std::vector<RosLaser> lasers_;            // in the order of plan_.scan_topics

@@ -277,6 +277,28 @@ TEST_F(RawlogReaderTest, reports_missing_scans_and_time_stamps) {
                 "Record the log with time stamps");
 }
 
+TEST_F(RawlogReaderTest, skips_and_counts_invalid_scans) {
+  const auto unstamped = range_scan(kStart + 1);
+  unstamped->timestamp = INVALID_TIMESTAMP;
+  const auto degrees = range_scan(kStart + 2);
+  degrees->aperture = 180;
+  const auto tilted = range_scan(kStart + 3);
+  tilted->sensorPose = mrpt::poses::CPose3D(0, 0, 0, 0, 0.5, 0);
+  for (const auto& [invalid, sentence] :
+       {std::pair{unstamped, "the scan has no time stamp"}, std::pair{degrees, "expected at most two turns"},
+        std::pair{tilted, "expected at most 15"}, std::pair{range_scan(kStart + 4, "LASER", {}), "0 rays"}}) {
+    const auto frames =
+        read({movement({1, 0, 0}), sensory_frame({invalid, range_scan(kStart + 5)}), movement({1, 0, 0}),
+              sensory_frame({range_scan(kStart + 6), invalid}), sensory_frame({range_scan(kStart + 7)})});
+    ASSERT_EQ(frames.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(frames[i].time_us, kStart + 5 + static_cast<TimeUs>(i));
+    expect_pose(frames[1].odom_T_robot, {2, 0, 0});
+    EXPECT_EQ(contents_.skipped.count, 2U);
+    EXPECT_THAT(contents_.skipped.first, testing::HasSubstr(sentence));
+    EXPECT_THAT(contents_.skipped.first, testing::HasSubstr(": object 2: "));
+  }
+}
+
 TEST_F(RawlogReaderTest, yields_the_frames_before_the_end_of_a_truncated_file) {
   write_rawlog(
       path_, {movement({1, 0, 0}), sensory_frame({range_scan(kStart)}), sensory_frame({range_scan(kStart)})},

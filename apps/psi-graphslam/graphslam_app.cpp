@@ -56,7 +56,7 @@ bool has_display() {
 void add_inputs(CLI::App& app, GraphSlamSetup& setup) {
   add_value(app, "-i,--ini-file,--ini", setup.ini, "Settings file, as for MRPT's graphslam-engine", "INI");
   add_value(app, "-r,--rawlog", setup.log,
-            "Log: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag", "LOG");
+            "Log: an MRPT rawlog or a CARMEN log, plain or compressed, or a ROS bag", "LOG");
   add_value(app, "-g,--ground-truth", setup.ground_truth, "True poses, in the format of GridMapNavSimul",
             "FILE");
   const auto add_name = [&](const char* names, std::string& name, const char* help) {

@@ -41,7 +41,7 @@ struct Arguments {
 Arguments parse(const std::vector<std::string>& arguments, CLI::App& app) {
   Arguments line;
   app.add_option("LOG", line.log,
-                 "Log to open: an MRPT rawlog or a CARMEN log, plain or gzipped, a ROS bag, or a session")
+                 "Log to open: an MRPT rawlog or a CARMEN log, plain or compressed, a ROS bag, or a session")
       ->type_name("");
   app.add_option("--edits", line.edits,
                  "File of edits of loops and of the drawn map, as saved with Edit > Save edits")

@@ -51,11 +51,12 @@ wxPanel* make_start_page(wxWindow* parent) {
   auto* title = new wxStaticText(page, wxID_ANY, "Open a log to build a map");
   title->SetFont(title->GetFont().Scaled(1.6F).Bold());
   add(title);
-  add(new wxStaticText(page, wxID_ANY,
-                       "Drop a file here or open one: a CARMEN log (.log, .clf), an MRPT rawlog (.rawlog), "
-                       "both plain or gzipped,\na ROS bag or a session. Change settings on the right if you "
-                       "like, then press play.",
-                       wxDefaultPosition, wxDefaultSize, wxALIGN_CENTRE_HORIZONTAL));
+  add(new wxStaticText(
+      page, wxID_ANY,
+      "Drop a file here or open one: a CARMEN log (.log, .clf), an MRPT rawlog (.rawlog), "
+      "both plain or compressed,\na ROS bag or a session. Change settings on the right if you "
+      "like, then press play.",
+      wxDefaultPosition, wxDefaultSize, wxALIGN_CENTRE_HORIZONTAL));
   auto* button = new wxButton(page, wxID_ANY, wxString::FromUTF8("Open log…"));
   button->Bind(wxEVT_BUTTON, [page](wxCommandEvent&) { choose_command(*page, kOpenLog); });
   add(button);

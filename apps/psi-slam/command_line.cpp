@@ -361,7 +361,7 @@ CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& 
   std::string log_to_map;
   bool dump_config = false;
   add_value(app, "LOG", log_to_map,
-            "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag", "");
+            "Log to map: an MRPT rawlog or a CARMEN log, plain or compressed, or a ROS bag", "");
   add_value(app, "-o,--output", line.output, kFolderHelp, "DIR");
   add_run_options(app, line);
   add_value(app, "--edits", line.edits, "File with edits of loops and of the drawn map, and with known poses",

@@ -15,9 +15,9 @@
 
 namespace psi_slam {
 
-/// Reads a file once from its beginning, plain or compressed by gzip or zstd. Recognises the compression by
-/// the content of the file, not by its name. The constructor throws UserError if the file does not exist, is
-/// a folder or is not readable.
+/// Reads a file once from its beginning, plain or compressed by bzip2, gzip, lz4, xz or zstd. Recognises the
+/// compression by the content of the file, not by its name. The constructor throws UserError if the file does
+/// not exist, is a folder or is not readable.
 class CompressedFile : public ByteSource {
  public:
   /// `expected` names the kind of file in the messages about a missing file and about a folder.

@@ -14,9 +14,6 @@ namespace psi_slam {
 /// any other compression, for damaged data, and for data of another size.
 std::string decompress(std::string_view name, std::string_view compressed, std::uint64_t size);
 
-/// Returns whether the bytes start like a zstd frame.
-bool is_zstd(std::string_view bytes);
-
 /// Decompresses a zstd frame, with or without a stated size, to at most `most` bytes. Throws MalformedBytes
 /// if the frame is damaged or holds more bytes.
 std::string decompress_zstd_frame(std::string_view compressed, std::uint64_t most);

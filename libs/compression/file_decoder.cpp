@@ -2,7 +2,6 @@
 #include "compression/file_decoder.h"
 
 #include <zlib.h>
-#include <zstd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -10,12 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "compression/compression.h"
+#include "compression/decompressor.h"
 
 namespace psi_slam {
 namespace {
 
 constexpr unsigned kGzipBufferBytes = 256 * 1024;
+constexpr std::size_t kBlockBytes = std::size_t{128} * 1024;
 constexpr std::size_t kMaxGzipBytesPerCall = std::size_t{1} << 30;  // zlib counts bytes as unsigned int
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
@@ -52,49 +52,49 @@ class GzipDecoder : public FileDecoder {
   std::unique_ptr<gzFile_s, int (*)(gzFile)> file_;
 };
 
-/// Reads a file of one or more zstd frames. Passes the compressed blocks to zstd one by one, because the
-/// call that finds damage drops the bytes that it has decompressed.
-class ZstdDecoder : public FileDecoder {
+/// Reads a compressed file of one or more parts, such as frames of zstd.
+class CompressedFileDecoder : public FileDecoder {
  public:
-  explicit ZstdDecoder(File file)
-      : file_(std::move(file)), context_(ZSTD_createDCtx(), &ZSTD_freeDCtx), block_(ZSTD_DStreamInSize()) {}
+  CompressedFileDecoder(File file, std::unique_ptr<Decompressor> decompressor)
+      : file_(std::move(file)), decompressor_(std::move(decompressor)), block_(kBlockBytes) {}
 
   std::size_t read(char* bytes, std::size_t size) override {
-    ZSTD_outBuffer out{bytes, size, 0};
-    while (out.pos < size) {
-      if (input_.pos == input_.size && !holds_output_ && !take_block()) break;
-      wanted_ = ZSTD_decompressStream(context_.get(), &out, &input_);
-      if (ZSTD_isError(wanted_) != 0) {
-        end_ = End::kDamaged;
-        break;
-      }
-      holds_output_ = out.pos == size && wanted_ != 0;
+    std::size_t done = 0;
+    while (done < size) {
+      if (input_.empty() && !holds_output_ && !take_block()) break;
+      const Decompressor::Step step = decompressor_->step(input_, bytes + done, size - done);
+      done += step.written;
+      state_ = step.state;
+      if (state_ == Decompressor::State::kDamaged) break;
+      holds_output_ = done == size && state_ == Decompressor::State::kInPart;
     }
-    return out.pos;
+    return done;
   }
 
-  End end() const override { return std::ferror(file_.get()) != 0 ? End::kUnreadable : end_; }
+  End end() const override {
+    if (std::ferror(file_.get()) != 0) return End::kUnreadable;
+    if (state_ == Decompressor::State::kDamaged) return End::kDamaged;
+    return state_ == Decompressor::State::kInPart ? End::kCutOff : End::kEndOfFile;
+  }
+
   std::uintmax_t bytes_taken() const override { return bytes_taken_; }
 
  private:
-  /// Reads the next compressed block. Returns false at the end of the file.
+  /// Reads the next compressed bytes. Returns false at the end of the file.
   bool take_block() {
-    const bool is_between_frames = wanted_ == 0;
-    const std::size_t most = std::clamp<std::size_t>(wanted_, 1, block_.size());
-    input_ = {block_.data(), std::fread(block_.data(), 1, most, file_.get()), 0};
-    bytes_taken_ += input_.size;
-    if (input_.size == 0 && !is_between_frames) end_ = End::kCutOff;
-    return input_.size > 0;
+    const std::size_t most = std::min(decompressor_->wanted(), block_.size());
+    input_ = {block_.data(), std::fread(block_.data(), 1, most, file_.get())};
+    bytes_taken_ += input_.size();
+    return !input_.empty();
   }
 
   File file_;
-  std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context_;
+  std::unique_ptr<Decompressor> decompressor_;
   std::vector<char> block_;
-  ZSTD_inBuffer input_{nullptr, 0, 0};
-  std::size_t wanted_ = 1;     // compressed bytes that zstd expects next; 0 at the end of a frame
-  bool holds_output_ = false;  // zstd may hold more bytes than the last read() had room for
+  std::string_view input_;  // the part of block_ that is not decompressed yet
+  Decompressor::State state_ = Decompressor::State::kInPart;
+  bool holds_output_ = false;  // the decompressor may hold more bytes than the last read() had room for
   std::uintmax_t bytes_taken_ = 0;
-  End end_ = End::kEndOfFile;
 };
 
 }  // namespace
@@ -102,10 +102,11 @@ class ZstdDecoder : public FileDecoder {
 std::unique_ptr<FileDecoder> open_decoder(const std::filesystem::path& path) {
   File file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) return nullptr;
-  char head[4];
-  const bool starts_like_zstd = is_zstd(std::string_view(head, std::fread(head, 1, sizeof head, file.get())));
-  if (starts_like_zstd && std::fseek(file.get(), 0, SEEK_SET) == 0)
-    return std::make_unique<ZstdDecoder>(std::move(file));
+  char head[6];
+  const std::string_view compression = compression_of({head, std::fread(head, 1, sizeof head, file.get())});
+  if (auto decompressor = make_decompressor(compression);
+      decompressor && std::fseek(file.get(), 0, SEEK_SET) == 0)
+    return std::make_unique<CompressedFileDecoder>(std::move(file), std::move(decompressor));
   const gzFile zipped = gzopen(path.c_str(), "rb");
   return zipped == nullptr ? nullptr : std::make_unique<GzipDecoder>(zipped);
 }

@@ -26,7 +26,7 @@ class FileDecoder {
   virtual std::uintmax_t bytes_taken() const = 0;
 };
 
-/// Opens a plain file, or one that is compressed by gzip or zstd, which the content shows. Memory does not
+/// Opens a plain file, or one that is compressed as compression_of() shows. Memory does not
 /// depend on the sizes that a compressed file states. Returns null, and errno says why, if the file is not
 /// readable.
 std::unique_ptr<FileDecoder> open_decoder(const std::filesystem::path& path);

@@ -14,6 +14,7 @@
 #include "base/text_parts.h"
 #include "base/yaml_directives.h"
 #include "compression/compressed_file.h"
+#include "frames/foreign_file.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -22,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kExpected =
-    ", expected a CARMEN log or an MRPT .rawlog, plain or gzipped, or a ROS bag (.bag, .db3, .mcap, or the "
-    "folder of a ROS 2 bag)";
+    ", expected a CARMEN log or an MRPT .rawlog, plain or compressed, or a ROS bag (.bag, .db3, .mcap, or "
+    "the folder of a ROS 2 bag)";
 constexpr std::size_t kHeadBytes = std::size_t{256} * 1024;
 
 /// Returns whether the bytes start like an MRPT archive, which begins with an object. The first byte holds
@@ -150,12 +151,12 @@ LogFormat detect_log_format(const fs::path& path) {
   std::string head(kHeadBytes, '\0');
   head.resize(file.read(head.data(), head.size()));
   if (head.empty()) throw UserError(path.string() + " is empty" + kExpected + ". Fetch or record it again");
-  if (starts_with(head, "#ROSBAG")) return LogFormat::kRos1Bag;
+  if (starts_with(head, "#ROSBAG V2")) return LogFormat::kRos1Bag;
   if (starts_with(head, "\x89MCAP")) return LogFormat::kRos2Mcap;
   if (starts_with(head, std::string_view("SQLite format 3\0", 16))) return LogFormat::kRos2Sqlite;
   if (is_mrpt_archive(head)) return LogFormat::kMrptRawlog;
   if (is_carmen(head)) return LogFormat::kCarmen;
-  throw UserError(path.string() + " has an unknown format" + kExpected + ". Convert it first");
+  throw UserError(path.string() + " has an unknown format" + kExpected + ". " + likely_content(head));
 }
 
 }  // namespace psi_slam

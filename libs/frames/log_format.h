@@ -15,9 +15,9 @@ std::string_view name_of(LogFormat format);
 /// Returns whether the format is one of the ROS bags.
 bool is_bag(LogFormat format);
 
-/// Detects the format by the content of the file, plain or compressed by gzip or zstd; its name does not
-/// matter. Throws UserError if the file does not exist, is empty, is a folder without a ROS 2 bag, or has
-/// none of the formats.
+/// Detects the format by the content of the file, plain or compressed; its name does not matter. Throws
+/// UserError if the file does not exist, is empty, is a folder without a ROS 2 bag, or has none of the
+/// formats; see likely_content().
 LogFormat detect_log_format(const std::filesystem::path& path);
 
 /// Files in the folder of a ROS 2 bag, in the order of its metadata.yaml. Without metadata.yaml, which a

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/text_parts.h"
-#include "compression/compression.h"
+#include "compression/decompressor.h"
 #include "compression/growing_file.h"
 #include "psi_slam/user_error.h"
 
@@ -82,13 +82,9 @@ LogFormat format_by_name(fs::path file) {
   return ending == ".rawlog" ? LogFormat::kMrptRawlog : LogFormat::kCarmen;
 }
 
-bool is_gzip(const std::string& head) {
-  return starts_with(head, "\x1f\x8b");
-}
-
 /// Returns the first bytes on disk.
 std::string head_of(const fs::path& file) {
-  std::string head(4, '\0');
+  std::string head(6, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(stream.gcount()));
@@ -118,8 +114,10 @@ LogFormat growing_format(const fs::path& file) {
     format = detect_log_format(file);
   } catch (const UserError&) {  // it is empty, or its first lines are comments
   }
-  const bool is_packed_database = format == LogFormat::kRos2Sqlite && is_gzip(head);
-  if (is_zstd(head) || is_packed_database)
+  const std::string_view compression = compression_of(head);
+  const bool is_followable =
+      compression.empty() || (compression == "gzip" && format != LogFormat::kRos2Sqlite);
+  if (!is_followable)
     throw UserError(
         file.string() +
         " is a compressed file and cannot be followed, expected a file that grows. Map it without "

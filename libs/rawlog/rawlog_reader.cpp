@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads MRPT rawlogs, plain or gzipped, in both common forms:
+// Reads MRPT rawlogs, plain or compressed, in both common forms:
 //
 // - Actions and sensory frames. Odometry is the sum of the increments of the actions. Every scan of a sensory
 //   frame has the odometry of that frame.

@@ -5,6 +5,7 @@
 
 #include "base/byte_cursor.h"
 #include "compression/compression.h"
+#include "compression/decompressor.h"
 #include "frames/log_format.h"
 #include "psi_slam/user_error.h"
 
@@ -79,7 +80,7 @@ void check_stated_size(std::uint64_t bytes) {
 
 void unpack_message(BagMessage& message, std::string& room) {
   // CDR starts with a byte 0, so it is never taken for zstd.
-  if (message.topic->encoding != BagEncoding::kCdr || !is_zstd(message.bytes)) return;
+  if (message.topic->encoding != BagEncoding::kCdr || compression_of(message.bytes) != "zstd") return;
   room = decompress_zstd_frame(message.bytes, kMaxRecordBytes);
   message.bytes = room;
 }

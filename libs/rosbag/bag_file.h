@@ -88,7 +88,7 @@ class BagFile {
 };
 
 /// Opens a bag of any container: a file, or the folder of a ROS 2 bag, whose files are read in order. Each
-/// file may be compressed as a whole by gzip or zstd. Recognises the container by the content. Throws
+/// file may be compressed as a whole, see CompressedFile. Recognises the container by the content. Throws
 /// UserError if `path` is not a bag.
 std::unique_ptr<BagFile> open_bag(const std::filesystem::path& path);
 

@@ -84,7 +84,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)  # static libraries have no shared-library dependencies
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libmrpt-dev (>= 1:2.5.8), libeigen3-dev (>= 3.4), libopencv-dev (>= 4.6), libgdal-dev (>= 3.6), libpng-dev, zlib1g-dev, \
-libbz2-dev, liblz4-dev, libzstd-dev, libsqlite3-dev, libssl-dev, libsleef-dev, pkg-config")
+libbz2-dev, liblzma-dev, liblz4-dev, libzstd-dev, libsqlite3-dev, libssl-dev, libsleef-dev, pkg-config")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "Headers and static libraries of psi-slam, a graph SLAM system for wheeled
 robots. Contains the files for CMake's find_package and examples.")

@@ -19,13 +19,14 @@ readonly tried="Debian 12 and Debian 13"
 build=(
   build-essential cmake ninja-build pkg-config file
   libmrpt-dev libeigen3-dev libopencv-dev libwxgtk3.2-dev libgdal-dev
-  libcli11-dev nlohmann-json3-dev libpng-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev libssl-dev libsleef-dev
+  libcli11-dev nlohmann-json3-dev libpng-dev zlib1g-dev libbz2-dev liblzma-dev liblz4-dev
+  libzstd-dev libsqlite3-dev libssl-dev libsleef-dev
 )
 # shellcheck disable=SC2034
 runtime=(
   'libmrpt-slam[0-9.]+' 'libmrpt-graphslam[0-9.]+' 'libmrpt-hwdrivers[0-9.]+' 'libmrpt-gui[0-9.]+' mrpt-common
   'libopencv-imgcodecs[0-9]+(t64)?' 'libwxgtk3.2-1(t64)?' 'libwxgtk-gl3.2-1(t64)?' 'libgdal[0-9]+(t64)?' 'libssl3(t64)?'
-  'libpng16-16(t64)?' zlib1g libbz2-1.0 liblz4-1 libzstd1 libsqlite3-0 libsleef3 libgl1 libopengl0 libgl1-mesa-dri
+  'libpng16-16(t64)?' zlib1g libbz2-1.0 liblzma5 liblz4-1 libzstd1 libsqlite3-0 libsleef3 libgl1 libopengl0 libgl1-mesa-dri
 )
 # shellcheck disable=SC2034
 test=(

@@ -49,5 +49,16 @@ INSTANTIATE_TEST_SUITE_P(
                               "1 message of the log is unusable"}),
     [](const auto& tested) { return tested.param.file.substr(0, tested.param.file.find('.')); });
 
+TEST(RecordedFaults, a_log_packed_by_bzip2_gives_the_map_of_the_log_packed_by_gzip) {
+  const auto bzip2 = shared_file("faults/plain.log.bz2");
+  const auto gzip = shared_file("faults/right_fov.log.gz");
+  if (!bzip2 || !gzip) GTEST_SKIP() << kNeedsData;
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_app({bzip2->string(), "-o", (folder.path() / "a").string(), "-q"}).code, 0);
+  ASSERT_EQ(run_app({gzip->string(), "-o", (folder.path() / "b").string(), "-q"}).code, 0);
+  for (const char* name : {"trajectory.tum", "map.png"})
+    EXPECT_TRUE(bytes_of(folder.path() / "a" / name) == bytes_of(folder.path() / "b" / name)) << name;
+}
+
 }  // namespace
 }  // namespace psi_slam

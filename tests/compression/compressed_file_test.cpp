@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "packed_files.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 #include "zstd_files.h"
@@ -46,6 +47,36 @@ TEST(CompressedFile, reads_files_of_one_or_several_zstd_frames) {
   write_file(path, zstd_frame(""));
   EXPECT_EQ(content_of(path), "");
 }
+
+class EachCompression : public testing::TestWithParam<const char*> {};
+
+TEST_P(EachCompression, is_read_in_one_or_several_parts_up_to_a_truncation) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "log";
+  const std::string bytes = noise(3'000'003) + std::string(3'000'000, 'a');
+  const std::string whole = packed_as(GetParam(), bytes);
+  write_file(path, whole);
+  EXPECT_TRUE(content_of(path) == bytes);
+  write_file(path, whole + packed_as(GetParam(), "") + packed_as(GetParam(), "the end"));
+  EXPECT_TRUE(content_of(path) == bytes + "the end");
+
+  write_file(path, whole.substr(0, whole.size() / 2));
+  CompressedFile file(path);
+  std::string part(bytes.size(), '\0');
+  const std::size_t got = file.read(part.data(), part.size());
+  EXPECT_GT(got, 500'000U);
+  EXPECT_TRUE(part.substr(0, got) == bytes.substr(0, got));
+  EXPECT_EQ(sentence_of([&] { file.read(part.data(), part.size()); }),
+            path.string() + " is cut off: its compressed data are incomplete. Fetch it again");
+
+  std::string damaged = whole;
+  for (std::size_t i = 0; i < 100; ++i) damaged[whole.size() / 3 + i] = '\x55';
+  write_file(path, damaged);
+  EXPECT_EQ(sentence_of([&] { content_of(path); }),
+            path.string() + " is damaged: its data cannot be decompressed. Fetch it again");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EachCompression, testing::Values("bz2", "lz4", "xz", "zstd"));
 
 TEST(CompressedFile, reports_its_progress) {
   const TemporaryFolder folder;

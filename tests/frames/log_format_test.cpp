@@ -27,8 +27,8 @@ class LogFormatTest : public testing::Test {
   TemporaryFolder folder_;
   std::filesystem::path path_ = folder_.path() / "some.file";
   std::string expected_ =
-      ", expected a CARMEN log or an MRPT .rawlog, plain or gzipped, or a ROS bag (.bag, .db3, .mcap, or the "
-      "folder of a ROS 2 bag)";
+      ", expected a CARMEN log or an MRPT .rawlog, plain or compressed, or a ROS bag (.bag, .db3, .mcap, or "
+      "the folder of a ROS 2 bag)";
 };
 
 TEST_F(LogFormatTest, detects_carmen_by_its_messages) {
@@ -65,6 +65,26 @@ TEST_F(LogFormatTest, detects_the_content_of_a_compressed_file) {
             path_.string() + " is cut off: its compressed data are incomplete. Fetch it again");
 }
 
+TEST_F(LogFormatTest, guesses_what_an_unknown_file_is) {
+  const std::string tar = std::string(257, 'x') + "ustar";
+  const std::string csm = R"({"nrays": 2, "min_theta": -1.5, "max_theta": 1.5, "readings": [1, 2]})";
+  const std::string table = "time_s,a0,a1,a2,a3,a4,a5,a6,a7,a8,a9\n1,2,2,2,2,2,2,2,2,2,2\n";
+  for (const auto& [bytes, guess] : std::vector<std::pair<std::string, std::string>>{
+           {"PK\x03\x04 run.clf", "It is an archive. Unpack it"},
+           {tar, "It is an archive. Unpack it"},
+           {"#ROSBAG V1.2\n", "rosbag filter OLD.bag NEW.bag True"},
+           {"psi-slam session", "Continue it with --resume"},
+           {"<!DOCTYPE html>", "web page"},
+           {"VERTEX_SE2 0 0 0 0\n", "pose graph"},
+           {csm, "carmen-from-text.py"},
+           {table, "carmen-from-text.py"},
+           {"Dear robot,\nwhere are you?\n", "Convert it first"}}) {
+    EXPECT_THAT(sentence_about(bytes),
+                testing::StartsWith(path_.string() + " has an unknown format" + expected_));
+    EXPECT_THAT(sentence_about(bytes), testing::HasSubstr(guess)) << bytes;
+  }
+}
+
 TEST_F(LogFormatTest, finds_compressed_and_unpacked_files_of_a_folder) {
   const auto names = [&] {
     std::vector<std::string> found;
@@ -90,8 +110,8 @@ TEST_F(LogFormatTest, reports_empty_files_and_unknown_formats) {
             file + " has an unknown format" + expected_ + ". Convert it first");
   EXPECT_EQ(sentence_about(std::string("FLASER 1\0", 9)),
             file + " has an unknown format" + expected_ + ". Convert it first");
-  EXPECT_EQ(sentence_about("\x89PNG\r\n"),
-            file + " has an unknown format" + expected_ + ". Convert it first");
+  EXPECT_EQ(sentence_about("\x89PNG\r\n"), file + " has an unknown format" + expected_ +
+                                               ". It is an image. Name the log that the map was made from");
   write_gzipped(path_, "");
   EXPECT_EQ(sentence_of([&] { detect_log_format(path_); }),
             file + " is empty" + expected_ + ". Fetch or record it again");

@@ -89,8 +89,8 @@ TEST(OpenLog, reports_missing_and_empty_files) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "log";
   const std::string expected =
-      ", expected a CARMEN log or an MRPT .rawlog, plain or gzipped, or a ROS bag (.bag, .db3, .mcap, or the "
-      "folder of a ROS 2 bag)";
+      ", expected a CARMEN log or an MRPT .rawlog, plain or compressed, or a ROS bag (.bag, .db3, .mcap, or "
+      "the folder of a ROS 2 bag)";
   EXPECT_EQ(sentence_of([&] { open_log(path); }),
             path.string() + " does not exist, expected a log. Check the path");
   write_file(path, "");

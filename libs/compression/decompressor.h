@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string_view>
+
+namespace psi_slam {
+
+/// Decompresses data piece by piece. The data may consist of several parts, one after the other, such as
+/// frames of zstd.
+class Decompressor {
+ public:
+  enum class State { kInPart, kAtEndOfPart, kDamaged };
+
+  /// Result of step().
+  struct Step {
+    std::size_t written = 0;  ///< number of decompressed bytes, also before damage
+    State state = State::kInPart;
+  };
+
+  virtual ~Decompressor() = default;
+
+  /// Largest number of compressed bytes to pass to the next step(), so that all bytes before damage are
+  /// written.
+  virtual std::size_t wanted() const = 0;
+
+  /// Decompresses the beginning of `compressed`, which it removes, to at most `room` bytes. If it fills the
+  /// room, it may hold more bytes, which the next call writes, also without compressed bytes.
+  virtual Step step(std::string_view& compressed, char* bytes, std::size_t room) = 0;
+};
+
+/// Returns the compression of a file by its first six bytes: "bz2", "gzip", "lz4", "xz" or "zstd"; empty for
+/// other files.
+std::string_view compression_of(std::string_view head);
+
+/// Returns a decompressor for a compression named as by compression_of(), except gzip. Returns null for any
+/// other name. Memory does not depend on the sizes that the data state.
+std::unique_ptr<Decompressor> make_decompressor(std::string_view compression);
+
+}  // namespace psi_slam

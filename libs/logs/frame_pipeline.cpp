@@ -115,9 +115,9 @@ void check_options_for(LogFormat format, const std::string& log, const LogOption
   if (!is_bag(format) && !chooses_odometry(options) && !ignores_odometry(options))
     throw UserError("log.odometry is \"" + options.odometry + "\", expected auto or none for " + log +
                     ", because topics apply to ROS bags only");
-  if (!is_bag(format) && height_slice(options))
+  if (format == LogFormat::kCarmen && height_slice(options))
     throw UserError("log.slice_z_m is \"" + options.slice_z_m + "\", expected an empty text for " + log +
-                    ", because only ROS bags hold point clouds");
+                    ", because CARMEN logs hold no point clouds");
   if (format == LogFormat::kCarmen && names_gyroscope(options))
     throw UserError("log.imu is \"" + options.imu + "\", expected auto or none for " + log +
                     ", because CARMEN logs hold no gyroscope");

@@ -12,6 +12,7 @@
 #include "frames/laser_choice.h"
 #include "frames/log_format.h"
 #include "frames/pose_operations.h"
+#include "observations/cloud_points.h"
 #include "observations/mrpt_objects.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
@@ -74,6 +75,7 @@ class RawlogEntries : public LogEntries {
 
  private:
   bool is_of_another_laser(const CObservation& observation) {
+    if (is_cloud(observation)) return true;  // and it has no points
     if (dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation) == nullptr) return false;
     const bool is_other = !lasers_.number_of(observation.sensorLabel);
     if (is_other) other_lasers_.insert(observation.sensorLabel);

@@ -9,6 +9,7 @@
 #include "frames/laser_readings.h"
 #include "frames/log_reader.h"
 #include "frames/pose_operations.h"
+#include "observations/cloud_points.h"
 #include "observations/mrpt_objects.h"
 #include "psi_slam/user_error.h"
 
@@ -19,6 +20,12 @@ TimeUs stamp_of(const mrpt::obs::CObservation& observation, const char* what, co
   if (const std::optional<TimeUs> stamp = time_us(observation)) return *stamp;
   throw UserError(place + ": the " + what +
                   " has no time stamp, expected one on every observation. Record the log with time stamps");
+}
+
+mrpt::poses::CPose3D sensor_pose_of(const mrpt::obs::CObservation& observation) {
+  mrpt::poses::CPose3D robot_T_sensor;
+  observation.getSensorPose(robot_T_sensor);
+  return robot_T_sensor;
 }
 
 }  // namespace
@@ -62,20 +69,31 @@ LaserScan RawlogLaser::scan(const mrpt::obs::CObservation2DRangeScan& observatio
   return scan;
 }
 
-std::optional<LaserScan> RawlogLasers::scan(const mrpt::obs::CObservation2DRangeScan& observation,
+bool is_scan(const mrpt::obs::CObservation& observation, bool slices) {
+  return slices ? is_cloud(observation)
+                : dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation) != nullptr;
+}
+
+std::optional<LaserScan> RawlogLasers::scan(const mrpt::obs::CObservation& observation,
                                             const std::string& place) {
-  const auto number = chosen_.number_of(observation.sensorLabel);
+  const auto number =
+      is_scan(observation, slice_.has_value()) ? chosen_.number_of(observation.sensorLabel) : std::nullopt;
   if (!number) return std::nullopt;
-  LaserScan scan = laser(*number, observation, place).reader.scan(observation, place);
+  Laser& own = laser(*number, observation, place);
+  LaserScan scan =
+      slice_
+          ? scan_of_slice(cloud_points(observation, place), sensor_pose_of(observation), *slice_, own.options)
+          : own.reader.scan(dynamic_cast<const mrpt::obs::CObservation2DRangeScan&>(observation), place);
   scan.laser = *number;
   return scan;
 }
 
-RawlogLasers::Laser& RawlogLasers::laser(std::size_t number, const mrpt::obs::CObservation2DRangeScan& first,
+RawlogLasers::Laser& RawlogLasers::laser(std::size_t number, const mrpt::obs::CObservation& first,
                                          const std::string& place) {
   if (const auto known = lasers_.find(number); known != lasers_.end()) return known->second;
   const LogOptions own = options_of_laser(options_, {first.sensorLabel});
-  const Laser added{first.sensorLabel, RawlogLaser(own), first.sensorPose, own.robot_T_laser.has_value()};
+  const Laser added{first.sensorLabel, own, RawlogLaser(own), sensor_pose_of(first),
+                    own.robot_T_laser.has_value()};
   for (const auto& [other_number, other] : lasers_)
     if (!added.is_stated && !other.is_stated && added.robot_T_sensor == other.robot_T_sensor)
       throw MissingMount(
@@ -91,7 +109,11 @@ bool has_rate(const mrpt::obs::CObservationIMU& imu) {
 
 ObservationFrames::ObservationFrames(const LogOptions& options, Odometry odometry,
                                      std::optional<std::string> gyroscope, std::size_t most_waiting)
-    : lasers_(options), odometry_(odometry), gyroscope_(std::move(gyroscope)), waiting_(most_waiting) {
+    : lasers_(options),
+      slices_clouds_(height_slice(options).has_value()),
+      odometry_(odometry),
+      gyroscope_(std::move(gyroscope)),
+      waiting_(most_waiting) {
   if (ignores_odometry(options) || odometry == Odometry::kNone) decide_for_none();
 }
 
@@ -123,16 +145,15 @@ void ObservationFrames::take(const mrpt::obs::CActionCollection& action, const s
 }
 
 void ObservationFrames::take(const mrpt::obs::CObservation& observation, const std::string& place) {
-  if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation))
-    take_scan(*scan, place);
+  if (is_scan(observation, slices_clouds_))
+    take_scan(observation, place);
   else if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation))
     take_odometry(*odometry, place);
   else if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation))
     take_imu(*imu);
 }
 
-void ObservationFrames::take_scan(const mrpt::obs::CObservation2DRangeScan& observation,
-                                  const std::string& place) {
+void ObservationFrames::take_scan(const mrpt::obs::CObservation& observation, const std::string& place) {
   auto scan = lasers_.scan(observation, place);
   if (!scan) return;
   Frame frame;

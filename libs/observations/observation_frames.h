@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "frames/gyroscope_headings.h"
+#include "frames/height_slice.h"
 #include "frames/laser_choice.h"
 #include "frames/odometry_interpolator.h"
 #include "psi_slam/frame.h"
@@ -50,17 +51,22 @@ class MissingMount : public UserError {
   using UserError::UserError;
 };
 
+/// Returns whether psi-slam maps observations of this class: 2D range scans, or with `slices` slices of
+/// clouds, see is_cloud().
+bool is_scan(const mrpt::obs::CObservation& observation, bool slices);
+
 /// Selects the lasers to read among MRPT's observations, by their sensor labels.
 class RawlogLasers {
  public:
   explicit RawlogLasers(const LogOptions& options)
-      : options_(options), chosen_(laser_choice("log.laser", options.laser)) {}
+      : options_(options), slice_(height_slice(options)), chosen_(laser_choice("log.laser", options.laser)) {}
 
-  /// Converts a scan, or returns nothing if its laser is not read. Throws UserError that starts with `place`
-  /// for the errors of RawlogLaser::scan(). Throws MissingMount if two lasers without a mount in the options
-  /// have the same pose on the robot, which means that the poses were never set.
-  std::optional<LaserScan> scan(const mrpt::obs::CObservation2DRangeScan& observation,
-                                const std::string& place);
+  /// Converts a scan or, if `log.slice_z_m` is set, slices a cloud. Returns nothing for other observations,
+  /// and if the laser is not read. Throws UserError that starts with `place` for the errors of
+  /// RawlogLaser::scan() and for a cloud whose points cannot be read. Throws MissingMount if two lasers
+  /// without a mount in the options have the same pose on the robot, which means that the poses were never
+  /// set.
+  std::optional<LaserScan> scan(const mrpt::obs::CObservation& observation, const std::string& place);
 
   /// Labels of the lasers by their numbers: those that the user lists, otherwise those that have appeared.
   std::vector<std::string> labels() const { return chosen_.names(); }
@@ -68,14 +74,16 @@ class RawlogLasers {
  private:
   struct Laser {
     std::string label;
+    LogOptions options;
     RawlogLaser reader;
     mrpt::poses::CPose3D robot_T_sensor;  // sensor pose in the laser's first scan
     bool is_stated = false;               // whether the user states the laser's mount
   };
 
-  Laser& laser(std::size_t number, const mrpt::obs::CObservation2DRangeScan& first, const std::string& place);
+  Laser& laser(std::size_t number, const mrpt::obs::CObservation& first, const std::string& place);
 
   LogOptions options_;
+  std::optional<HeightSlice> slice_;
   ChosenLasers chosen_;
   std::map<std::size_t, Laser> lasers_;
 };
@@ -122,7 +130,7 @@ class ObservationFrames {
   void end_of_log();
 
  private:
-  void take_scan(const mrpt::obs::CObservation2DRangeScan& observation, const std::string& place);
+  void take_scan(const mrpt::obs::CObservation& observation, const std::string& place);
   void take_odometry(const mrpt::obs::CObservationOdometry& observation, const std::string& place);
   void take_imu(const mrpt::obs::CObservationIMU& observation);
   bool uses_gyroscope() const { return odometry_ == Odometry::kNone && gyroscope_; }
@@ -130,6 +138,7 @@ class ObservationFrames {
   void decide_for_none();
 
   RawlogLasers lasers_;
+  bool slices_clouds_;
   Odometry odometry_;
   std::optional<std::string> odometry_label_;
   std::optional<std::string> gyroscope_;

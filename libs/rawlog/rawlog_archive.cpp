@@ -2,12 +2,16 @@
 #include "rawlog/rawlog_archive.h"
 
 #include <fcntl.h>
+#include <mrpt/io/lazy_load_path.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CRawlog.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 #include <sys/resource.h>
@@ -20,13 +24,13 @@
 #include <cstdint>
 #include <exception>
 #include <fstream>
-#include <iterator>
 #include <new>
 #include <stdexcept>
 #include <utility>
 
 #include "base/forked_child.h"
 #include "compression/compressed_file.h"
+#include "observations/cloud_points.h"
 #include "psi_slam/user_error.h"
 #include "rawlog/rawlog_stream.h"
 
@@ -105,15 +109,39 @@ std::uint64_t particles_of(const CActionCollection& actions) {
   return particles;
 }
 
-/// Returns what psi-slam uses of an object; null if nothing. Images would take long to send.
-Object used_part(const Object& object) {
-  if (const auto* observation = dynamic_cast<const CObservation*>(object.get()))
-    return is_used(*observation) ? object : nullptr;
+/// Returns a cloud as points, which need less memory than images and packets. Leaves the points out unless
+/// `slices` is true. Returns a cloud whose points cannot be read as it is, so that the parent reports it.
+CObservation::Ptr as_points(const CObservation::Ptr& cloud, bool slices) {
+  auto points = mrpt::obs::CObservationPointCloud::Create();
+  points->timestamp = cloud->timestamp;
+  points->sensorLabel = cloud->sensorLabel;
+  cloud->getSensorPose(points->sensorPose);
+  points->pointcloud = mrpt::maps::CSimplePointsMap::Create();
+  if (!slices) return points;
+  try {
+    for (const mrpt::math::TPoint3Df& point : cloud_points(*cloud, ""))
+      points->pointcloud->insertPointFast(point.x, point.y, point.z);
+  } catch (const UserError&) {
+    return cloud;
+  }
+  return points;
+}
+
+/// Returns what psi-slam uses of an observation; null if nothing. Images would take long to send.
+CObservation::Ptr used_part(const CObservation::Ptr& observation, bool slices) {
+  if (observation && is_cloud(*observation)) return as_points(observation, slices);
+  return observation && is_used(*observation) ? observation : nullptr;
+}
+
+/// Returns what psi-slam uses of an object; null if nothing.
+Object used_part(const Object& object, bool slices) {
+  if (const auto observation = std::dynamic_pointer_cast<CObservation>(object))
+    return used_part(observation, slices);
   if (auto* frame = dynamic_cast<CSensoryFrame*>(object.get())) {
-    for (auto observation = frame->begin(); observation != frame->end();)
-      observation =
-          *observation && is_used(**observation) ? std::next(observation) : frame->erase(observation);
-    return object;
+    const auto used = CSensoryFrame::Create();
+    for (const CObservation::Ptr& observation : *frame)
+      if (const CObservation::Ptr part = used_part(observation, slices)) used->insert(part);
+    return used;
   }
   return dynamic_cast<const CActionCollection*>(object.get()) != nullptr ? object : nullptr;
 }
@@ -175,15 +203,16 @@ void send_object(const Object& object, const RawlogStream& objects, const Sender
   sender.send(Kind::kObject, objects.progress(), stream.text());
 }
 
-void send_objects(const std::filesystem::path& path, const Sender& sender) {
+void send_objects(const std::filesystem::path& path, bool slices, const Sender& sender) {
   try {
+    mrpt::io::setLazyLoadPathBase(mrpt::obs::CRawlog::detectImagesDirectory(path.string()));
     RawlogStream objects(std::make_unique<CompressedFile>(path), false);
     while (true) {
       sender.send(Kind::kReads, objects.progress());
       limit_time();
       const Object object = objects.next();
       if (!object) break;
-      if (const Object used = used_part(object)) send_object(used, objects, sender);
+      if (const Object used = used_part(object, slices)) send_object(used, objects, sender);
     }
     sender.send(Kind::kEnd, objects.progress());
   } catch (const std::bad_alloc&) {
@@ -197,7 +226,7 @@ void send_objects(const std::filesystem::path& path, const Sender& sender) {
 
 /// The child process. Never returns to the code of the parent. If the parent ends, so does the child when it
 /// sends the next object.
-[[noreturn]] void read_in_child(const std::filesystem::path& path, const Pipe& pipe) {
+[[noreturn]] void read_in_child(const std::filesystem::path& path, bool slices, const Pipe& pipe) {
   constexpr int kPipe = 3;
   ::setpgid(0, 0);  // signals of the terminal are for the parent
   for (const int signal : {SIGPIPE, SIGTERM, SIGXCPU, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
@@ -210,17 +239,17 @@ void send_objects(const std::filesystem::path& path, const Sender& sender) {
   ::close(nothing);
   lower_limit(RLIMIT_CORE, 0);
   limit_memory();
-  send_objects(path, Sender(kPipe));
+  send_objects(path, slices, Sender(kPipe));
   ::_exit(0);  // calls no destructors and flushes no stream buffers of the parent
 }
 
 /// The child does more than call the system, although this process may have other threads. It needs the locks
 /// of malloc(), which the C library releases in a child, and of MRPT's classes, which are registered before.
-pid_t start_child(const std::filesystem::path& path, Pipe& pipe) {
+pid_t start_child(const std::filesystem::path& path, bool slices, Pipe& pipe) {
   register_rawlog_classes();
   const pid_t pid = ::fork();
   if (pid < 0) fail_at("cannot start a process that reads " + path.string(), errno);
-  if (pid == 0) read_in_child(path, pipe);
+  if (pid == 0) read_in_child(path, slices, pipe);
   pipe.close_writing();
   return pid;
 }
@@ -228,7 +257,8 @@ pid_t start_child(const std::filesystem::path& path, Pipe& pipe) {
 }  // namespace
 
 struct RawlogArchive::State {
-  explicit State(std::filesystem::path rawlog) : path(std::move(rawlog)), child(start_child(path, pipe)) {}
+  State(std::filesystem::path rawlog, bool slices)
+      : path(std::move(rawlog)), child(start_child(path, slices, pipe)) {}
 
   /// Receives the next object, or null at the end of the file.
   Object receive();
@@ -298,7 +328,8 @@ UserError RawlogArchive::State::end_of_child() {
   return UserError(place_of(reads) + reason + ", so it is probably damaged. Fetch the log again");
 }
 
-RawlogArchive::RawlogArchive(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {}
+RawlogArchive::RawlogArchive(const std::filesystem::path& path, bool slices)
+    : state_(std::make_unique<State>(path, slices)) {}
 RawlogArchive::~RawlogArchive() = default;
 
 Object RawlogArchive::next() {

@@ -10,7 +10,9 @@
 namespace psi_slam {
 
 /// Reads those objects of an MRPT rawlog file that psi-slam uses, in the order of the file: actions, scans,
-/// odometry, gyroscopes, and sensory frames without their other observations. The file may be gzipped.
+/// odometry, gyroscopes, and sensory frames without their other observations. The file may be compressed. Of
+/// clouds, see is_cloud(), it sends the points as a CObservationPointCloud, or without points if `slices` is
+/// false.
 ///
 /// MRPT allocates whatever size an object states, and some damaged objects crash it. Therefore a child
 /// process reads the file with MRPT and sends the objects. Beyond the memory of this process when it starts,
@@ -18,7 +20,7 @@ namespace psi_slam {
 class RawlogArchive : public ObjectSource {
  public:
   /// Starts the child process. Throws SystemFailure if that is impossible.
-  explicit RawlogArchive(const std::filesystem::path& path);
+  explicit RawlogArchive(const std::filesystem::path& path, bool slices = false);
   ~RawlogArchive() override;
 
   /// Returns the next object, or null at the end of the file. Throws UserError if the file cannot be opened,

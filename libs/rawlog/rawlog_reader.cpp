@@ -7,11 +7,11 @@
 //   interpolated at each scan's time.
 //
 // The kind of odometry that appears first is used; the other kind is ignored. A rawlog without odometry has
-// scans only, or scans with the heading by a gyroscope (CObservationIMU). By default scans come from the
-// first laser in the log, and from other lasers at different poses, see UsualLasers. Time stamps, ticks of
-// 100 ns since 1601, become Unix time rounded to the nearest microsecond.
+// scans only, or scans with the heading by a gyroscope (CObservationIMU). Scans are 2D range scans, or slices
+// of the clouds of 3D sensors if `log.slice_z_m` is set. By default they come from the first laser in the
+// log, and from other lasers at different poses, see UsualLasers. Time stamps, ticks of 100 ns since 1601,
+// become Unix time rounded to the nearest microsecond.
 #include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
@@ -24,9 +24,11 @@
 
 #include "base/text_parts.h"
 #include "frames/gyroscope_choice.h"
+#include "frames/height_slice.h"
 #include "frames/laser_readings.h"
 #include "frames/log_reader.h"
 #include "frames/look_over.h"
+#include "observations/cloud_points.h"
 #include "observations/mrpt_objects.h"
 #include "observations/observation_frames.h"
 #include "psi_slam/user_error.h"
@@ -39,7 +41,6 @@ namespace {
 
 using mrpt::obs::CActionCollection;
 using mrpt::obs::CObservation;
-using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservationIMU;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CSensoryFrame;
@@ -66,12 +67,15 @@ class UsualLasers {
  public:
   explicit UsualLasers(const LogOptions& options) : options_(options) {}
 
-  void add(const CObservation2DRangeScan& scan) {
+  void add(const CObservation& scan) {
     const std::string& label = scan.sensorLabel;
+    mrpt::poses::CPose3D robot_T_sensor;
+    scan.getSensorPose(robot_T_sensor);
     const auto known =
         std::find_if(seen_.begin(), seen_.end(), [&](const Seen& laser) { return laser.label == label; });
-    Seen& laser = known != seen_.end() ? *known : seen_.emplace_back(Seen{label, scan.sensorPose});
-    laser.is_fixed = laser.is_fixed && scan.sensorPose == laser.robot_T_sensor && is_level(scan.sensorPose);
+    Seen& laser = known != seen_.end() ? *known : seen_.emplace_back(Seen{label, robot_T_sensor});
+    laser.is_fixed = laser.is_fixed && robot_T_sensor == laser.robot_T_sensor &&
+                     (is_cloud(scan) || is_level(robot_T_sensor));
     is_settled_ = is_settled_ || ++laser.scans == kEnoughScans;
   }
 
@@ -164,6 +168,8 @@ Sensors find_sensors(ObjectSource& archive, const LogOptions& options, bool of_s
   const bool selects_lasers = choice.all || !choice.names.empty() || options.robot_T_laser;
   UsualLasers usual(options);
   auto odometry = ignores_odometry(options) ? Odometry::kNone : Odometry::kUndecided;
+  const bool slices = height_slice(options).has_value();
+  bool has_clouds = false;
   std::set<std::string> labels;
   std::set<std::string> gyroscopes;
   const auto is_missing = [&](const auto& name) { return labels.count(name.first) == 0; };
@@ -192,17 +198,23 @@ Sensors find_sensors(ObjectSource& archive, const LogOptions& options, bool of_s
         odometry = Odometry::kObservations;
       const auto* imu = dynamic_cast<const CObservationIMU*>(&observation);
       if (imu != nullptr && has_rate(*imu)) gyroscopes.insert(imu->sensorLabel);
-      const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation);
-      if (scan == nullptr) return;
-      labels.insert(scan->sensorLabel);
-      chosen.number_of(scan->sensorLabel);
-      usual.add(*scan);
+      has_clouds = has_clouds || is_cloud(observation);
+      if (!is_scan(observation, slices)) return;
+      labels.insert(observation.sensorLabel);
+      chosen.number_of(observation.sensorLabel);
+      usual.add(observation);
     });
   }
   if (labels.empty()) {
-    throw UserError(
-        path.string() +
-        " has no laser scans, expected observations of class CObservation2DRangeScan. Choose another log");
+    const std::string expected = slices ? " has no point clouds, expected observations of a 3D sensor"
+                                        : " has no laser scans, expected observations of class "
+                                          "CObservation2DRangeScan";
+    const bool are_sliceable = !slices && has_clouds;
+    throw UserError(path.string() + expected +
+                    (slices          ? ". Map laser scans with an empty log.slice_z_m"
+                     : are_sliceable ? ". Map a slice of its point clouds with log.slice_z_m, such as "
+                                       "\"0.1 1.0\" (heights above the floor in metres)"
+                                     : ". Choose another log"));
   }
   const bool selected_is_found = std::any_of(choice.names.begin(), choice.names.end(),
                                              [&](const auto& name) { return labels.count(name) != 0; });
@@ -225,7 +237,7 @@ Sensors find_sensors(ObjectSource& archive, const LogOptions& options, bool of_s
 }
 
 Sensors find_sensors(const std::filesystem::path& path, const LogOptions& options) {
-  RawlogArchive archive(path);
+  RawlogArchive archive(path, height_slice(options).has_value());
   return find_sensors(archive, options);
 }
 
@@ -259,11 +271,10 @@ class KeptObjects : public ObjectSource {
 };
 
 /// Returns the scans of an object that have a time stamp.
-std::vector<const CObservation2DRangeScan*> scans_of(mrpt::serialization::CSerializable& object) {
-  std::vector<const CObservation2DRangeScan*> scans;
+std::vector<const CObservation*> scans_of(mrpt::serialization::CSerializable& object, bool slices) {
+  std::vector<const CObservation*> scans;
   for_each_observation(object, [&](const CObservation& observation) {
-    const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation);
-    if (scan != nullptr && time_us(*scan)) scans.push_back(scan);
+    if (is_scan(observation, slices) && time_us(observation)) scans.push_back(&observation);
   });
   return scans;
 }
@@ -276,20 +287,21 @@ std::vector<mrpt::serialization::CSerializable::Ptr> look_over(ObjectSource& str
   std::set<std::string> awaited;
   for (const auto& [label, option] : named_labels(options)) awaited.insert(label);
   LookOver scans(look_over_s);
+  const bool slices = height_slice(options).has_value();
   while (!scans.is_enough(!awaited.empty())) {
     head.push_back(stream.next());
     if (!head.back()) {
       head.pop_back();
       break;
     }
-    const auto scans_of_object = scans_of(*head.back());
-    for (const CObservation2DRangeScan* scan : scans_of_object) {
+    const auto scans_of_object = scans_of(*head.back(), slices);
+    for (const CObservation* scan : scans_of_object) {
       scans.add_scan(*time_us(*scan));
       awaited.erase(scan->sensorLabel);
     }
     if (scans_of_object.empty() && head.size() > kMostObjectsOfHead)
       head.erase(std::find_if(head.begin(), head.end(),
-                              [](const auto& object) { return scans_of(*object).empty(); }));
+                              [&](const auto& object) { return scans_of(*object, slices).empty(); }));
   }
   return {head.begin(), head.end()};
 }
@@ -297,7 +309,8 @@ std::vector<mrpt::serialization::CSerializable::Ptr> look_over(ObjectSource& str
 class RawlogReader : public LogReader {
  public:
   RawlogReader(const std::filesystem::path& path, const LogOptions& options)
-      : RawlogReader(std::make_unique<RawlogArchive>(path), find_sensors(path, options)) {}
+      : RawlogReader(std::make_unique<RawlogArchive>(path, height_slice(options).has_value()),
+                     find_sensors(path, options)) {}
 
   /// Reads objects from their beginning. With `of_stream`, skips scans whose mount the user has to state.
   RawlogReader(std::unique_ptr<ObjectSource> objects, Sensors found, bool of_stream = false)
@@ -305,7 +318,8 @@ class RawlogReader : public LogReader {
         found_(std::move(found)),
         frames_(found_.options, found_.odometry, found_.gyroscope.name,
                 of_stream ? kMostWaitingOfStream : OdometryInterpolator::kMaxWaiting),
-        is_stream_(of_stream) {
+        is_stream_(of_stream),
+        slices_clouds_(height_slice(found_.options).has_value()) {
     contents_.laser = name_list(found_.lasers);
     contents_.several_lasers = found_.lasers.size() > 1;
     name_lasers(found_.lasers);
@@ -353,8 +367,8 @@ class RawlogReader : public LogReader {
   void take(const CObservation& observation) {
     const std::size_t scans = frames_.scans();
     frames_.take(observation, archive_->place());
-    const bool is_scan = dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;
-    if (is_scan && frames_.scans() == scans) ++contents_.other_lasers[observation.sensorLabel];
+    const bool is_unused = is_scan(observation, slices_clouds_) && frames_.scans() == scans;
+    if (is_unused) ++contents_.other_lasers[observation.sensorLabel];
     if (const auto labels = frames_.labels(); labels.size() > contents_.laser_names.size())
       name_lasers(labels);
   }
@@ -368,6 +382,7 @@ class RawlogReader : public LogReader {
   Sensors found_;
   ObservationFrames frames_;
   bool is_stream_;
+  bool slices_clouds_;
   SkippedLines invalid_;  // observations besides odometry with an invalid pose
   bool at_end_ = false;
 };

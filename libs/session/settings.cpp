@@ -84,10 +84,9 @@ void describe_log(OptionTable& table, Settings& settings) {
       .text("imu", log.imu,
             "Gyroscope that predicts the heading where there is no odometry. auto: the only one of the log. "
             "none: no gyroscope. Otherwise a topic (ROS) or a sensor label (rawlog).")
-      .text(
-          "slice_z_m", log.slice_z_m,
-          "ROS bags: maps point clouds (PointCloud2) instead of laser scans: the points between two heights "
-          "above the floor, LOW HIGH in m. Empty: no point clouds.")
+      .text("slice_z_m", log.slice_z_m,
+            "Maps point clouds (PointCloud2 of ROS bags, 3D observations of rawlogs) instead of laser scans: "
+            "the points between two heights above the floor, LOW HIGH in m. Empty: no point clouds.")
       .text("odom_frame", log.odom_frame,
             "ROS bags: frame that odometry is relative to. Empty: the nearest frame above the laser with "
             "odom in its name.")

@@ -171,7 +171,7 @@ TEST_F(BagCloudTest, reports_a_slice_without_clouds) {
   write_carmen(path_, recorded_run());
   EXPECT_EQ(sentence_of([&] { frames_of(path_, with_slice()); }),
             "log.slice_z_m is \"0.1 1.0\", expected an empty text for " + path_.string() +
-                ", because only ROS bags hold point clouds");
+                ", because CARMEN logs hold no point clouds");
 }
 
 TEST_F(BagCloudTest, an_empty_cloud_is_a_scan_without_a_reading) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "base/byte_cursor.h"
@@ -15,6 +16,7 @@
 #include "frames/laser_choice.h"
 #include "frames/log_reader.h"
 #include "psi_slam/user_error.h"
+#include "rosbag/bag_robots.h"
 #include "rosbag/ros_messages.h"
 
 namespace psi_slam {
@@ -37,10 +39,6 @@ std::string as_in_bag(const std::string& name, const Names& all) {
   return has_slash && contains(all, name.substr(1)) ? name.substr(1) : name;
 }
 
-bool is_named_like_odometry(std::string frame) {
-  return has_word(std::move(frame), "odom");
-}
-
 class Planner {
  public:
   Planner(std::unique_ptr<BagFile> bag, const std::filesystem::path& path, const LogOptions& options)
@@ -48,25 +46,29 @@ class Planner {
         options_(options),
         slices_clouds_(height_slice(options).has_value()),
         bag_(std::move(bag)),
-        topics_(bag_->topics()) {}
+        topics_(bag_->topics()),
+        robots_(topics_) {}
 
   BagPlan plan() {
     choose_scan_topics();
     for (const BagTopic& topic : topics_)
       if (is_transforms(topic) && !contains(plan_.transform_topics, topic.name))
         plan_.transform_topics.push_back(topic.name);
-    choose_odometry_topic();
+    plan_.transform_topics = robots_.of_robot(plan_.transform_topics, plan_.scan_topics.front());
+    find_odometry_topics();
     find_imu_topics();
     plan_.odom_frame = options_.odom_frame;
     plan_.base_frame = options_.base_frame;
     read_until_complete();
     require_scans();
+    choose_odometry_topic();
     if (expects_odometry_ && !plan_.has_odometry) find_odometry_elsewhere();
     require_odometry();
-    if (!plan_.odometry_topic.empty() && !choice_of_odometry_.empty())
-      plan_.assumptions.push_back(choice_of_odometry_);
     settle_base_frame();
-    if (chooses_lasers_) keep_usable_lasers();
+    if (chooses_lasers_) {
+      list_robots();
+      keep_usable_lasers();
+    }
     settle_mounts();
     settle_heights();
     settle_gyroscope();
@@ -100,7 +102,7 @@ class Planner {
     if (plan_.scan_topics.empty() && options_.robot_T_laser)
       plan_.scan_topics = {choose("log.scan_topic", "", all, type)};
     if (plan_.scan_topics.empty()) {
-      plan_.scan_topics = all;
+      plan_.scan_topics = robots_.of_robot(all, all.front());
       chooses_lasers_ = all.size() > 1;
     }
     for (const auto& [option_of_laser, name] : lasers_with_stated_values(options_))
@@ -125,25 +127,53 @@ class Planner {
 
   void find_imu_topics() {
     imu_topics_ = ignores_gyroscope(options_) ? Names() : topics_of_type(topics_, kRosImu);
+    if (!names_gyroscope(options_)) imu_topics_ = robots_.of_robot(imu_topics_, plan_.scan_topics.front());
     if (!names_gyroscope(options_)) return;
     options_.imu = choose("log.imu", options_.imu, imu_topics_, kRosImu);
     imu_topics_ = {options_.imu};
   }
 
-  void choose_odometry_topic() {
+  /// Finds the topics of odometry from which choose_odometry_topic() chooses: one if the user names it.
+  void find_odometry_topics() {
     const Names all = topics_of_type(topics_, kRosOdometry);
     const std::string wanted = chooses_odometry(options_) ? "" : options_.odometry;
     expects_odometry_ =
         !ignores_odometry(options_) && !(wanted.empty() && all.empty() && plan_.transform_topics.empty());
     const bool by_transform = contains(plan_.transform_topics, as_in_bag(wanted, plan_.transform_topics));
-    if (!expects_odometry_ || by_transform || (wanted.empty() && all.empty())) return;
-    if (!wanted.empty() || all.size() == 1) {
-      plan_.odometry_topic = choose("log.odometry", wanted, all, kRosOdometry);
-      return;
-    }
-    plan_.odometry_topic = contains(all, "/odom") ? "/odom" : all.front();
-    choice_of_odometry_ = "odometry comes from " + plan_.odometry_topic + ", one of the topics " +
-                          name_list(all) + ". Name another one with log.odometry";
+    if (!expects_odometry_ || by_transform) return;
+    odometry_topics_ = wanted.empty() ? robots_.of_robot(all, plan_.scan_topics.front())
+                                      : Names{choose("log.odometry", wanted, all, kRosOdometry)};
+    if (odometry_topics_.empty() && !all.empty())
+      plan_.assumptions.push_back("the odometry of " + name_list(all) +
+                                  " is not used, because it is that of another robot than the scans of " +
+                                  plan_.scan_topics.front() + ". Name a topic with log.odometry");
+  }
+
+  /// Chooses the odometry of the first laser's robot: by namespace if the bag recorded several robots, by the
+  /// transforms, then /odom, then the first topic. Topics with messages take precedence.
+  void choose_odometry_topic() {
+    if (odometry_topics_.empty()) return;
+    const std::string scan_topic = plan_.scan_topics.front();
+    const auto rank = [&](const std::string& topic) {
+      const auto pose = odometry_.find(topic);
+      const bool is_connected =
+          pose != odometry_.end() &&
+          are_on_one_robot(plan_.transforms, pose->second.child_frame, first_scan_frame());
+      const bool is_of_robot = robots_.robot_of(topic) == robots_.robot_of(scan_topic);
+      return std::make_tuple(pose == odometry_.end(), !(robots_.are_several() && is_of_robot), !is_connected,
+                             topic != "/odom");
+    };
+    plan_.odometry_topic =
+        *std::min_element(odometry_topics_.begin(), odometry_topics_.end(),
+                          [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+    const auto pose = odometry_.find(plan_.odometry_topic);
+    if (pose == odometry_.end()) return;
+    plan_.has_odometry = true;
+    if (plan_.odom_frame.empty()) plan_.odom_frame = pose->second.header.frame;
+    if (plan_.base_frame.empty()) plan_.base_frame = pose->second.child_frame;
+    if (odometry_topics_.size() > 1 && !robots_.are_several())
+      plan_.assumptions.push_back("odometry comes from " + plan_.odometry_topic + ", one of the topics " +
+                                  name_list(odometry_topics_) + ". Name another one with log.odometry");
   }
 
   std::string choose(const char* option, const std::string& wanted, const Names& all,
@@ -160,6 +190,7 @@ class Planner {
   void read_until_complete() {
     Names wanted = plan_.topics();
     wanted.insert(wanted.end(), imu_topics_.begin(), imu_topics_.end());
+    wanted.insert(wanted.end(), odometry_topics_.begin(), odometry_topics_.end());
     bag_->want(wanted);
     for (BagMessage message; !is_complete();) {
       try {
@@ -187,17 +218,14 @@ class Planner {
     } else {
       scan_frames_.emplace(message.topic->name, read_ros_laser_scan(message).header.frame);
     }
-    if (expects_odometry_ && plan_.odometry_topic.empty() && !plan_.has_odometry) find_odometry_transform();
+    if (expects_odometry_ && odometry_topics_.empty() && !plan_.has_odometry) find_odometry_transform();
   }
 
   void take_odometry(const BagMessage& message) {
     const std::optional<RosTransform> odometry = read_ros_odometry(message);
     if (!odometry && invalid_pose_.empty())
       invalid_pose_ = bag_->place() + ": " + invalid_pose_text(message.topic->name);
-    if (!odometry) return;
-    plan_.has_odometry = true;
-    if (plan_.odom_frame.empty()) plan_.odom_frame = odometry->header.frame;
-    if (plan_.base_frame.empty()) plan_.base_frame = odometry->child_frame;
+    if (odometry) odometry_.emplace(message.topic->name, *odometry);
   }
 
   void take_imu(const BagMessage& message) {
@@ -228,8 +256,13 @@ class Planner {
     }
   }
 
+  /// Returns whether transforms lead from the robot's frame to `frame`. While the bag is read, the frame of
+  /// any topic of odometry may become the robot's.
   bool knows_mount(const std::string& frame) const {
-    return plan_.transforms.base_T_frame(plan_.base_frame, frame).has_value();
+    if (!plan_.base_frame.empty()) return plan_.transforms.base_T_frame(plan_.base_frame, frame).has_value();
+    return std::any_of(odometry_.begin(), odometry_.end(), [&](const auto& odometry) {
+      return plan_.transforms.base_T_frame(odometry.second.child_frame, frame).has_value();
+    });
   }
 
   bool states_mount(const std::string& topic) const {
@@ -240,11 +273,12 @@ class Planner {
   /// stated mount, because they show whether the laser is upside down.
   bool is_complete() const {
     const bool has_transforms = !plan_.transform_topics.empty();
-    const bool has_motion =
-        plan_.has_odometry || (!expects_odometry_ && seen_imus_.size() == imu_topics_.size());
+    const bool has_odometry =
+        plan_.has_odometry || (!odometry_.empty() && odometry_.size() == odometry_topics_.size());
+    const bool has_motion = has_odometry || (!expects_odometry_ && seen_imus_.size() == imu_topics_.size());
     const auto has_mount = [&](const auto& sensor) { return !has_transforms || knows_mount(sensor.second); };
     return has_motion && has_scans() && std::all_of(scan_frames_.begin(), scan_frames_.end(), has_mount) &&
-           (plan_.has_odometry || std::all_of(gyroscope_frames_.begin(), gyroscope_frames_.end(), has_mount));
+           (has_odometry || std::all_of(gyroscope_frames_.begin(), gyroscope_frames_.end(), has_mount));
   }
 
   /// Returns whether a scan of each topic has been read.
@@ -301,36 +335,87 @@ class Planner {
     return common == way.end() ? way.front() : *common;
   }
 
+  /// First topic of scans with a message.
+  std::string first_scan_topic() const {
+    const auto known = std::find_if(plan_.scan_topics.begin(), plan_.scan_topics.end(),
+                                    [&](const auto& topic) { return scan_frames_.count(topic) > 0; });
+    return known == plan_.scan_topics.end() ? "" : *known;
+  }
+
   std::string first_scan_frame() const {
-    for (const std::string& topic : plan_.scan_topics)
-      if (const auto known = scan_frames_.find(topic); known != scan_frames_.end()) return known->second;
+    const auto known = scan_frames_.find(first_scan_topic());
+    return known == scan_frames_.end() ? "" : known->second;
+  }
+
+  /// Name of the robot with a laser: the namespace of its topic if those tell robots apart, otherwise the
+  /// frame that odometry moves. Empty if neither is known.
+  std::string robot_with(const std::string& topic) const {
+    if (robots_.are_several()) return '/' + robots_.robot_of(topic);
+    const auto scan = scan_frames_.find(topic);
+    if (scan == scan_frames_.end()) return {};
+    const Names way = plan_.transforms.way_up(scan->second);
+    for (std::size_t i = 1; i < way.size(); ++i)
+      if (is_named_like_odometry(way[i])) return way[i - 1];
+    for (const auto& [name, odometry] : odometry_)
+      if (contains(way, odometry.child_frame)) return odometry.child_frame;
     return {};
   }
 
-  /// Keeps the lasers with a known mount, or the first laser if no mount is known. Keeps one of several
-  /// topics with scans of the same laser.
+  /// Lists the robots if the bag recorded several.
+  void list_robots() {
+    std::map<std::string, Names> robots;
+    for (const BagTopic& topic : topics_)
+      if (is_scan(topic))
+        if (const std::string robot = robot_with(topic.name); !robot.empty())
+          robots[robot].push_back(topic.name);
+    if (robots.size() < 2) return;
+    std::string list;
+    for (const auto& [robot, topics] : robots)
+      list += (list.empty() ? "" : ", ") + robot + " (" + name_list(topics) + ")";
+    plan_.assumptions.push_back("the bag recorded " + std::to_string(robots.size()) + " robots: " + list +
+                                ". " + robot_with(first_scan_topic()) +
+                                " is mapped; select the scans of another one with log.scan_topic");
+  }
+
+  /// Keeps the lasers of the first laser's robot with a known mount, or the first laser if no mount is known.
+  /// Of several topics with scans of one laser, keeps the first by rank and names all in the plan.
   void keep_usable_lasers() {
+    Names ranked = plan_.scan_topics;
+    std::stable_sort(ranked.begin(), ranked.end(), [](const std::string& a, const std::string& b) {
+      return std::make_pair(a.size(), a) < std::make_pair(b.size(), b);
+    });
     Names kept;
     Names left_out;
-    std::set<std::string> frames;
+    std::map<std::string, Names> topics_of_frame;
+    for (const std::string& topic : ranked)
+      if (const auto scan = scan_frames_.find(topic); scan != scan_frames_.end())
+        topics_of_frame[scan->second].push_back(topic);
     for (const bool known : {true, false}) {
       if (!kept.empty()) break;
       for (const std::string& topic : plan_.scan_topics) {
         const auto scan = scan_frames_.find(topic);
-        const bool is_usable = scan != scan_frames_.end() &&
-                               (!known || states_mount(topic) || knows_mount(scan->second)) &&
-                               (known || kept.empty());
-        if (is_usable && frames.insert(scan->second).second) kept.push_back(topic);
+        if (scan == scan_frames_.end() || (!known && !kept.empty())) continue;
+        const std::string& frame = scan->second;
+        if (known && !states_mount(topic) &&
+            !(knows_mount(frame) && are_on_one_robot(plan_.transforms, plan_.base_frame, frame)))
+          continue;
+        const Names& topics = topics_of_frame.at(frame);
+        if (contains(kept, topics.front())) continue;
+        kept.push_back(topics.front());
+        if (topics.size() > 1) plan_.rival_topics.push_back(topics);
       }
     }
-    for (const std::string& topic : plan_.scan_topics)
-      if (!contains(kept, topic) && scan_frames_.count(topic) > 0) left_out.push_back(topic);
+    for (const std::string& topic : plan_.scan_topics) {
+      const bool is_rival = std::any_of(plan_.rival_topics.begin(), plan_.rival_topics.end(),
+                                        [&](const Names& rivals) { return contains(rivals, topic); });
+      if (!contains(kept, topic) && !is_rival && scan_frames_.count(topic) > 0) left_out.push_back(topic);
+    }
     plan_.scan_topics = kept;
     if (!left_out.empty())
-      plan_.assumptions.push_back(
-          "the scans of " + name_list(left_out) + " are not used, because " +
-          (left_out.size() == 1 ? "their laser is" : "their lasers are") +
-          " the laser of a topic that is used or the mount is unknown. Select topics with log.scan_topic");
+      plan_.assumptions.push_back("the scans of " + name_list(left_out) +
+                                  " are not used, because the mount of their " +
+                                  (left_out.size() == 1 ? "laser" : "lasers") +
+                                  " on the robot is unknown. Select topics with log.scan_topic");
   }
 
   void require_scans() const {
@@ -395,6 +480,12 @@ class Planner {
     }
   }
 
+  /// Returns whether the topic has scans, or clouds if these are sliced.
+  bool is_scan(const BagTopic& topic) const {
+    return slices_clouds_ ? topic.type == kRosPointCloud
+                          : topic.type == kRosLaserScan || topic.type == kRosMultiEchoScan;
+  }
+
   bool is_cloud(const std::string& topic) const {
     return std::any_of(topics_.begin(), topics_.end(),
                        [&](const BagTopic& one) { return one.name == topic && one.type == kRosPointCloud; });
@@ -424,12 +515,14 @@ class Planner {
   bool slices_clouds_;  // whether scans are slices of point clouds
   std::unique_ptr<BagFile> bag_;
   std::vector<BagTopic> topics_;
+  BagRobots robots_;
   BagPlan plan_;
   std::map<std::string, std::string> scan_frames_;  // key: topic of the scans; value: frame of the laser
+  Names odometry_topics_;                           // topics of odometry to choose from
+  std::map<std::string, RosTransform> odometry_;    // key: topic; value: its first valid odometry
   std::string damage_;                              // message about the first damaged message
   std::string invalid_pose_;                        // message about the first odometry with an invalid pose
   bool expects_odometry_ = true;                    // whether the user wants odometry and the bag may hold it
-  std::string choice_of_odometry_;   // assumption about the topic of odometry; empty if there is one topic
   bool chooses_lasers_ = false;      // whether the user selects none of several topics of scans
   Names imu_topics_;                 // topics of gyroscopes to choose from
   std::set<std::string> seen_imus_;  // topics of gyroscopes with a message

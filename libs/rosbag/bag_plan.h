@@ -16,9 +16,11 @@ namespace psi_slam {
 /// The topics and frames to read from a ROS bag.
 struct BagPlan {
   std::vector<std::string> scan_topics;  ///< index: LaserScan::laser
-  bool has_odometry = false;             ///< false: scans have no odometry
-  std::string odometry_topic;            ///< empty: odometry is the transform from odom_frame to base_frame
-  std::string imu_topic;                 ///< topic of the gyroscope; empty: none is used
+  /// Topics of one laser each, of which scan_topics has the first: see agreeing_topics().
+  std::vector<std::vector<std::string>> rival_topics;
+  bool has_odometry = false;   ///< false: scans have no odometry
+  std::string odometry_topic;  ///< empty: odometry is the transform from odom_frame to base_frame
+  std::string imu_topic;       ///< topic of the gyroscope; empty: none is used
   std::vector<std::string> transform_topics;
   std::string odom_frame;
   std::string base_frame;                ///< the robot's frame, which odometry moves

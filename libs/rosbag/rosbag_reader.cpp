@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -27,6 +28,7 @@
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_plan.h"
 #include "rosbag/begun_bag.h"
+#include "rosbag/odometry_agreement.h"
 #include "rosbag/rosbag_stream.h"
 
 namespace psi_slam {
@@ -265,11 +267,37 @@ class RosbagReader : public LogReader {
   bool at_end_ = false;
 };
 
+/// Selects the topic whose scans agree best with odometry from each list of BagPlan::rival_topics, or the
+/// first one if none can be compared. `open` opens the bag.
+BagPlan with_agreeing_topics(BagPlan plan, const LogOptions& options,
+                             const std::function<std::unique_ptr<BagFile>()>& open) {
+  for (const std::vector<std::string>& rivals : plan.rival_topics) {
+    std::vector<double> differences_m;
+    for (const std::string& topic : rivals) {
+      BagPlan one = plan;
+      one.scan_topics = {topic};
+      RosbagReader reader(std::move(one), open(), options, false);
+      differences_m.push_back(disagreement_with_odometry_m(reader));
+    }
+    const auto best = std::min_element(differences_m.begin(), differences_m.end());
+    const std::string& chosen = rivals.at(static_cast<std::size_t>(best - differences_m.begin()));
+    std::replace(plan.scan_topics.begin(), plan.scan_topics.end(), rivals.front(), chosen);
+    std::vector<std::string> others = rivals;
+    others.erase(std::find(others.begin(), others.end(), chosen));
+    plan.assumptions.push_back("the scans of " + name_list(others) + " are not used, because " + chosen +
+                               " has scans of the same laser" +
+                               (std::isfinite(*best) ? ", which agree better with odometry" : "") +
+                               ". Select topics with log.scan_topic");
+  }
+  return plan;
+}
+
 }  // namespace
 
 std::unique_ptr<LogReader> open_bag_log(const std::filesystem::path& path, const LogOptions& options) {
-  return std::make_unique<RosbagReader>(plan_bag(open_bag(path), path, options), open_bag(path), options,
-                                        false);
+  BagPlan plan =
+      with_agreeing_topics(plan_bag(open_bag(path), path, options), options, [&] { return open_bag(path); });
+  return std::make_unique<RosbagReader>(std::move(plan), open_bag(path), options, false);
 }
 
 std::unique_ptr<BagFile> follow_record_bag(std::unique_ptr<ByteSource> recording) {
@@ -286,7 +314,8 @@ std::unique_ptr<LogReader> open_followed_bag(std::unique_ptr<BagRecording> recor
                                              const LogOptions& options, double look_over_s) {
   const auto beginning =
       std::make_shared<const BeginningOfBag>(read_beginning(*recording->bag, options, look_over_s));
-  BagPlan plan = plan_bag(begun_bag(beginning), recording->path, options);
+  BagPlan plan = with_agreeing_topics(plan_bag(begun_bag(beginning), recording->path, options), options,
+                                      [&] { return begun_bag(beginning); });
   return std::make_unique<RosbagReader>(std::move(plan), begun_bag(beginning, std::move(recording->bag)),
                                         options, true);
 }

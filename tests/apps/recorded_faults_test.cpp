@@ -44,9 +44,10 @@ TEST_P(RecordedFault, does_not_spoil_the_map) {
 
 INSTANTIATE_TEST_SUITE_P(
     Kinds, RecordedFault,
-    testing::Values(FaultyLog{"one_bad_scan.db3.zstd", "small.tum", 0.02, "1 message of the log is unusable"},
-                    FaultyLog{"first_scan_bad.db3.zstd", "small.tum", 0.02,
-                              "1 message of the log is unusable"}),
+    testing::Values(
+        FaultyLog{"one_bad_scan.db3.zstd", "small.tum", 0.02, "1 message of the log is unusable"},
+        FaultyLog{"two_robots.db3.zstd", "robot2.tum", 0.016, "", {"--set", "log.scan_topic=/robot2/scan"}},
+        FaultyLog{"first_scan_bad.db3.zstd", "small.tum", 0.02, "1 message of the log is unusable"}),
     [](const auto& tested) { return tested.param.file.substr(0, tested.param.file.find('.')); });
 
 TEST(RecordedFaults, a_log_packed_by_bzip2_gives_the_map_of_the_log_packed_by_gzip) {

@@ -288,7 +288,8 @@ TEST_F(RosbagReaderTest, combines_all_lasers_with_known_mounts) {
     EXPECT_NEAR(frame.companions[0].scan.robot_T_laser.x, -0.3, 1e-9);
   }
   EXPECT_THAT(log->assumptions(),
-              testing::ElementsAre(HasSubstr("the scans of /scan_filtered, /arm_scan are not used")));
+              testing::ElementsAre(HasSubstr("the scans of /arm_scan are not used, because the mount"),
+                                   HasSubstr("the scans of /scan_filtered are not used, because /scan has")));
 }
 
 TEST_F(RosbagReaderTest, one_of_several_lasers_suffices_if_no_mount_is_known) {

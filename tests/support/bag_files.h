@@ -40,7 +40,7 @@ struct RecordedScan {
   bool multi_echo = false;  // a MultiEchoLaserScan: each beam has a second echo 1 m beyond its range
 };
 
-/// An odometry message, or a transform if the topic begins with "/tf".
+/// An odometry message, or a transform if the topic contains "/tf".
 struct RecordedPose {
   std::string topic = "/odom";
   TimeUs time_us = 0;
@@ -48,7 +48,7 @@ struct RecordedPose {
   std::string child_frame = "base_link";
   mrpt::math::TPose3D pose;
 
-  bool is_transform() const { return topic.compare(0, 3, "/tf") == 0; }
+  bool is_transform() const { return topic.find("/tf") != std::string::npos; }
 };
 
 struct RecordedImu {

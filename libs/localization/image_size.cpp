@@ -131,6 +131,17 @@ std::optional<ImageSize> image_size(std::string_view bytes) {
   return std::nullopt;
 }
 
+std::optional<double> white_sample(std::string_view bytes) {
+  constexpr std::uint64_t kMostOfByte = 255;
+  const char kind = bytes.size() > 2 && bytes[0] == 'P' ? bytes[1] : '0';
+  if (kind != '2' && kind != '3' && kind != '5' && kind != '6') return std::nullopt;
+  ByteCursor cursor(bytes.substr(2));
+  for (int i = 0; i < 2; ++i) pnm_number(cursor);  // width and height
+  const std::uint64_t white = pnm_number(cursor);
+  const bool is_scaled = kind < '4' && white <= kMostOfByte;
+  return is_scaled ? std::nullopt : std::optional(static_cast<double>(white));
+}
+
 bool holds_all_pixels(std::string_view bytes) {
   try {
     if (bytes.substr(0, 1) == "P") return pnm_holds_all(bytes);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localization/reference_map.h"
 
-#include <mrpt/containers/yaml.h>
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
@@ -19,9 +18,9 @@
 #include "base/file_bytes.h"
 #include "base/file_checksum.h"
 #include "base/number_text.h"
-#include "base/yaml_directives.h"
 #include "compression/compressed_file.h"
 #include "localization/image_size.h"
+#include "localization/map_server_file.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -55,12 +54,6 @@ bool ends_with(const std::string& text, const std::string& end) {
 
 bool is_yaml_file(const std::filesystem::path& path) {
   return path.extension() == ".yaml" || path.extension() == ".yml";
-}
-
-/// Returns the path of the image that `map.yaml` names.
-std::filesystem::path image_of(const std::filesystem::path& path, const mrpt::containers::yaml& yaml) {
-  // An absolute image replaces the parent.
-  return path.parent_path() / yaml["image"].as<std::string>();
 }
 
 constexpr double kLeastResolution_m = 0.001;
@@ -122,52 +115,34 @@ ImageSize check_image(const std::filesystem::path& path, const std::filesystem::
   return *size;
 }
 
-/// Returns the number at a place of a YAML file. Throws std::exception if there is none. MRPT's own
-/// conversion of other texts to double has undefined behaviour.
-template <class Yaml>
-double number_in(const Yaml& place) {
-  const std::optional<double> number = parse_number(place.template as<std::string>());
-  if (!number) throw MalformedBytes("expected a number");
-  return *number;
-}
-
 PlacedMapFile read_yaml(const std::filesystem::path& path) {
   CompressedFile readable(path, kExpected);  // throws UserError for an unreadable file
-  PlacedMapFile map;
-  Grid& grid = map.grid;
-  try {
-    if (has_yaml_directive(path)) throw MalformedBytes("a directive");
-    const auto yaml = mrpt::containers::yaml::FromFile(path.string());
-    const double resolution_m = number_in(yaml["resolution"]);
-    check_resolution(path, resolution_m);
-    if (number_in(yaml["origin"](2)) != 0)
-      throw UserError(path.string() +
-                      ": the origin is rotated, expected yaw 0. Rotate the image instead, and set the third "
-                      "value of origin to 0");
-    const ImageSize size = check_image(path, image_of(path, yaml));
-    const mrpt::math::TPoint2D origin(number_in(yaml["origin"](0)), number_in(yaml["origin"](1)));
-    // MRPT fails if both ends of the map are the same number of 32 bits.
-    check_map_place(path, origin,
-                    {origin.x + resolution_m * static_cast<double>(size.width),
-                     origin.y + resolution_m * static_cast<double>(size.height)});
-    if (!grid.loadFromROSMapServerYAML(path.string()))
-      throw UserError(path.string() +
-                      ": the image that it names is unreadable, expected an image file such as map.pgm. "
-                      "Export the map again with psi-slam");
-    const auto offset = [&](double stated_m, float read_m) {
-      const double off_m = stated_m - static_cast<double>(read_m);
-      return std::abs(off_m) > kLeastOffset * resolution_m ? off_m : 0;
-    };
-    map.offset = {offset(number_in(yaml["origin"](0)), grid.getXMin()),
-                  offset(number_in(yaml["origin"](1)), grid.getYMin())};
-  } catch (const UserError&) {
-    throw;
-  } catch (const std::exception&) {
-    throw UserError(
-        path.string() +
-        " is not a map of map_server: expected image, resolution, origin, negate, occupied_thresh "
-        "and free_thresh. Add the missing keys, or export the map again with psi-slam");
-  }
+  const MapServerFile file = read_map_server_file(path);
+  check_resolution(path, file.resolution_m);
+  const ImageSize size = check_image(path, file.image);
+  const mrpt::math::TPose2D& origin = file.map_T_image;
+  const double reach_m = file.resolution_m * static_cast<double>(size.width + size.height);
+  const bool is_turned = origin.phi != 0;
+  // MRPT fails if both ends of the map are the same number of 32 bits.
+  check_map_place(
+      path,
+      is_turned ? mrpt::math::TPoint2D(origin.x - reach_m, origin.y - reach_m)
+                : mrpt::math::TPoint2D(origin.x, origin.y),
+      is_turned ? mrpt::math::TPoint2D(origin.x + reach_m, origin.y + reach_m)
+                : mrpt::math::TPoint2D(origin.x + file.resolution_m * static_cast<double>(size.width),
+                                       origin.y + file.resolution_m * static_cast<double>(size.height)));
+  std::optional<Grid> grid = grid_of_image(file);
+  if (!grid)
+    throw UserError(path.string() +
+                    ": the image that it names is unreadable, expected an image file such as map.pgm. "
+                    "Export the map again with psi-slam");
+  PlacedMapFile map{*std::move(grid)};
+  if (is_turned) return map;  // its cells are where the origin says
+  const auto offset = [&](double stated_m, float read_m) {
+    const double off_m = stated_m - static_cast<double>(read_m);
+    return std::abs(off_m) > kLeastOffset * file.resolution_m ? off_m : 0;
+  };
+  map.offset = {offset(origin.x, map.grid.getXMin()), offset(origin.y, map.grid.getYMin())};
   return map;
 }
 
@@ -283,8 +258,8 @@ PlacedMapFile read_placed_map_file(const std::filesystem::path& path) {
 
 std::string sha256_of_map_file(const std::filesystem::path& path) {
   if (!is_yaml_file(path)) return sha256_of_file(path);
-  const auto yaml = mrpt::containers::yaml::FromFile(path.string());
-  return sha256_of_text(sha256_of_file(path) + '\n' + sha256_of_file(image_of(path, yaml)) + '\n');
+  return sha256_of_text(sha256_of_file(path) + '\n' + sha256_of_file(read_map_server_file(path).image) +
+                        '\n');
 }
 
 Grid read_map_file(const std::filesystem::path& path) {

@@ -27,8 +27,7 @@ ReferenceMap make_reference_map(const mrpt::maps::COccupancyGridMap2D& map, doub
                                 double smoothing_sigma_m);
 
 /// Reads a map from `map.yaml`, with the image that it names, or from `map.gridmap.gz`. The file's extension
-/// decides. Throws UserError if the file is unreadable or of another kind, or if the map is rotated or has no
-/// wall.
+/// decides. Throws UserError if the file is unreadable or of another kind, or if the map has no wall.
 mrpt::maps::COccupancyGridMap2D read_map_file(const std::filesystem::path& path);
 
 /// A map, and the vector from its place by MRPT to its place by its file, in metres. MRPT moves maps by up to

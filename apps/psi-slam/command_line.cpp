@@ -275,7 +275,7 @@ void check_together(const CommandLine& line, const std::string& log_to_map, cons
   const bool merges = line.command == Command::kMerge;
   const bool compares = line.command == Command::kDiff;
   const bool localizes = line.command == Command::kLocalize;
-  if (maps) require(!line.log.empty() || !line.resume.empty(), "name the log: psi-slam LOG -o DIR");
+  if (maps) require(!line.log.empty() || !line.resume.empty(), "name the log: psi-slam LOG");
   if (line.command == Command::kCheck) require(!line.log.empty(), "name the log: psi-slam check LOG");
   const bool has_source = live_input(line.live).has_value();
   if (is_live) require(has_source, "name a source: --stdin, --tcp PORT, --follow LOG or --sensors INI");
@@ -291,7 +291,7 @@ void check_together(const CommandLine& line, const std::string& log_to_map, cons
          "--markdown prints all options: leave out WORD, --common and --json");
   refuse(line.diff.aligned && !line.start.empty(), "--aligned contradicts --start: give only one of them");
   if (merges) require(line.inputs.size() >= 2, "name the runs: psi-slam merge FIRST SECOND -o DIR");
-  if (maps || merges || is_live) require(!line.output.empty(), "name the folder for the results: -o DIR");
+  if (merges || is_live) require(!line.output.empty(), "name the folder for the results: -o DIR");
   refuse(merges && line.inputs.size() > 2 && !line.start.empty(),
          "--start needs exactly two runs. Merge the first two, then merge their session with further runs");
   refuse(!maps && !merges && !localizes && !is_live && !compares && !line.output.empty(),
@@ -362,7 +362,10 @@ CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& 
   bool dump_config = false;
   add_value(app, "LOG", log_to_map,
             "Log to map: an MRPT rawlog or a CARMEN log, plain or compressed, or a ROS bag", "");
-  add_value(app, "-o,--output", line.output, kFolderHelp, "DIR");
+  add_value(
+      app, "-o,--output", line.output,
+      "Folder for the results, new or empty. Default: NAME-map in the current folder for a log NAME.log",
+      "DIR");
   add_run_options(app, line);
   add_value(app, "--edits", line.edits, "File with edits of loops and of the drawn map, and with known poses",
             "FILE");

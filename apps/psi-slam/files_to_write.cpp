@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/partial_files.h"
+#include "batch/kept_run.h"
 #include "psi_slam/user_error.h"
 #include "report/output_folder.h"
 #include "session/session_file.h"
@@ -79,6 +80,17 @@ void check_files_to_write(const CommandLine& line) {
     if (input.path != line.edits && is_result_in(line.output, input.path))
       throw UserError("the results in " + line.output + " would replace " + input.what + ' ' +
                       input.path.string() + ". Name another output folder");
+}
+
+fs::path default_output_folder(const CommandLine& line) {
+  const fs::path input = fs::absolute(line.log.empty() ? line.resume : line.log).lexically_normal();
+  const fs::path file = input.has_filename() ? input.filename() : input.parent_path().filename();
+  const std::string name = log_name_of(file.string()).value_or(file.stem().string()) + "-map";
+  std::error_code ignored;
+  fs::path folder = name;
+  for (int number = 2; !line.force && fs::exists(folder, ignored); ++number)
+    folder = name + '-' + std::to_string(number);
+  return folder;
 }
 
 }  // namespace psi_slam

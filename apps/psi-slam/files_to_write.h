@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
+
 #include "command_line.h"
 
 namespace psi_slam {
@@ -9,5 +11,9 @@ namespace psi_slam {
 /// UserError if the session or the journal cannot be written or exists, unless --force is given, and if one
 /// output would replace another or an input.
 void check_files_to_write(const CommandLine& line);
+
+/// Returns the folder for the results of a command line without -o, in the current folder: NAME-map for a log
+/// or session NAME.log, or NAME-map-2 and so on if that exists and --force is not given.
+std::filesystem::path default_output_folder(const CommandLine& line);
 
 }  // namespace psi_slam

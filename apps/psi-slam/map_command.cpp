@@ -163,9 +163,14 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   return session.breaks_off() ? kExitWrongUsageOrInput : kExitDone;
 }
 
-int map_log(const CommandLine& line, const Streams& streams) {
+int map_log(const CommandLine& given, const Streams& streams) {
   BoundSettings bound;
-  SessionInput input = input_of(line, bound, streams);
+  SessionInput input = input_of(given, bound, streams);
+  CommandLine line = given;
+  if (line.output.empty()) {
+    line.output = default_output_folder(line);
+    streams.err << "psi-slam: the results go to the folder " << line.output << ". Name another one with -o\n";
+  }
   const InterruptSignals signals;
   if (line.verbose) streams.err << changed_settings(bound.table);
   EditJournal edits;

@@ -36,12 +36,11 @@ std::string json_file_text(const Json& json) {
 }
 
 std::optional<std::string> log_name_of(const std::string& file) {
-  for (const char* ending : {".clf", ".log", ".rawlog", ".clf.gz", ".log.gz", ".rawlog.gz", ".bag", ".db3",
-                             ".mcap", ".db3.zstd", ".mcap.zstd"}) {
-    const std::string_view end = ending;
-    if (file.size() > end.size() && file.compare(file.size() - end.size(), end.size(), end) == 0)
-      return file.substr(0, file.size() - end.size());
-  }
+  const std::filesystem::path path(file);
+  for (const char* packed : {".gz", ".bz2", ".xz", ".lz4", ".zst", ".zstd"})
+    if (path.extension() == packed) return log_name_of(path.stem().string());
+  for (const char* ending : {".clf", ".log", ".rawlog", ".bag", ".db3", ".mcap"})
+    if (path.extension() == ending && path.has_stem()) return path.stem().string();
   return std::nullopt;
 }
 

@@ -35,7 +35,7 @@ def carmen_line(time_s, first_rad, span_rad, max_range_m, ranges_m, odometry):
 
 
 def number(text):
-    """Returns a number; NaN for text that is none, such as an empty cell."""
+    """Returns a number; NaN for other text, such as an empty cell."""
     try:
         return float(text)
     except (TypeError, ValueError):
@@ -106,7 +106,7 @@ def lines_of_table(lines, path, degrees):
     named = [i for i, name in enumerate(names) if math.isfinite(number(name))]
     ranges = numbered if "angle_min" in at and "angle_increment" in at else named
     if time is None or len(ranges) < 2:
-        raise Mistake(f"{path}:1: the header names no {'time' if time is None else 'bearings'}, expected a column {TIMES_S[1]} and "
+        raise Mistake(f"{path}:1: the header lacks {'the time' if time is None else 'bearings'}, expected a column {TIMES_S[1]} and "
                       "columns of ranges that are named by their bearings, or angle_min, angle_increment, ranges0, ranges1, ... "
                       "Correct the header")
     unit = math.radians(1) if degrees else 1

@@ -15,6 +15,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 readonly tried="Debian 12 and Debian 13"
+readonly lock_timeout_s=300  # how long to wait for another program that installs packages
 # shellcheck disable=SC2034  # the lists are read by their names
 build=(
   build-essential cmake ninja-build pkg-config file
@@ -88,8 +89,22 @@ as_root() {
   fi
 }
 
+# Waits while another program installs packages.
 apt_get() {
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get --quiet "$@"
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get --quiet --option "DPkg::Lock::Timeout=$lock_timeout_s" "$@"
+}
+
+# Updates the lists of packages. apt-get itself does not wait for another program that updates them.
+update_lists() {
+  local end=$((SECONDS + lock_timeout_s))
+  until apt_get update >"$work/update" 2>&1; do
+    cat "$work/update" >&2
+    grep --quiet "get lock" "$work/update" || fail "apt-get update failed. Check that this machine is online"
+    [ "$SECONDS" -lt "$end" ] ||
+      fail "another program has used the lists of packages for $((lock_timeout_s / 60)) minutes. Wait for its end, and try again"
+    say "another program uses the lists of packages: waiting for it, at most $((lock_timeout_s / 60)) minutes"
+    sleep 5
+  done
 }
 
 check_cmake() {
@@ -136,7 +151,7 @@ if [ "${#missing[@]}" -eq 0 ]; then
   say "all packages for $* are installed"
 else
   is_tried_system || say "psi-slam was tried on $tried, but not on $(system_name). Packages may be missing or too old there"
-  apt_get update >&2 || fail "apt-get update failed. Check that this machine is online"
+  update_lists
   # Packages that depend on a name make it known, even if the release does not have it: print only what has a version.
   apt-cache dumpavail | sed -n 's/^Package: //p' >"$work/available"
   mapfile -t unavailable < <(without "$work/available" "${missing[@]}")
@@ -154,6 +169,7 @@ else
   mapfile -t packages_to_install < <(packages_of "${missing[@]}")
   if [ "${#packages_to_install[@]}" -gt 0 ]; then
     say "installing ${packages_to_install[*]}"
+    say "if another program is installing packages, this waits for it, at most $((lock_timeout_s / 60)) minutes"
     apt_get install --yes --no-install-recommends "${packages_to_install[@]}" >&2 ||
       fail "apt-get install failed. Read its message above"
   fi

@@ -78,7 +78,7 @@ TEST(CommandLine, knows_its_commands) {
 
 TEST(CommandLine, wrong_usage_gives_one_sentence) {
   EXPECT_THAT(complaint({}), AllOf(HasSubstr("name the log"), HasSubstr("--help")));
-  EXPECT_THAT(complaint({"my.log"}), HasSubstr("name the folder for the results: -o DIR"));
+  EXPECT_EQ(parsed({"my.log"}).output, "") << "default_output_folder() names it";
   EXPECT_THAT(complaint({"my.log", "-o"}), HasSubstr("--output"));
   EXPECT_THAT(complaint({"my.log", "-o", "out", "--colour"}), HasSubstr("there is no option \"--colour\""));
   EXPECT_THAT(complaint({"my.log", "-o", "out", "--forse"}), HasSubstr("did you mean \"--force\"?"));

@@ -128,5 +128,46 @@ TEST_F(FilesToWrite, a_pipe_is_no_log) {
   expect_refused({"--resume", file("pipe"), "-o", file("out")}, "is a pipe or a device, expected");
 }
 
+TEST_F(FilesToWrite, without_a_folder_results_go_to_the_next_free_one_in_the_current_folder) {
+  fs::create_directory(file("here"));
+  const auto run_here = [&](const std::vector<std::string>& arguments) {
+    const AppProcess process(arguments, folder_.path(), [&] {
+      if (::chdir(file("here").c_str()) != 0) ::_exit(126);
+    });
+    const AppRun run = process.finish();
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.err;
+  };
+  EXPECT_THAT(run_here({log_}), HasSubstr("the results go to the folder room-map. Name another one with -o"));
+  EXPECT_TRUE(fs::exists(file("here/room-map/map.png")));
+  EXPECT_THAT(run_here({"../room.log", "-q"}), HasSubstr("the folder room-map-2."));
+  const std::string first = bytes_of(file("here/room-map/summary.json"));
+  EXPECT_THAT(run_here({log_}), HasSubstr("the folder room-map-3."));
+  EXPECT_EQ(bytes_of(file("here/room-map/summary.json")), first);
+  EXPECT_THAT(run_here({log_, "--force", "--set", "map.resolution_m=0.1"}),
+              HasSubstr("the folder room-map."));
+  EXPECT_NE(bytes_of(file("here/room-map/summary.json")), first);
+  EXPECT_FALSE(fs::exists(file("here/room-map-4")));
+  EXPECT_EQ(run_here({log_, "-o", "named"}), "");
+  EXPECT_EQ(run_app({file("missing.log")}).code, 2);
+}
+
+TEST(DefaultOutputFolder, has_the_name_of_the_log_without_its_endings) {
+  for (const auto& [log, folder] :
+       std::vector<std::pair<std::string, std::string>>{{"/logs/intel.clf.gz", "intel-map"},
+                                                        {"fr079.clf.bz2", "fr079-map"},
+                                                        {"run_0.db3.zstd", "run_0-map"},
+                                                        {"/bags/tour/", "tour-map"},
+                                                        {"notes.txt", "notes-map"},
+                                                        {"2006-01.rawlog", "2006-01-map"}}) {
+    CommandLine line;
+    line.log = log;
+    EXPECT_EQ(default_output_folder(line), folder) << log;
+  }
+  CommandLine line;
+  line.resume = "my.session";
+  EXPECT_EQ(default_output_folder(line), "my-map");
+}
+
 }  // namespace
 }  // namespace psi_slam

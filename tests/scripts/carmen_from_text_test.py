@@ -99,7 +99,7 @@ with tempfile.TemporaryDirectory() as name:
     file.write_text("time_s,range_max,-1,0,1\n7,20,1.5,inf,3\n")
     assert convert(file).split()[9:12] == ["1.5000", "20", "3.0000"]
 
-    for text, sentence in (("", "is empty"), ("a,b\n1,2\n", "the header names no time"), ("time_s,x\n1,2\n", "no bearings"),
+    for text, sentence in (("", "is empty"), ("a,b\n1,2\n", "the header lacks the time"), ("time_s,x\n1,2\n", "lacks bearings"),
                            ("time_s,-1,0,1\n1,2\n", ":2: 2 columns, expected 4"), ("time_s,-1,0,3\n1,2,2,2\n", "even steps"),
                            ("{\"readings\": [1, 2]}", "scan 1 lacks a valid field"), ("[{\"readings\": ", "expected a JSON object")):
         file.write_text(text)

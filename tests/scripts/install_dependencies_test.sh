@@ -70,6 +70,26 @@ if installs build; then fail "a missing package is no error"; fi
 grep -q 'lacks the packages libcli11-dev' "$scratch/words" || fail "the missing package is not named: $(cat "$scratch/words")"
 if grep -q install "$scratch/calls"; then fail "installs although a package is missing"; fi
 
+# The script waits for another program that has locked the packages.
+echo "Package: libcli11-dev" >>"$scratch/packages"
+program apt-get "echo \"\$@\" >>'$scratch/calls'" \
+  "if [ ! -e '$scratch/was_locked' ]; then" \
+  "  touch '$scratch/was_locked'" \
+  "  echo 'E: Could not get lock /var/lib/apt/lists/lock. It is held by process 7 (apt-get)' >&2" \
+  "  exit 100" \
+  "fi"
+installs build >/dev/null || fail "a locked list of packages stops the script: $(cat "$scratch/words")"
+grep -q "another program uses the lists of packages: waiting for it, at most 5 minutes" "$scratch/words" ||
+  fail "the script does not say that it waits: $(cat "$scratch/words")"
+[ "$(grep -c ' update$' "$scratch/calls")" -eq 2 ] || fail "the list is not updated again: $(cat "$scratch/calls")"
+grep -q -- "--option DPkg::Lock::Timeout=300 install" "$scratch/calls" ||
+  fail "apt-get does not wait for the lock of dpkg: $(cat "$scratch/calls")"
+program apt-get "echo 'E: Could not resolve deb.debian.org' >&2" "exit 100"
+if installs build; then fail "a failed update is no error"; fi
+grep -q "apt-get update failed. Check that this machine is online" "$scratch/words" || fail "says $(cat "$scratch/words")"
+program apt-get "echo \"\$@\" >>'$scratch/calls'"
+touch "$scratch/calls"
+
 # If all is installed, apt-get is not called.
 program dpkg-query "sed -n 's/^Package: /installed /p' '$scratch/packages'"
 rm "$scratch/calls"

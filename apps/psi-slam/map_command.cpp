@@ -197,9 +197,9 @@ int check_log(const CommandLine& line, const Streams& streams) {
     streams.out << json_file_text(to_json(diagnosis));
   else
     for (const std::string& sentence : describe(diagnosis)) streams.out << sentence << '\n';
-  const std::string& broken_off = diagnosis.facts.broken_off;
-  if (broken_off.empty()) return kExitDone;
-  streams.err << "psi-slam: " << broken_off << '\n';
+  const std::string refusal = refusal_of(diagnosis);
+  if (refusal.empty()) return kExitDone;
+  streams.err << "psi-slam: " << refusal << '\n';
   return kExitWrongUsageOrInput;
 }
 

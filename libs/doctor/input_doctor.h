@@ -38,10 +38,10 @@ struct Finding {
 struct LogDiagnosis {
   std::filesystem::path path;
   LogFacts facts;
-  MaxRange max_range;                               ///< by the readings; a maximum in `options` does not limit it
-  SweepDirectionStudy sweep_direction;              ///< without scans if no sweep time is stated
-  LogOptions options;                               ///< options used to read the log
-  std::string laser;                                ///< laser that is judged; see SingleLaser::name
+  MaxRange max_range;                   ///< by the readings; a maximum in `options` does not limit it
+  SweepDirectionStudy sweep_direction;  ///< without scans if no sweep time is stated
+  LogOptions options;                   ///< options used to read the log
+  std::string laser;                    ///< laser that is judged; see SingleLaser::name
   BeamAngles used_beam_angles = BeamAngles::kAuto;  ///< kAuto if the log states its angles
   std::vector<BodySector> own_body;                 ///< beams that see the robot itself
   OdometryAgreement odometry;
@@ -89,7 +89,10 @@ std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study);
 /// without pairs of scans.
 std::vector<std::string> describe_sweep_direction(const SweepDirectionStudy& study);
 
-/// Judgement in one line: "ready to map" or "maps with 2 warnings".
+/// Returns why mapping refuses the log, or ends before its last scan: one sentence; empty if it does not.
+std::string refusal_of(const LogDiagnosis& diagnosis);
+
+/// Judgement in one line: "ready to map", "maps with 2 warnings" or "cannot be mapped".
 std::string verdict_of(const LogDiagnosis& diagnosis);
 
 /// Lines with facts, beam angles, findings with their remedies and the verdict, as `psi-slam check` prints

@@ -115,4 +115,9 @@ LogFacts LogFactsCollector::facts() const {
   return facts;
 }
 
+std::string no_returns_text(const std::string& log, std::size_t scans) {
+  return log + ": none of its " + std::to_string(scans) +
+         " scans has a return between log.min_range_m and log.max_range_m. Correct these two options";
+}
+
 }  // namespace psi_slam

@@ -64,6 +64,9 @@ struct LogFacts {
   RangeFacts ranges;
 };
 
+/// Returns why a log without any return cannot be mapped. `log` names it.
+std::string no_returns_text(const std::string& log, std::size_t scans);
+
 /// Time and odometry of a frame. Scans are not kept.
 struct FrameMark {
   TimeUs time_us = 0;

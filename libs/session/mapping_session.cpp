@@ -12,6 +12,7 @@
 
 #include "base/scope_exit.h"
 #include "doctor/gyroscope_check.h"
+#include "doctor/log_facts.h"
 #include "doctor/quick_check.h"
 #include "exports/zone_files.h"
 #include "frames/discarded_ranges.h"
@@ -204,13 +205,13 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   off_the_clock([&] {
     m.begin(m.prior ? SessionProgress::Phase::kPriorSearch : SessionProgress::Phase::kFinalSearch);
   });
-  if (std::none_of(m.mapper->log().begin(), m.mapper->log().end(), has_return))
-    throw UserError((m.log_path.empty() ? names_of(m.logs) : m.log_path.string()) + ": " +
-                    (m.scans == 0
-                         ? "no scan was read, so there is nothing to map. Choose a log with 2D laser scans"
-                         : "none of its " + std::to_string(m.scans) +
-                               " scans has a return between log.min_range_m and log.max_range_m. "
-                               "Correct these two options"));
+  if (std::none_of(m.mapper->log().begin(), m.mapper->log().end(), has_return)) {
+    const std::string log = m.log_path.empty() ? names_of(m.logs) : m.log_path.string();
+    throw UserError(
+        m.scans == 0
+            ? log + ": no scan was read, so there is nothing to map. Choose a log with 2D laser scans"
+            : no_returns_text(log, m.scans));
+  }
   if (m.state == Members::State::kReading) {
     bool& scans_left = m.logs.back().scans_left;
     scans_left = scans_left || m.read().has_value();

@@ -54,6 +54,37 @@ TEST_F(LogCheck, a_damaged_log_is_checked_up_to_the_damage) {
   EXPECT_THAT(run.err, AllOf(StartsWith("psi-slam: "), HasSubstr("room.log:61: FLASER: ")));
 }
 
+TEST_F(LogCheck, a_log_without_returns_gets_the_answer_of_mapping) {
+  const auto flaser = [](const std::string& range, int scan) {
+    std::string line = "FLASER 90";
+    for (int beam = 0; beam < 90; ++beam) line += ' ' + range;
+    const std::string pose = ' ' + std::to_string(0.1 * scan) + " 0 0";
+    const std::string stamp = ' ' + std::to_string(100 + 0.2 * scan);
+    return line + pose + pose + stamp + " host" + stamp;
+  };
+  const auto expect_same_answer = [&](const std::string& log, const std::vector<std::string>& options) {
+    std::vector<std::string> check{"check", log};
+    check.insert(check.end(), options.begin(), options.end());
+    std::vector<std::string> map{log, "-q", "-o", (folder_.path() / "out").string()};
+    map.insert(map.end(), options.begin(), options.end());
+    const AppRun checked = run_app(check);
+    EXPECT_EQ(checked.code, 2);
+    EXPECT_THAT(checked.out, HasSubstr("verdict: cannot be mapped"));
+    EXPECT_THAT(checked.err, HasSubstr("scans has a return between log.min_range_m and log.max_range_m"));
+    const AppRun mapped = run_app(map);
+    EXPECT_EQ(mapped.code, 2);
+    EXPECT_EQ(mapped.err, checked.err);
+  };
+  for (const char* range : {"0", "nan", "inf", "-1", "81.83", "2000"}) {
+    SCOPED_TRACE(range);
+    std::vector<std::string> lines;
+    for (int scan = 0; scan < 20; ++scan) lines.push_back(flaser(range, scan));
+    expect_same_answer(write_lines(folder_.path() / "empty.log", lines).string(), {});
+  }
+  expect_same_answer(log_, {"--set", "log.min_range_m=90", "--set", "log.max_range_m=100"});
+  expect_same_answer(log_, {"--set", "log.max_range_m=0.01"});
+}
+
 TEST_F(LogCheck, an_unreadable_log_is_wrong_input) {
   const AppRun run = run_app({"check", "missing.log"});
   EXPECT_EQ(run.code, 2);

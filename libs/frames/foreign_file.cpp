@@ -27,8 +27,8 @@ constexpr std::array kKinds{
     Kind{0, "Rar!", kArchive},
     Kind{257, "ustar", kArchive},
     Kind{0, "#ROSBAG V1",
-         "It is a ROS bag of an old version. Convert it to version 2.0 with ROS 1: rosbag filter OLD.bag "
-         "NEW.bag True"},
+         "It is a ROS bag of version 1, such as 1.2, expected 2.0. Convert it with ROS 1: rosbag filter "
+         "OLD.bag NEW.bag True"},
     Kind{0, "psi-slam session", "It is a session of psi-slam. Continue it with --resume"},
     Kind{0, "version https://git-lfs", "It is a pointer of Git LFS. Fetch the file with: git lfs pull"},
     Kind{0, "<", "It looks like a web page. Download the log again"},

@@ -95,6 +95,11 @@ TPose2D origin_of(const MapKeys& keys) {
   return {coordinate(0), coordinate(1), std::isfinite(yaw_rad) ? yaw_rad : 0};
 }
 
+bool is_true(const MapKeys& keys, const std::string& key) {
+  const std::string text = keys.text(key);
+  return text == "true" || text == "True" || (text != "false" && text != "False" && keys.number(key) != 0);
+}
+
 MapImageMode mode_of(const MapKeys& keys) {
   const std::string mode = keys.has("mode") ? keys.text("mode") : "trinary";
   if (mode == "scale") return MapImageMode::kScale;
@@ -203,7 +208,7 @@ MapServerFile read_map_server_file(const std::filesystem::path& path) {
   file.image = path.parent_path() / keys.text("image");  // an absolute image replaces the parent
   file.resolution_m = keys.number("resolution");
   file.map_T_image = origin_of(keys);
-  file.negate = keys.number("negate") != 0;
+  file.negate = is_true(keys, "negate");
   file.occupied_threshold = keys.number("occupied_thresh");
   file.free_threshold = keys.number("free_thresh");
   file.mode = mode_of(keys);

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "base/byte_cursor.h"
 #include "compression/compression.h"
 #include "compression/decompressor.h"
 #include "frames/log_format.h"
@@ -83,6 +82,11 @@ void unpack_message(BagMessage& message, std::string& room) {
   if (message.topic->encoding != BagEncoding::kCdr || compression_of(message.bytes) != "zstd") return;
   room = decompress_zstd_frame(message.bytes, kMaxRecordBytes);
   message.bytes = room;
+}
+
+std::string damage_text(const BagFile& bag, const BagMessage& message, const MalformedBytes& damage) {
+  return bag.place() + ": the message on " + message.topic->name + " is damaged: " + damage.what() +
+         ". Record the bag again";
 }
 
 std::unique_ptr<BagFile> open_bag(const fs::path& path) {

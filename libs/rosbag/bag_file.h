@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/byte_cursor.h"
 #include "compression/byte_source.h"
 #include "psi_slam/time_stamp.h"
 #include "rosbag/bag_recorder.h"
@@ -86,6 +87,9 @@ class BagFile {
  private:
   std::vector<std::string> wanted_;
 };
+
+/// Error message for the last message of a bag, whose bytes are damaged.
+std::string damage_text(const BagFile& bag, const BagMessage& message, const MalformedBytes& damage);
 
 /// Opens a bag of any container: a file, or the folder of a ROS 2 bag, whose files are read in order. Each
 /// file may be compressed as a whole, see CompressedFile. Recognises the container by the content. Throws

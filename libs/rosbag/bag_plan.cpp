@@ -9,35 +9,19 @@
 #include <tuple>
 #include <utility>
 
-#include "base/byte_cursor.h"
 #include "base/text_parts.h"
 #include "frames/gyroscope_choice.h"
 #include "frames/height_slice.h"
 #include "frames/laser_choice.h"
 #include "frames/log_reader.h"
 #include "psi_slam/user_error.h"
-#include "rosbag/bag_robots.h"
+#include "rosbag/bag_topics.h"
 #include "rosbag/ros_messages.h"
 
 namespace psi_slam {
 namespace {
 
 using Names = std::vector<std::string>;
-
-Names topics_of_type(const std::vector<BagTopic>& topics, const char* type) {
-  Names names;
-  for (const BagTopic& topic : topics)
-    if (topic.type == type && topic.encoding != BagEncoding::kOther) names.push_back(topic.name);
-  return names;
-}
-
-/// Returns the name of a topic as in the bag: users, and some programs that record bags, omit the leading
-/// slash.
-std::string as_in_bag(const std::string& name, const Names& all) {
-  if (contains(all, '/' + name)) return '/' + name;
-  const bool has_slash = !name.empty() && name.front() == '/';
-  return has_slash && contains(all, name.substr(1)) ? name.substr(1) : name;
-}
 
 class Planner {
  public:
@@ -50,22 +34,20 @@ class Planner {
         robots_(topics_) {}
 
   BagPlan plan() {
-    choose_scan_topics();
-    for (const BagTopic& topic : topics_)
-      if (is_transforms(topic) && !contains(plan_.transform_topics, topic.name))
-        plan_.transform_topics.push_back(topic.name);
-    plan_.transform_topics = robots_.of_robot(plan_.transform_topics, plan_.scan_topics.front());
-    find_odometry_topics();
-    find_imu_topics();
+    chosen_ = choose_topics(topics_, robots_, path_, options_);
+    plan_.scan_topics = chosen_.scan_topics;
+    plan_.transform_topics = chosen_.transform_topics;
+    plan_.assumptions = chosen_.assumptions;
+    if (!chosen_.imu.empty()) options_.imu = chosen_.imu;
     plan_.odom_frame = options_.odom_frame;
     plan_.base_frame = options_.base_frame;
     read_until_complete();
     require_scans();
     choose_odometry_topic();
-    if (expects_odometry_ && !plan_.has_odometry) find_odometry_elsewhere();
+    if (chosen_.expects_odometry && !plan_.has_odometry) find_odometry_elsewhere();
     require_odometry();
     settle_base_frame();
-    if (chooses_lasers_) {
+    if (chosen_.chooses_lasers) {
       list_robots();
       keep_usable_lasers();
     }
@@ -76,83 +58,10 @@ class Planner {
   }
 
  private:
-  void choose_scan_topics() {
-    const Names clouds = topics_of_type(topics_, kRosPointCloud);
-    Names lasers = topics_of_type(topics_, kRosLaserScan);
-    for (const std::string& topic : topics_of_type(topics_, kRosMultiEchoScan)) lasers.push_back(topic);
-    const Names& all = slices_clouds_ ? clouds : lasers;
-    const char* type = slices_clouds_ ? kRosPointCloud : kRosLaserScan;
-    if (all.empty()) report_missing_scans(clouds);
-    Names nameable = all;
-    if (slices_clouds_) nameable.insert(nameable.end(), lasers.begin(), lasers.end());
-    const bool by_topic = !options_.scan_topic.empty();
-    const char* option = by_topic ? "log.scan_topic" : "log.laser";
-    const LaserChoice choice = laser_choice(option, by_topic ? options_.scan_topic : options_.laser);
-    if (choice.all) plan_.scan_topics = all;
-    for (const std::string& name : choice.names) {
-      if (!slices_clouds_ && contains(clouds, as_in_bag(name, clouds)))
-        throw UserError(std::string(option) + " names the point clouds on " + name + " of " + path_ +
-                        ". Map a slice of them with log.slice_z_m, such as \"0.1 1.0\" (heights above the "
-                        "floor in metres)");
-      const std::string topic = choose(option, name, nameable, type);
-      if (contains(plan_.scan_topics, topic))
-        throw UserError(std::string(option) + " names the topic " + topic + " twice. Name each topic once");
-      plan_.scan_topics.push_back(topic);
-    }
-    if (plan_.scan_topics.empty() && options_.robot_T_laser)
-      plan_.scan_topics = {choose("log.scan_topic", "", all, type)};
-    if (plan_.scan_topics.empty()) {
-      plan_.scan_topics = robots_.of_robot(all, all.front());
-      chooses_lasers_ = all.size() > 1;
-    }
-    for (const auto& [option_of_laser, name] : lasers_with_stated_values(options_))
-      choose(option_of_laser, name, nameable, type);
-  }
-
-  /// Throws UserError for a bag without scans, or without point clouds if the user asks for them.
-  [[noreturn]] void report_missing_scans(const Names& clouds) const {
-    if (!clouds.empty())
-      throw UserError(path_ + " has no laser scans, but point clouds on " + name_list(clouds) +
-                      ". Map a slice of them with log.slice_z_m, such as \"0.1 1.0\" (heights above the "
-                      "floor in metres)");
-    Names found;
-    for (const BagTopic& topic : topics_) found.push_back(topic.name + " (" + topic.type + ")");
-    throw UserError(path_ + " has no " +
-                    (slices_clouds_ ? std::string("point clouds, expected a topic of type ") + kRosPointCloud
-                                    : std::string("laser scans, expected a topic of type ") + kRosLaserScan) +
-                    "; found " + (found.empty() ? "no topics" : name_list(found)) +
-                    (slices_clouds_ ? ". Map laser scans with an empty log.slice_z_m"
-                                    : ". Record the scans with the bag"));
-  }
-
-  void find_imu_topics() {
-    imu_topics_ = ignores_gyroscope(options_) ? Names() : topics_of_type(topics_, kRosImu);
-    if (!names_gyroscope(options_)) imu_topics_ = robots_.of_robot(imu_topics_, plan_.scan_topics.front());
-    if (!names_gyroscope(options_)) return;
-    options_.imu = choose("log.imu", options_.imu, imu_topics_, kRosImu);
-    imu_topics_ = {options_.imu};
-  }
-
-  /// Finds the topics of odometry from which choose_odometry_topic() chooses: one if the user names it.
-  void find_odometry_topics() {
-    const Names all = topics_of_type(topics_, kRosOdometry);
-    const std::string wanted = chooses_odometry(options_) ? "" : options_.odometry;
-    expects_odometry_ =
-        !ignores_odometry(options_) && !(wanted.empty() && all.empty() && plan_.transform_topics.empty());
-    const bool by_transform = contains(plan_.transform_topics, as_in_bag(wanted, plan_.transform_topics));
-    if (!expects_odometry_ || by_transform) return;
-    odometry_topics_ = wanted.empty() ? robots_.of_robot(all, plan_.scan_topics.front())
-                                      : Names{choose("log.odometry", wanted, all, kRosOdometry)};
-    if (odometry_topics_.empty() && !all.empty())
-      plan_.assumptions.push_back("the odometry of " + name_list(all) +
-                                  " is not used, because it is that of another robot than the scans of " +
-                                  plan_.scan_topics.front() + ". Name a topic with log.odometry");
-  }
-
   /// Chooses the odometry of the first laser's robot: by namespace if the bag recorded several robots, by the
   /// transforms, then /odom, then the first topic. Topics with messages take precedence.
   void choose_odometry_topic() {
-    if (odometry_topics_.empty()) return;
+    if (chosen_.odometry_topics.empty()) return;
     const std::string scan_topic = plan_.scan_topics.front();
     const auto rank = [&](const std::string& topic) {
       const auto pose = odometry_.find(topic);
@@ -164,33 +73,23 @@ class Planner {
                              topic != "/odom");
     };
     plan_.odometry_topic =
-        *std::min_element(odometry_topics_.begin(), odometry_topics_.end(),
+        *std::min_element(chosen_.odometry_topics.begin(), chosen_.odometry_topics.end(),
                           [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
     const auto pose = odometry_.find(plan_.odometry_topic);
     if (pose == odometry_.end()) return;
     plan_.has_odometry = true;
     if (plan_.odom_frame.empty()) plan_.odom_frame = pose->second.header.frame;
     if (plan_.base_frame.empty()) plan_.base_frame = pose->second.child_frame;
-    if (odometry_topics_.size() > 1 && !robots_.are_several())
+    if (chosen_.odometry_topics.size() > 1 && !robots_.are_several())
       plan_.assumptions.push_back("odometry comes from " + plan_.odometry_topic + ", one of the topics " +
-                                  name_list(odometry_topics_) + ". Name another one with log.odometry");
-  }
-
-  std::string choose(const char* option, const std::string& wanted, const Names& all,
-                     const char* type) const {
-    if (wanted.empty() && all.size() > 1)
-      throw UserError(path_ + " has several topics of type " + type + ": " + name_list(all) +
-                      ". Select one with " + option);
-    if (wanted.empty()) return all.front();
-    if (const std::string name = as_in_bag(wanted, all); contains(all, name)) return name;
-    throw UserError(std::string(option) + " is \"" + wanted + "\", expected a topic of type " + type +
-                    " of " + path_ + ": " + (all.empty() ? "it has none" : name_list(all)));
+                                  name_list(chosen_.odometry_topics) +
+                                  ". Name another one with log.odometry");
   }
 
   void read_until_complete() {
     Names wanted = plan_.topics();
-    wanted.insert(wanted.end(), imu_topics_.begin(), imu_topics_.end());
-    wanted.insert(wanted.end(), odometry_topics_.begin(), odometry_topics_.end());
+    wanted.insert(wanted.end(), chosen_.imu_topics.begin(), chosen_.imu_topics.end());
+    wanted.insert(wanted.end(), chosen_.odometry_topics.begin(), chosen_.odometry_topics.end());
     bag_->want(wanted);
     for (BagMessage message; !is_complete();) {
       try {
@@ -218,7 +117,8 @@ class Planner {
     } else {
       scan_frames_.emplace(message.topic->name, read_ros_laser_scan(message).header.frame);
     }
-    if (expects_odometry_ && odometry_topics_.empty() && !plan_.has_odometry) find_odometry_transform();
+    if (chosen_.expects_odometry && chosen_.odometry_topics.empty() && !plan_.has_odometry)
+      find_odometry_transform();
   }
 
   void take_odometry(const BagMessage& message) {
@@ -274,8 +174,9 @@ class Planner {
   bool is_complete() const {
     const bool has_transforms = !plan_.transform_topics.empty();
     const bool has_odometry =
-        plan_.has_odometry || (!odometry_.empty() && odometry_.size() == odometry_topics_.size());
-    const bool has_motion = has_odometry || (!expects_odometry_ && seen_imus_.size() == imu_topics_.size());
+        plan_.has_odometry || (!odometry_.empty() && odometry_.size() == chosen_.odometry_topics.size());
+    const bool has_motion =
+        has_odometry || (!chosen_.expects_odometry && seen_imus_.size() == chosen_.imu_topics.size());
     const auto has_mount = [&](const auto& sensor) { return !has_transforms || knows_mount(sensor.second); };
     return has_motion && has_scans() && std::all_of(scan_frames_.begin(), scan_frames_.end(), has_mount) &&
            (has_odometry || std::all_of(gyroscope_frames_.begin(), gyroscope_frames_.end(), has_mount));
@@ -285,7 +186,7 @@ class Planner {
   bool has_scans() const { return scan_frames_.size() == plan_.scan_topics.size(); }
 
   /// Returns whether scans were read that can be mapped if the bag ends here.
-  bool has_enough_scans() const { return has_scans() || (chooses_lasers_ && !scan_frames_.empty()); }
+  bool has_enough_scans() const { return has_scans() || (chosen_.chooses_lasers && !scan_frames_.empty()); }
 
   /// Searches all transforms for odometry, because the topic has none, or because no transform connects it
   /// with a laser.
@@ -348,14 +249,14 @@ class Planner {
   }
 
   /// Name of the robot with a laser: the namespace of its topic if those tell robots apart, otherwise the
-  /// frame that odometry moves. Empty if neither is known.
+  /// frame of the robot's base, which odometry moves. Empty if neither is known.
   std::string robot_with(const std::string& topic) const {
     if (robots_.are_several()) return '/' + robots_.robot_of(topic);
     const auto scan = scan_frames_.find(topic);
     if (scan == scan_frames_.end()) return {};
     const Names way = plan_.transforms.way_up(scan->second);
     for (std::size_t i = 1; i < way.size(); ++i)
-      if (is_named_like_odometry(way[i])) return way[i - 1];
+      if (is_named_like_odometry(way[i]) && has_word(way[i - 1], "base")) return way[i - 1];
     for (const auto& [name, odometry] : odometry_)
       if (contains(way, odometry.child_frame)) return odometry.child_frame;
     return {};
@@ -421,7 +322,7 @@ class Planner {
   void require_scans() const {
     const auto is_missing = [&](const std::string& topic) { return scan_frames_.count(topic) == 0; };
     const Names& topics = plan_.scan_topics;
-    if (chooses_lasers_ && !std::all_of(topics.begin(), topics.end(), is_missing)) return;
+    if (chosen_.chooses_lasers && !std::all_of(topics.begin(), topics.end(), is_missing)) return;
     if (const auto missing = std::find_if(topics.begin(), topics.end(), is_missing); missing != topics.end())
       throw UserError(path_ + " has no message on the topic " + *missing +
                       ". Select another topic of scans with log.scan_topic.");
@@ -429,7 +330,7 @@ class Planner {
 
   /// Throws UserError if odometry that the user or the bag states is missing.
   void require_odometry() const {
-    if (plan_.has_odometry || !expects_odometry_) return;
+    if (plan_.has_odometry || !chosen_.expects_odometry) return;
     if (!plan_.odometry_topic.empty() && !invalid_pose_.empty())
       throw UserError(invalid_pose_ +
                       ", as in all of its messages. Select another topic with log.odometry, or map without "
@@ -494,7 +395,7 @@ class Planner {
   /// Chooses the gyroscope for a bag without odometry.
   void settle_gyroscope() {
     Names gyroscopes;
-    for (const std::string& topic : imu_topics_)
+    for (const std::string& topic : chosen_.imu_topics)
       if (plan_.has_odometry || gyroscope_frames_.count(topic) > 0) gyroscopes.push_back(topic);
     const GyroscopeChoice choice =
         choose_gyroscope(options_, gyroscopes, plan_.has_odometry,
@@ -516,16 +417,13 @@ class Planner {
   std::unique_ptr<BagFile> bag_;
   std::vector<BagTopic> topics_;
   BagRobots robots_;
+  BagTopics chosen_;
   BagPlan plan_;
   std::map<std::string, std::string> scan_frames_;  // key: topic of the scans; value: frame of the laser
-  Names odometry_topics_;                           // topics of odometry to choose from
   std::map<std::string, RosTransform> odometry_;    // key: topic; value: its first valid odometry
   std::string damage_;                              // message about the first damaged message
   std::string invalid_pose_;                        // message about the first odometry with an invalid pose
-  bool expects_odometry_ = true;                    // whether the user wants odometry and the bag may hold it
-  bool chooses_lasers_ = false;      // whether the user selects none of several topics of scans
-  Names imu_topics_;                 // topics of gyroscopes to choose from
-  std::set<std::string> seen_imus_;  // topics of gyroscopes with a message
+  std::set<std::string> seen_imus_;                 // topics of gyroscopes with a message
   std::map<std::string, std::string> gyroscope_frames_;  // key: topic with angular velocities; value: frame
 };
 
@@ -542,25 +440,6 @@ Names BagPlan::topics() const {
 std::string invalid_pose_text(const std::string& topic) {
   return "the odometry on " + topic +
          " is not finite, or the length of its quaternion is not 1, or it is beyond 10,000 km";
-}
-
-std::string damage_text(const BagFile& bag, const BagMessage& message, const MalformedBytes& damage) {
-  return bag.place() + ": the message on " + message.topic->name + " is damaged: " + damage.what() +
-         ". Record the bag again";
-}
-
-bool is_transforms(const BagTopic& topic) {
-  return (topic.type == kRosTransforms || topic.type == kRosOldTransforms) &&
-         topic.encoding != BagEncoding::kOther;
-}
-
-std::vector<std::string> names_of_topic(const std::string& topic) {
-  if (topic.front() == '/') return {topic, topic.substr(1)};  // users may omit the slash
-  return {topic};
-}
-
-LogOptions options_of_topic(const LogOptions& options, const std::string& topic) {
-  return options_of_laser(options, names_of_topic(topic));
 }
 
 BagPlan plan_bag(std::unique_ptr<BagFile> bag, const std::filesystem::path& path, const LogOptions& options) {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "base/byte_cursor.h"
 #include "psi_slam/log_options.h"
 #include "rosbag/bag_file.h"
+#include "rosbag/bag_topics.h"
 #include "rosbag/transform_tree.h"
 
 namespace psi_slam {
@@ -33,18 +33,6 @@ struct BagPlan {
 
 /// Error message for odometry with an invalid pose, without the place.
 std::string invalid_pose_text(const std::string& topic);
-
-/// Error message for the last message of a bag, whose bytes are damaged.
-std::string damage_text(const BagFile& bag, const BagMessage& message, const MalformedBytes& damage);
-
-/// Returns whether the messages of the topic are transforms.
-bool is_transforms(const BagTopic& topic);
-
-/// Names by which users may state options of the laser of a topic.
-std::vector<std::string> names_of_topic(const std::string& topic);
-
-/// Returns the options for the laser of a topic, with its stated mount and delay.
-LogOptions options_of_topic(const LogOptions& options, const std::string& topic);
 
 /// Plans how to read a bag. Scans are laser scans, or point clouds if `options.slice_z_m` is set. Finds the
 /// topics by their types, or by the names that the user states. Then reads until all frames are known, or to

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "frames/laser_choice.h"
-#include "rosbag/bag_plan.h"
+#include "rosbag/bag_topics.h"
 #include "rosbag/ros_messages.h"
 
 namespace psi_slam {

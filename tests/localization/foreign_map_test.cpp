@@ -72,6 +72,24 @@ TEST_F(ForeignMap, is_read_as_by_mrpt) {
   }
 }
 
+TEST_F(ForeignMap, may_have_black_for_free_space) {
+  const cv::Mat image = write_map();
+  const COccupancyGridMap2D expected = read("map.pgm", "[0, 0, 0]");
+  cv::Mat negative = image.clone();
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x)
+      negative.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(255 - image.at<std::uint8_t>(y, x));
+  write_image("negative.png", negative);
+  for (const auto& [negate, name] : {std::pair{"1", "negative.png"}, std::pair{"true", "negative.png"},
+                                     std::pair{"0", "map.pgm"}, std::pair{"false", "map.pgm"}}) {
+    read(name, "[0, 0, 0]");
+    std::string yaml = read_file(yaml_);
+    yaml.replace(yaml.find("negate: 0") + 8, 1, negate);
+    write_file(yaml_, yaml);
+    EXPECT_TRUE(read_map_file(yaml_).getRawMap() == expected.getRawMap()) << negate;
+  }
+}
+
 TEST_F(ForeignMap, without_a_valid_yaw_is_not_turned) {
   write_map();
   const COccupancyGridMap2D expected = read("map.pgm", "[-1.5, 4.0, 0.0]");

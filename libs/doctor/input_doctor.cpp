@@ -45,7 +45,7 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
   try {
     while (const auto frame = log->next()) {
       if (pass.bearings_rad.empty()) pass.bearings_rad = *frame->scan.bearings_rad;
-      collector.add(*frame, static_cast<float>(max_range_m));
+      collector.add(*frame, static_cast<float>(max_range_m), static_cast<float>(options.min_range_m));
     }
   } catch (const UserError& error) {
     if (collector.marks().empty()) throw;

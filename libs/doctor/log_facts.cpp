@@ -73,7 +73,7 @@ float median_below(const std::vector<std::size_t>& readings_by_cm, std::size_t r
 
 }  // namespace
 
-void LogFactsCollector::add(const Frame& frame, float max_range_m) {
+void LogFactsCollector::add(const Frame& frame, float max_range_m, float min_range_m) {
   const LaserScan& scan = frame.scan;
   if (marks_.empty()) {
     facts_.beams = scan.ranges_m.size();
@@ -94,7 +94,7 @@ void LogFactsCollector::add(const Frame& frame, float max_range_m) {
   std::size_t returns = 0;
   for (const float range : scan.ranges_m) {
     if (!std::isfinite(range)) continue;
-    if (range < max_range_m) ++returns;
+    if (range >= min_range_m && range < max_range_m) ++returns;
     const auto cm = static_cast<std::size_t>(static_cast<double>(range) * 100.0 + 0.5);  // below 1 km
     if (cm >= readings_by_cm_.size()) readings_by_cm_.resize(cm + 1);
     ++readings_by_cm_[cm];

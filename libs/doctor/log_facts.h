@@ -75,9 +75,9 @@ struct FrameMark {
 
 class LogFactsCollector {
  public:
-  /// Adds a frame whose ranges were read with an unlimited maximum. Readings below `max_range_m` count as
-  /// returns.
-  void add(const Frame& frame, float max_range_m);
+  /// Adds a frame whose ranges were read without limits. Readings from `min_range_m` on and below
+  /// `max_range_m` count as returns.
+  void add(const Frame& frame, float max_range_m, float min_range_m = 0);
 
   const std::vector<FrameMark>& marks() const { return marks_; }
 

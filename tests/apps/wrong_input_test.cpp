@@ -67,9 +67,10 @@ TEST_F(WrongInput, a_missing_log_is_reported_before_the_folder_is_made) {
 }
 
 TEST_F(WrongInput, a_file_that_is_no_log) {
-  EXPECT_THAT(refusal(write("letter.rawlog", "Dear robot,\nwhere have you been?\n")),
-              AllOf(HasSubstr("letter.rawlog has an unknown format"),
-                    HasSubstr("expected a CARMEN log or an MRPT .rawlog, plain or compressed, or a ROS bag")));
+  EXPECT_THAT(
+      refusal(write("letter.rawlog", "Dear robot,\nwhere have you been?\n")),
+      AllOf(HasSubstr("letter.rawlog has an unknown format"),
+            HasSubstr("expected a CARMEN log or an MRPT .rawlog, plain or compressed, or a ROS bag")));
   EXPECT_THAT(refusal(folder_.path().string()), HasSubstr("is a folder"));
 }
 

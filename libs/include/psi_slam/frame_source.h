@@ -42,8 +42,8 @@ class FrameSource {
   virtual ~FrameSource() = default;
 
   /// Returns the next frame, or nothing at the end of the log. Throws UserError if the log is malformed; the
-  /// message names file, place and what was expected. CARMEN logs and bags may hold a few malformed messages,
-  /// which are skipped: see skipped_lines().
+  /// message names file, place and what was expected. Logs may hold malformed messages, which are skipped:
+  /// see skipped_lines().
   virtual std::optional<Frame> next() = 0;
 
   /// Returns whether next() gives what it has without waiting for a sensor or another thread.

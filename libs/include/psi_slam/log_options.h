@@ -44,8 +44,8 @@ struct LogOptions {
   /// for the number of beams.
   std::optional<double> field_of_view_rad;
 
-  /// Maximum range, metres: readings at or beyond it are no returns. Default: the smallest code that the laser
-  /// writes for "no return", if the readings show one; otherwise as the log states, otherwise
+  /// Maximum range, metres: readings at or beyond it are no returns. Default: the smallest code that the
+  /// laser writes for "no return", if the readings show one; otherwise as the log states, otherwise
   /// `kUnstatedMaxRange_m`.
   std::optional<double> max_range_m;
 
@@ -102,8 +102,8 @@ struct LogOptions {
   /// no gyroscope. Otherwise a topic (sensor_msgs/Imu) or a sensor label of a rawlog (CObservationIMU).
   std::string imu = "auto";
 
-  /// ROS bags: heights above the floor between which the points of a sensor_msgs/PointCloud2 form a scan:
-  /// "LOW HIGH" in metres. An empty text reads no point clouds.
+  /// ROS bags and rawlogs: heights above the floor between which the points of a sensor_msgs/PointCloud2, or
+  /// of a 3D observation, form a scan: "LOW HIGH" in metres. An empty text reads no point clouds.
   std::string slice_z_m;
 
   // The next three options apply to ROS bags only. If empty, the reader finds topics by their types and

@@ -165,25 +165,18 @@ class ImageCells {
 /// Grid around a turned image.
 Grid turned_grid(const MapServerFile& file, const ImageCells& cells) {
   const double resolution_m = file.resolution_m;
-  double low[2] = {file.map_T_image.x, file.map_T_image.y};
-  double high[2] = {low[0], low[1]};
-  for (const auto& [x, y] : {std::pair{1, 0}, std::pair{0, 1}, std::pair{1, 1}}) {
-    const TPose2D corner =
-        compose(file.map_T_image, {x * cells.width() * resolution_m, y * cells.height() * resolution_m, 0});
-    low[0] = std::min(low[0], corner.x), high[0] = std::max(high[0], corner.x);
-    low[1] = std::min(low[1], corner.y), high[1] = std::max(high[1], corner.y);
-  }
+  const auto& [low, high] = corners_of_grid(
+      file, {static_cast<std::uint64_t>(cells.width()), static_cast<std::uint64_t>(cells.height())});
   Grid grid;
-  const auto margin = [&](double metres, double cells_more) {
-    return static_cast<float>(metres + cells_more * resolution_m);
-  };
-  grid.setSize(margin(low[0], -1), margin(high[0], 1), margin(low[1], -1), margin(high[1], 1),
-               static_cast<float>(resolution_m), 0.5F);
-  const TPose2D image_T_map = inverse(file.map_T_image);
-  const auto cell_at = [&](double x, double y) {
-    const TPose2D place = compose(image_T_map, {x, y, 0});
-    const int column = static_cast<int>(std::floor(place.x / resolution_m));
-    const int row = static_cast<int>(std::floor(place.y / resolution_m));
+  grid.setSize(static_cast<float>(low.x), static_cast<float>(high.x), static_cast<float>(low.y),
+               static_cast<float>(high.y), static_cast<float>(resolution_m), 0.5F);
+  const TPose2D& origin = file.map_T_image;
+  const auto [sin, cos] = portable::sin_cos(origin.phi);
+  const auto cell_at = [&, sin = sin, cos = cos](double x, double y) {
+    const double right_m = cos * (x - origin.x) + sin * (y - origin.y);
+    const double up_m = cos * (y - origin.y) - sin * (x - origin.x);
+    const int column = static_cast<int>(std::floor(right_m / resolution_m));
+    const int row = static_cast<int>(std::floor(up_m / resolution_m));
     const bool is_inside = column >= 0 && row >= 0 && column < cells.width() && row < cells.height();
     return is_inside ? cells.at(column, row) : kUnknown;
   };
@@ -213,6 +206,23 @@ MapServerFile read_map_server_file(const std::filesystem::path& path) {
   file.free_threshold = keys.number("free_thresh");
   file.mode = mode_of(keys);
   return file;
+}
+
+GridCorners corners_of_grid(const MapServerFile& file, const ImageSize& size) {
+  const TPose2D& origin = file.map_T_image;
+  const double width_m = static_cast<double>(size.width) * file.resolution_m;
+  const double height_m = static_cast<double>(size.height) * file.resolution_m;
+  if (origin.phi == 0) return {{origin.x, origin.y}, {origin.x + width_m, origin.y + height_m}};
+  GridCorners corners{{origin.x, origin.y}, {origin.x, origin.y}};
+  auto& [low, high] = corners;
+  for (const TPose2D& corner :
+       {TPose2D(width_m, 0, 0), TPose2D(0, height_m, 0), TPose2D(width_m, height_m, 0)}) {
+    const TPose2D place = compose(origin, corner);
+    low = {std::min(low.x, place.x), std::min(low.y, place.y)};
+    high = {std::max(high.x, place.x), std::max(high.y, place.y)};
+  }
+  const mrpt::math::TPoint2D margin(file.resolution_m, file.resolution_m);
+  return {low - margin, high + margin};
 }
 
 std::optional<Grid> grid_of_image(const MapServerFile& file) {

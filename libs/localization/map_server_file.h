@@ -3,10 +3,13 @@
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <filesystem>
 #include <optional>
+
+#include "localization/image_size.h"
 
 namespace psi_slam {
 
@@ -26,6 +29,16 @@ struct MapServerFile {
 /// Reads a map.yaml. An origin of two numbers, or whose yaw is not a number, has yaw 0. Throws UserError that
 /// names the key that is missing or wrong.
 MapServerFile read_map_server_file(const std::filesystem::path& path);
+
+/// Lower left and upper right corner of a grid in the map, metres.
+struct GridCorners {
+  mrpt::math::TPoint2D low;
+  mrpt::math::TPoint2D high;
+};
+
+/// Returns the corners of the grid that grid_of_image() makes of an image of this size: those of the image,
+/// or of the rectangle around the turned image and a cell more on each side.
+GridCorners corners_of_grid(const MapServerFile& file, const ImageSize& size);
 
 /// Makes a grid map of the image of a map.yaml: probabilities of free space by the rules of map_server,
 /// except that pixels with less than half of the opacity are unknown. Images of 8 and 16 bits, grey or

@@ -79,6 +79,15 @@ void check_resolution(const std::filesystem::path& path, double resolution_m) {
         " m, expected 0.001 to 1 m. Export the map again with psi-slam, or correct the resolution");
 }
 
+/// Throws UserError if a map of this size has more cells than most_cells() of `file`.
+void check_cells(const std::filesystem::path& file, double width, double height, const std::string& unit) {
+  const std::uint64_t most = most_cells(file);
+  if (width * height > static_cast<double>(most))
+    throw UserError(file.string() + " states " + fixed_text(width, 0) + " x " + fixed_text(height, 0) + ' ' +
+                    unit + ", expected at most " + std::to_string(most) +
+                    " for a file of its size. Export the map with a coarser resolution");
+}
+
 /// Returns the size of `file`. Throws UserError if `file`, the image that `map.yaml` names, does not exist or
 /// is damaged, which MRPT reports on the terminal only, or if its header states no pixels or more than
 /// most_cells().
@@ -98,11 +107,7 @@ ImageSize check_image(const std::filesystem::path& path, const std::filesystem::
   if (!size)
     throw UserError(file.string() +
                     " is not an image that is read, expected PNG, PGM, BMP or JPEG. Convert the image");
-  const std::uint64_t most = most_cells(file);
-  if (size->width * size->height > most)
-    throw UserError(file.string() + " states " + std::to_string(size->width) + " x " +
-                    std::to_string(size->height) + " pixels, expected at most " + std::to_string(most) +
-                    " for a file of its size. Export the map with a coarser resolution");
+  check_cells(file, static_cast<double>(size->width), static_cast<double>(size->height), "pixels");
   if (size->width == 0 || size->height == 0)
     throw UserError(file.string() + " states " + std::to_string(size->width) + " x " +
                     std::to_string(size->height) + " pixels, expected at least one. Export the map again");
@@ -121,23 +126,17 @@ PlacedMapFile read_yaml(const std::filesystem::path& path) {
   check_resolution(path, file.resolution_m);
   const ImageSize size = check_image(path, file.image);
   const mrpt::math::TPose2D& origin = file.map_T_image;
-  const double reach_m = file.resolution_m * static_cast<double>(size.width + size.height);
-  const bool is_turned = origin.phi != 0;
-  // MRPT fails if both ends of the map are the same number of 32 bits.
-  check_map_place(
-      path,
-      is_turned ? mrpt::math::TPoint2D(origin.x - reach_m, origin.y - reach_m)
-                : mrpt::math::TPoint2D(origin.x, origin.y),
-      is_turned ? mrpt::math::TPoint2D(origin.x + reach_m, origin.y + reach_m)
-                : mrpt::math::TPoint2D(origin.x + file.resolution_m * static_cast<double>(size.width),
-                                       origin.y + file.resolution_m * static_cast<double>(size.height)));
+  const auto& [low, high] = corners_of_grid(file, size);
+  check_map_place(path, low, high);  // MRPT fails if both ends of the map are the same number of 32 bits
+  check_cells(file.image, (high.x - low.x) / file.resolution_m, (high.y - low.y) / file.resolution_m,
+              "cells with the yaw of the key origin");
   std::optional<Grid> grid = grid_of_image(file);
   if (!grid)
     throw UserError(path.string() +
                     ": the image that it names is unreadable, expected an image file such as map.pgm. "
                     "Export the map again with psi-slam");
   PlacedMapFile map{*std::move(grid)};
-  if (is_turned) return map;  // its cells are where the origin says
+  if (origin.phi != 0) return map;  // its cells are where the origin says
   const auto offset = [&](double stated_m, float read_m) {
     const double off_m = stated_m - static_cast<double>(read_m);
     return std::abs(off_m) > kLeastOffset * file.resolution_m ? off_m : 0;

@@ -174,6 +174,12 @@ TEST_F(ForeignMap, that_is_turned_has_its_cells_where_the_origin_says) {
   }
 }
 
+TEST_F(ForeignMap, that_needs_countless_cells_when_turned_is_refused) {
+  write_image("map.png", cv::Mat(1000, 50'000, CV_8U, cv::Scalar(254)));
+  EXPECT_THAT(sentence_of([&] { read("map.png", "[0, 0, 0.785]"); }),
+              HasSubstr("cells with the yaw of the key origin, expected at most 100000000 for a file"));
+}
+
 TEST_F(ForeignMap, with_a_wrong_key_is_refused_with_its_name) {
   write_map();
   EXPECT_THAT(sentence("[nan, 0, 0]"),

@@ -22,7 +22,7 @@ std::optional<ImageSize> image_size(std::string_view bytes);
 /// image has a number for each, and a PNG image has all parts with their checksums. True for BMP and JPEG.
 bool holds_all_pixels(std::string_view bytes);
 
-/// Returns the sample that is white if OpenCV reads the bytes of a PNM image without scaling its samples.
+/// Returns the maximum sample value of a PNM image if OpenCV leaves its samples unscaled; otherwise nothing.
 std::optional<double> white_sample(std::string_view bytes);
 
 }  // namespace psi_slam

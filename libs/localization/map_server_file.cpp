@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "base/file_bytes.h"
 #include "base/number_text.h"
@@ -65,10 +66,10 @@ class MapKeys {
     try {
       const auto& list = (*yaml_)[key].asSequence();
       if (place >= list.size()) return std::nullopt;
-      const std::string text = list.at(place).as<std::string>();
+      std::string text = list.at(place).as<std::string>();
       if (const auto number = parse_number(text)) return *number;
-      if (text.find("nan") != std::string::npos || text.find("NaN") != std::string::npos)
-        return std::numeric_limits<double>::quiet_NaN();
+      for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      if (text == "nan" || text == "-nan" || text == ".nan") return std::numeric_limits<double>::quiet_NaN();
     } catch (const std::exception&) {  // it is no list
     }
     fail(key, expected);
@@ -108,11 +109,20 @@ MapImageMode mode_of(const MapKeys& keys) {
   return MapImageMode::kTrinary;
 }
 
+/// Empty if OpenCV cannot read the image.
+std::optional<cv::Mat> decoded(const std::filesystem::path& path) {
+  try {
+    cv::Mat image = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+    if (!image.empty()) return image;
+  } catch (const cv::Exception&) {  // such as for more pixels than OpenCV's limit
+  }
+  return std::nullopt;
+}
+
 /// Cells of an image, by the rules of map_server.
 class ImageCells {
  public:
-  explicit ImageCells(const MapServerFile& file)
-      : file_(file), image_(cv::imread(file.image.string(), cv::IMREAD_UNCHANGED)) {
+  ImageCells(const MapServerFile& file, cv::Mat image) : file_(file), image_(std::move(image)) {
     is_wide_ = image_.depth() == CV_16U;
     white_ = white_sample(file_bytes(file.image)).value_or(is_wide_ ? 65535 : 255);
     opaque_ = is_wide_ ? 65535 : 255;
@@ -204,6 +214,9 @@ MapServerFile read_map_server_file(const std::filesystem::path& path) {
   file.negate = is_true(keys, "negate");
   file.occupied_threshold = keys.number("occupied_thresh");
   file.free_threshold = keys.number("free_thresh");
+  if (file.free_threshold < 0 || file.free_threshold >= file.occupied_threshold ||
+      file.occupied_threshold > 1)
+    keys.fail("occupied_thresh", "a number above free_thresh, and both from 0 to 1");
   file.mode = mode_of(keys);
   return file;
 }
@@ -226,8 +239,9 @@ GridCorners corners_of_grid(const MapServerFile& file, const ImageSize& size) {
 }
 
 std::optional<Grid> grid_of_image(const MapServerFile& file) {
-  const ImageCells cells(file);
-  if (cells.width() == 0) return std::nullopt;
+  const std::optional<cv::Mat> image = decoded(file.image);
+  if (!image) return std::nullopt;
+  const ImageCells cells(file, *image);
   if (file.map_T_image.phi != 0) return turned_grid(file, cells);
   Grid grid;
   const auto edge = [&](double origin_m, int count) {

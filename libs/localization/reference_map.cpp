@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localization/reference_map.h"
 
-#include <mrpt/img/CImage.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -89,7 +88,7 @@ void check_cells(const std::filesystem::path& file, double width, double height,
 }
 
 /// Returns the size of `file`. Throws UserError if `file`, the image that `map.yaml` names, does not exist or
-/// is damaged, which MRPT reports on the terminal only, or if its header states no pixels or more than
+/// is damaged, which OpenCV reports on the terminal only, or if its header states no pixels or more than
 /// most_cells().
 ImageSize check_image(const std::filesystem::path& path, const std::filesystem::path& file) {
   std::error_code ignored;
@@ -111,9 +110,12 @@ ImageSize check_image(const std::filesystem::path& path, const std::filesystem::
   if (size->width == 0 || size->height == 0)
     throw UserError(file.string() + " states " + std::to_string(size->width) + " x " +
                     std::to_string(size->height) + " pixels, expected at least one. Export the map again");
-  const bool is_whole = holds_all_pixels(file_bytes(file)) &&
-                        (head[0] == 'P' || mrpt::img::CImage().loadFromFile(file.string()));
-  if (!is_whole)
+  constexpr std::uint64_t kMostOfSide = std::uint64_t{1} << 20;  // OpenCV refuses larger images
+  if (std::max(size->width, size->height) > kMostOfSide)
+    throw UserError(file.string() + " states " + std::to_string(size->width) + " x " +
+                    std::to_string(size->height) + " pixels, expected at most " +
+                    std::to_string(kMostOfSide) + " along each side. Cut the map");
+  if (!holds_all_pixels(file_bytes(file)))
     throw UserError(file.string() + " is cut off or damaged, expected an image of " +
                     std::to_string(size->width) + " x " + std::to_string(size->height) +
                     " pixels. Copy or export the map again");

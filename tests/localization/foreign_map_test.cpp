@@ -3,6 +3,7 @@
 #include "localization/map_server_file.h"
 
 #include <gmock/gmock.h>
+#include <zlib.h>
 
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
@@ -10,6 +11,7 @@
 
 #include "exports/map_server_pair.h"
 #include "localization/reference_map.h"
+#include "shared_logs.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 
@@ -93,7 +95,7 @@ TEST_F(ForeignMap, may_have_black_for_free_space) {
 TEST_F(ForeignMap, without_a_valid_yaw_is_not_turned) {
   write_map();
   const COccupancyGridMap2D expected = read("map.pgm", "[-1.5, 4.0, 0.0]");
-  for (const char* origin : {"[-1.5, 4.0]", "[-1.5, 4.0, nan]", "[-1.5, 4.0, -nan]", "[-1.5, 4.0, .nan]"}) {
+  for (const char* origin : {"[-1.5, 4.0]", "[-1.5, 4.0, nan]", "[-1.5, 4.0, -nan]", "[-1.5, 4.0, .NaN]"}) {
     const COccupancyGridMap2D grid = read("map.pgm", origin);
     EXPECT_TRUE(grid.getRawMap() == expected.getRawMap()) << origin;
     EXPECT_EQ(grid.getXMin(), expected.getXMin()) << origin;
@@ -127,6 +129,61 @@ TEST_F(ForeignMap, of_16_bits_or_with_opacity_has_the_same_cells) {
     EXPECT_TRUE(read(name, "[-1.5, 4.0, 0]", "mode: trinary\n").getRawMap() == expected.getRawMap()) << name;
   }
   EXPECT_TRUE(read("clear.png", "[-1.5, 4.0, 0]", "mode: scale\n").getRawMap() == expected.getRawMap());
+}
+
+/// Writes a PNG image of grey and opacity, which OpenCV does not write. The rows begin with their filter, 0.
+void write_grey_alpha_png(const std::filesystem::path& path, const cv::Mat& grey, std::uint8_t transparent) {
+  const auto big_endian = [](std::size_t number) {
+    std::string bytes;
+    for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(number >> shift);
+    return bytes;
+  };
+  const auto chunk = [&](const std::string& kind_and_data) {
+    const auto* bytes = reinterpret_cast<const Bytef*>(kind_and_data.data());
+    return big_endian(kind_and_data.size() - 4) + kind_and_data +
+           big_endian(crc32_z(0, bytes, kind_and_data.size()));
+  };
+  std::string rows;
+  for (int y = 0; y < grey.rows; ++y) {
+    rows += '\0';
+    for (int x = 0; x < grey.cols; ++x) {
+      const auto value = grey.at<std::uint8_t>(y, x);
+      rows += static_cast<char>(value == transparent ? 0 : value);
+      rows += static_cast<char>(value == transparent ? 0 : 255);
+    }
+  }
+  uLongf size = compressBound(rows.size());
+  std::string packed(size, '\0');
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(rows.data()),
+           rows.size());
+  packed.resize(size);
+  const std::string form("\x08\x04\0\0\0", 5);  // 8 bits, grey and opacity
+  write_file(path, "\x89PNG\r\n\x1A\n" +
+                       chunk("IHDR" + big_endian(static_cast<std::size_t>(grey.cols)) +
+                             big_endian(static_cast<std::size_t>(grey.rows)) + form) +
+                       chunk("IDAT" + packed) + chunk("IEND"));
+}
+
+TEST_F(ForeignMap, of_grey_and_opacity_has_the_same_cells) {
+  const cv::Mat image = write_map();
+  const COccupancyGridMap2D expected = read("map.pgm", "[-1.5, 4.0, 0.0]");
+  write_grey_alpha_png(folder_.path() / "grey_alpha.png", image, 205);
+  EXPECT_TRUE(read("grey_alpha.png", "[-1.5, 4.0, 0.0]").getRawMap() == expected.getRawMap());
+}
+
+TEST(ForeignMaps, of_benchmark_logs_agree) {
+  const auto path = shared_file("faults/maps/map2.yaml");
+  if (!path) GTEST_SKIP() << kNeedsData;
+  const COccupancyGridMap2D map = read_map_file(*path);
+  EXPECT_NEAR(map.getXMin(), -1.75, 1e-6);
+  EXPECT_NEAR(map.getYMin(), -7.55, 1e-6);
+  for (const char* name : {"nanyaw.yaml", "rgbascale.yaml"}) {
+    const COccupancyGridMap2D other = read_map_file(path->parent_path() / name);
+    EXPECT_EQ(other.getXMin(), map.getXMin()) << name;
+    EXPECT_TRUE(other.getRawMap() == map.getRawMap()) << name;
+  }
+  EXPECT_THAT(sentence_of([&] { read_map_file(path->parent_path() / "p16.yaml"); }),
+              HasSubstr("p16.pgm does not exist"));
 }
 
 TEST_F(ForeignMap, of_scale_or_raw_has_cells_in_between) {
@@ -180,11 +237,33 @@ TEST_F(ForeignMap, that_needs_countless_cells_when_turned_is_refused) {
               HasSubstr("cells with the yaw of the key origin, expected at most 100000000 for a file"));
 }
 
+TEST_F(ForeignMap, that_the_decoder_refuses_is_refused_in_one_sentence) {
+  write_file(folder_.path() / "map.pgm", "P5 1100000 50 255\n" + std::string(55'000'000, '\0'));
+  EXPECT_THAT(sentence("[0, 0, 0]"),
+              HasSubstr("map.pgm states 1100000 x 50 pixels, expected at most 1048576 along each side. Cut"));
+  EXPECT_FALSE(grid_of_image(read_map_server_file(yaml_))) << "OpenCV throws an exception";
+  write_file(folder_.path() / "map.bmp", "BM" + std::string(16, '\0') + std::string("\x4\0\0\0\x4\0\0\0", 8));
+  EXPECT_THAT(sentence_of([&] { read("map.bmp", "[0, 0, 0]"); }),
+              HasSubstr("is unreadable, expected an image"));
+}
+
+TEST_F(ForeignMap, with_thresholds_out_of_order_is_refused) {
+  write_map();
+  for (const char* thresholds :
+       {"occupied_thresh: 0.5\nfree_thresh: 0.5\n", "occupied_thresh: 0.196\nfree_thresh: 0.65\n",
+        "occupied_thresh: 65\nfree_thresh: 0.2\n", "occupied_thresh: 0.65\nfree_thresh: -0.1\n"})
+    EXPECT_THAT(
+        sentence("[0, 0, 0]", "mode: scale\n", thresholds),
+        HasSubstr("map.yaml: the key occupied_thresh is invalid, expected a number above free_thresh, "
+                  "and both from 0 to 1. Correct the file"))
+        << thresholds;
+}
+
 TEST_F(ForeignMap, with_a_wrong_key_is_refused_with_its_name) {
   write_map();
   EXPECT_THAT(sentence("[nan, 0, 0]"),
               HasSubstr("map.yaml: the key origin is invalid, expected a list of two or three numbers"));
-  for (const char* origin : {"[1]", "[1, 2, north]", "5"})
+  for (const char* origin : {"[1]", "[1, 2, north]", "[1, 2, banana]", "5"})
     EXPECT_THAT(sentence(origin), HasSubstr("the key origin is invalid")) << origin;
   EXPECT_THAT(sentence("[0, 0, 0]", "mode: grey\n"),
               HasSubstr("the key mode is invalid, expected trinary, scale or raw. Correct the file"));

@@ -89,9 +89,9 @@ as_root() {
   fi
 }
 
-# Waits while another program installs packages.
+# Waits while another program installs packages, which apt-get says. Its messages are in English, see update_lists.
 apt_get() {
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get --quiet --option "DPkg::Lock::Timeout=$lock_timeout_s" "$@"
+  as_root env LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get --quiet --option "DPkg::Lock::Timeout=$lock_timeout_s" "$@"
 }
 
 # Updates the lists of packages. apt-get itself does not wait for another program that updates them.
@@ -169,7 +169,6 @@ else
   mapfile -t packages_to_install < <(packages_of "${missing[@]}")
   if [ "${#packages_to_install[@]}" -gt 0 ]; then
     say "installing ${packages_to_install[*]}"
-    say "if another program is installing packages, this waits for it, at most $((lock_timeout_s / 60)) minutes"
     apt_get install --yes --no-install-recommends "${packages_to_install[@]}" >&2 ||
       fail "apt-get install failed. Read its message above"
   fi

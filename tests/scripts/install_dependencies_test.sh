@@ -54,6 +54,7 @@ for package in libgdal9 libgdal-grass libgtest-dev cmake; do
   [[ "$runtime" != *" $package "* ]] || fail "the list runtime installs $package"
 done
 build=" $(installs build) "
+if grep "another program" "$scratch/words"; then fail "says that it waits although nothing is locked"; fi
 [[ "$build" == *" libmrpt-dev "* ]] || fail "the list build lacks libmrpt-dev:$build"
 [[ "$build" != *" cmake "* ]] || fail "installs cmake again, which is installed"
 
@@ -75,7 +76,9 @@ echo "Package: libcli11-dev" >>"$scratch/packages"
 program apt-get "echo \"\$@\" >>'$scratch/calls'" \
   "if [ ! -e '$scratch/was_locked' ]; then" \
   "  touch '$scratch/was_locked'" \
-  "  echo 'E: Could not get lock /var/lib/apt/lists/lock. It is held by process 7 (apt-get)' >&2" \
+  "  message='E: Konnte Sperre /var/lib/apt/lists/lock nicht bekommen.'" \
+  "  if [ \"\$LC_ALL\" = C ]; then message='E: Could not get lock /var/lib/apt/lists/lock. It is held by process 7'; fi" \
+  "  echo \"\$message\" >&2" \
   "  exit 100" \
   "fi"
 installs build >/dev/null || fail "a locked list of packages stops the script: $(cat "$scratch/words")"

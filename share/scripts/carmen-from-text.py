@@ -13,7 +13,8 @@ import math
 import sys
 
 TIMES_S = ("time", "time_s", "timestamp", "t")
-TIMES_NS = ("%time", "stamp")
+STAMPS = ("stamp", "%time")  # the time of measurement goes before the time of receipt
+MOST_SECONDS = 1e12  # a larger number in a column "stamp" is in nanoseconds
 MAX_RANGE_M = 1000.0  # of a log that states none
 
 
@@ -40,6 +41,12 @@ def number(text):
         return float(text)
     except (TypeError, ValueError):
         return math.nan
+
+
+def max_range(text):
+    """Returns the stated maximum range in metres; MAX_RANGE_M if there is none."""
+    range_m = number(text)
+    return range_m if range_m > 0 and math.isfinite(range_m) else MAX_RANGE_M
 
 
 def even_span(bearings_rad, place):
@@ -80,14 +87,17 @@ def lines_of_csm(text, path):
             else:
                 first_rad, span_rad = scan["min_theta"], scan["max_theta"] - scan["min_theta"]
             seconds, microseconds = scan["timestamp"]
+            time_s = seconds + 1e-6 * microseconds
+            numbers = first_rad, span_rad, time_s
+            if not all(map(math.isfinite, numbers)):
+                raise ValueError(numbers)
             odometry = scan.get("odometry")
             if odometry and not all(isinstance(v, (int, float)) and math.isfinite(v) for v in odometry):
                 odometry = None
         except (AttributeError, KeyError, TypeError, ValueError) as error:
-            raise Mistake(f"{place} lacks a valid field {error}, expected readings, timestamp, and theta or "
-                          "min_theta and max_theta. Correct the log") from error
-        yield carmen_line(seconds + 1e-6 * microseconds, first_rad, span_rad, scan.get("max_reading", MAX_RANGE_M), ranges_m,
-                          odometry)
+            raise Mistake(f"{place} lacks a valid field, expected readings, timestamp, and theta or min_theta and max_theta. "
+                          "Correct the log") from error
+        yield carmen_line(time_s, first_rad, span_rad, max_range(scan.get("max_reading")), ranges_m, odometry)
 
 
 def column_name(name):
@@ -101,7 +111,7 @@ def lines_of_table(lines, path, degrees):
     rows = csv.reader(lines, dialect)
     names = [column_name(name) for name in next(rows)]
     at = {name: i for i, name in reversed(list(enumerate(names)))}
-    time = next((name for name in TIMES_S + TIMES_NS if name in at), None)
+    time = next((name for name in TIMES_S + STAMPS if name in at), None)
     numbered = [i for i, name in enumerate(names) if name.startswith("ranges") and name[6:].strip("[]_").isdigit()]
     named = [i for i, name in enumerate(names) if math.isfinite(number(name))]
     ranges = numbered if "angle_min" in at and "angle_increment" in at else named
@@ -122,11 +132,13 @@ def lines_of_table(lines, path, degrees):
         else:
             bearings_rad = [unit * number(names[i]) for i in ranges]
             first_rad, span_rad = bearings_rad[0], even_span(bearings_rad, place)
-        time_s = number(row[at[time]]) * (1e-9 if time in TIMES_NS else 1)
+        time_s = number(row[at[time]])
+        if time in STAMPS and ("%time" in at or time_s > MOST_SECONDS):  # ROS counts nanoseconds
+            time_s *= 1e-9
         if not all(map(math.isfinite, (first_rad, span_rad, time_s))):
             raise Mistake(f"{place}: the time or a bearing is not a number. Correct the row")
         odometry = [number(row[at[name]]) for name in ("x", "y", "theta") if name in at]
-        max_range_m = number(row[at["range_max"]]) if "range_max" in at else MAX_RANGE_M
+        max_range_m = max_range(row[at["range_max"]] if "range_max" in at else None)
         yield carmen_line(time_s, first_rad, span_rad, max_range_m, [number(row[i]) for i in ranges],
                           odometry if len(odometry) == 3 else None)
 
@@ -137,7 +149,7 @@ def main():
     parser.add_argument("--degrees", action="store_true", help="the columns of the table are named by bearings in degrees")
     arguments = parser.parse_args()
     try:
-        with open(arguments.log, encoding="utf-8", errors="replace", newline="") as file:
+        with open(arguments.log, encoding="utf-8-sig", errors="replace", newline="") as file:
             text = file.read()
         if not text.strip():
             raise Mistake(f"{arguments.log} is empty, expected a JSON log of CSM or a CSV table")

@@ -99,9 +99,22 @@ with tempfile.TemporaryDirectory() as name:
     file.write_text("time_s,range_max,-1,0,1\n7,20,1.5,inf,3\n")
     assert convert(file).split()[9:12] == ["1.5000", "20", "3.0000"]
 
+    # Maximum ranges that the log leaves out, a byte order mark, and stamps in seconds and nanoseconds.
+    file.write_text('{"min_theta": -1, "max_theta": 1, "readings": [1, 2, 3], "timestamp": [5, 0], "max_reading": null}')
+    assert convert(file).split()[5] == "1000"
+    file.write_text("\ufefftime_s,range_max,-1,0,1\n7,,1.5,2,3\n")
+    assert convert(file).split()[5] == "1000"
+    for text, time in (("stamp,-1,1\n1700000000.5,1,2", "1700000000.500000"),
+                       ("stamp,-1,1\n1700000000500000000,1,2", "1700000000.500000"),
+                       ("%time,field.header.stamp,-1,1\n9000000000,8000000000,1,2", "8.000000")):
+        file.write_text(text)
+        assert convert(file).split()[-1] == time, convert(file)
+
     for text, sentence in (("", "is empty"), ("a,b\n1,2\n", "the header lacks the time"), ("time_s,x\n1,2\n", "lacks bearings"),
                            ("time_s,-1,0,1\n1,2\n", ":2: 2 columns, expected 4"), ("time_s,-1,0,3\n1,2,2,2\n", "even steps"),
-                           ("{\"readings\": [1, 2]}", "scan 1 lacks a valid field"), ("[{\"readings\": ", "expected a JSON object")):
+                           ("{\"readings\": [1, 2]}", "scan 1 lacks a valid field, expected"),
+                           ('{"min_theta": -1, "max_theta": 1, "readings": [1, 2], "timestamp": [null, null]}',
+                            "lacks a valid field, expected"), ("[{\"readings\": ", "expected a JSON object")):
         file.write_text(text)
         found = convert(file, status=2)
         assert sentence in found and found.count("\n") == 1, found

@@ -185,22 +185,14 @@ std::vector<std::string> describe_sweep_direction(const SweepDirectionStudy& stu
   return lines;
 }
 
-namespace {
-
-/// Returns whether no scan has a return. Other lasers of the log may have some.
-bool has_no_returns(const LogDiagnosis& diagnosis) {
-  return diagnosis.laser.empty() && diagnosis.facts.ranges.empty_scans == diagnosis.facts.scans;
-}
-
-}  // namespace
-
 std::string refusal_of(const LogDiagnosis& diagnosis) {
-  if (has_no_returns(diagnosis)) return no_returns_text(diagnosis.path.string(), diagnosis.facts.scans);
+  if (diagnosis.scans_without_returns > 0)
+    return no_returns_text(diagnosis.path.string(), diagnosis.scans_without_returns);
   return diagnosis.facts.broken_off;
 }
 
 std::string verdict_of(const LogDiagnosis& diagnosis) {
-  if (has_no_returns(diagnosis)) return "cannot be mapped";
+  if (diagnosis.scans_without_returns > 0) return "cannot be mapped";
   const auto warnings = static_cast<std::size_t>(
       std::count_if(diagnosis.findings.begin(), diagnosis.findings.end(),
                     [](const Finding& finding) { return finding.severity == Severity::kWarning; }));

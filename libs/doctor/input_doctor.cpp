@@ -11,6 +11,7 @@
 #include "frames/log_reader.h"
 #include "frames/pose_operations.h"
 #include "logs/frame_pipeline.h"
+#include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -117,6 +118,19 @@ SweepDirectionStudy study_first_laser(const std::filesystem::path& path, const L
   return studies.empty() ? SweepDirectionStudy{} : studies.front();
 }
 
+/// Counts the scans that would be mapped, up to damage. Returns 0 if one has a return.
+std::size_t count_scans_without_returns(const std::filesystem::path& path, const LogOptions& options) {
+  const auto log = open_log(path, options);
+  std::size_t scans = 0;
+  try {
+    for (; const auto frame = log->next(); ++scans)
+      if (has_return(*frame)) return 0;
+  } catch (const UserError&) {
+    if (scans == 0) throw;
+  }
+  return scans;
+}
+
 }  // namespace
 
 LasersOfLog single_lasers(const std::filesystem::path& path, const LogOptions& options) {
@@ -156,6 +170,8 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
   FirstPass pass = read_once(path, diagnosis.options,
                              diagnosis.options.max_range_m.value_or(diagnosis.max_range.max_range_m));
   diagnosis.facts = pass.facts;
+  if (pass.facts.ranges.empty_scans == pass.facts.scans)
+    diagnosis.scans_without_returns = count_scans_without_returns(path, options);
   diagnosis.facts.contents.several_lasers = log.are_combined;
   diagnosis.laser = log.lasers.front().name;
   diagnosis.own_body = find_own_body(*open_log_reader(path, diagnosis.options)).sectors();

@@ -3,6 +3,7 @@
 // Odometry is compared with the alignment of a sample of scans from the whole log.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -38,10 +39,11 @@ struct Finding {
 struct LogDiagnosis {
   std::filesystem::path path;
   LogFacts facts;
-  MaxRange max_range;                   ///< by the readings; a maximum in `options` does not limit it
-  SweepDirectionStudy sweep_direction;  ///< without scans if no sweep time is stated
-  LogOptions options;                   ///< options used to read the log
-  std::string laser;                    ///< laser that is judged; see SingleLaser::name
+  std::size_t scans_without_returns = 0;  ///< number of all scans if none of any laser has a return, else 0
+  MaxRange max_range;                     ///< by the readings; a maximum in `options` does not limit it
+  SweepDirectionStudy sweep_direction;    ///< without scans if no sweep time is stated
+  LogOptions options;                     ///< options used to read the log
+  std::string laser;                      ///< laser that is judged; see SingleLaser::name
   BeamAngles used_beam_angles = BeamAngles::kAuto;  ///< kAuto if the log states its angles
   std::vector<BodySector> own_body;                 ///< beams that see the robot itself
   OdometryAgreement odometry;

@@ -115,6 +115,15 @@ LogFacts LogFactsCollector::facts() const {
   return facts;
 }
 
+bool has_return(const Frame& frame) {
+  bool any = false;
+  for_each_scan(frame, {}, [&](const LaserScan& scan, const mrpt::math::TPose2D&) {
+    any = any || std::any_of(scan.ranges_m.begin(), scan.ranges_m.end(),
+                             [](float range_m) { return std::isfinite(range_m); });
+  });
+  return any;
+}
+
 std::string no_returns_text(const std::string& log, std::size_t scans) {
   return log + ": none of its " + std::to_string(scans) +
          " scans has a return between log.min_range_m and log.max_range_m. Correct these two options";

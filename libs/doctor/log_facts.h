@@ -64,6 +64,9 @@ struct LogFacts {
   RangeFacts ranges;
 };
 
+/// Returns whether a scan of the frame has a finite range.
+bool has_return(const Frame& frame);
+
 /// Returns why a log without any return cannot be mapped. `log` names it.
 std::string no_returns_text(const std::string& log, std::size_t scans);
 

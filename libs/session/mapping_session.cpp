@@ -35,15 +35,6 @@ namespace fs = std::filesystem;
 // wait, and the time until run() stops.
 constexpr std::size_t kRunAhead_nodes = 1000;
 
-bool has_return(const Frame& frame) {
-  bool any = false;
-  for_each_scan(frame, {}, [&](const LaserScan& scan, const mrpt::math::TPose2D&) {
-    any = any || std::any_of(scan.ranges_m.begin(), scan.ranges_m.end(),
-                             [](float range_m) { return std::isfinite(range_m); });
-  });
-  return any;
-}
-
 /// Returns the options of the mapper. The front end goes first, because several threads cannot share its
 /// work. A live run has the threads beside it even with run.threads = 1.
 MapperOptions options_for(const SessionInput& input, const Settings& settings) {

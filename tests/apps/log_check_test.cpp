@@ -9,6 +9,7 @@
 #include "../session/room_log.h"
 #include "app_run.h"
 #include "temporary_folder.h"
+#include "two_lasers.h"
 
 namespace psi_slam {
 namespace {
@@ -82,6 +83,9 @@ TEST_F(LogCheck, a_log_without_returns_gets_the_answer_of_mapping) {
     expect_same_answer(write_lines(folder_.path() / "empty.log", lines).string(), {});
   }
   expect_same_answer(log_, {"--set", "log.min_range_m=90", "--set", "log.max_range_m=100"});
+  write_rawlog_of(folder_.path() / "two.rawlog", TwoLasers());
+  expect_same_answer((folder_.path() / "two.rawlog").string(),
+                     {"--set", "log.min_range_m=90", "--set", "log.max_range_m=100"});
 }
 
 TEST_F(LogCheck, an_unreadable_log_is_wrong_input) {

@@ -30,10 +30,9 @@ using Ask = FileQuestion::Kind;
 using Path = std::filesystem::path;
 
 const char* const kLogFiles =
-    "Logs and "
-    "sessions|*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz;*.bz2;*.xz;*.lz4;*.zst;*.zstd;*.session;*.journal|"
-    "All "
-    "files|*";
+    "Logs and sessions|"
+    "*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz;*.bz2;*.xz;*.lz4;*.zst;*.zstd;*.session;*.journal|"
+    "All files|*";
 const char* const kGrowingFiles =
     "Logs and bags|*.log;*.clf;*.rawlog;*.gz;*.bag;*.active;*.db3;*.mcap|All files|*";
 const char* const kSettingsFiles = "Settings (*.ini)|*.ini|All files|*";

@@ -8,7 +8,7 @@
 namespace psi_slam {
 namespace {
 
-/// A kind of file, which holds a text at a place.
+/// A file format that is recognised by a text at an offset.
 struct Kind {
   static constexpr std::size_t kAnywhere = std::string_view::npos;
   std::size_t at = 0;
@@ -38,7 +38,9 @@ constexpr std::array kKinds{
          "It holds network packets. Convert them to a ROS bag with the lidar's driver"},
     Kind{Kind::kAnywhere, "VERTEX", "It looks like a pose graph, which has no scans. Name a log"},
     Kind{Kind::kAnywhere, "\"readings\"", kConvertible},
-    Kind{Kind::kAnywhere, "angle_min", kConvertible},
+    Kind{Kind::kAnywhere, "angle_min:",
+         "It is text of rostopic echo. Record a bag, or use rostopic echo -p and convert the table with "
+         "share/scripts/carmen-from-text.py"},
 };
 
 /// Returns whether the last complete line, or the only one, has at least ten commas or semicolons.

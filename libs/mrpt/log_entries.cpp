@@ -75,7 +75,7 @@ class RawlogEntries : public LogEntries {
 
  private:
   bool is_of_another_laser(const CObservation& observation) {
-    if (is_cloud(observation)) return true;  // and it has no points
+    if (is_cloud(observation)) return true;  // RawlogArchive sends clouds without points unless it slices
     if (dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation) == nullptr) return false;
     const bool is_other = !lasers_.number_of(observation.sensorLabel);
     if (is_other) other_lasers_.insert(observation.sensorLabel);

@@ -78,6 +78,9 @@ TEST_F(LogFormatTest, guesses_what_an_unknown_file_is) {
            {"VERTEX_SE2 0 0 0 0\n", "pose graph"},
            {csm, "carmen-from-text.py"},
            {table, "carmen-from-text.py"},
+           {"header:\n  seq: 1\nangle_min: -1.5\nranges: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]\n",
+            "It is text of rostopic echo. Record a bag, or use rostopic echo -p"},
+           {"The option angle_min is in radians.\n", "Convert it first"},
            {"Dear robot,\nwhere are you?\n", "Convert it first"}}) {
     EXPECT_THAT(sentence_about(bytes),
                 testing::StartsWith(path_.string() + " has an unknown format" + expected_));

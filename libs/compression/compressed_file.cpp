@@ -59,6 +59,9 @@ std::optional<UserError> CompressedFile::failure_now() const {
       return UserError(path_.string() + " is cut off: its compressed data are incomplete. Fetch it again");
     case FileDecoder::End::kUnreadable:
       return UserError("cannot read " + path_.string() + ": " + std::strerror(errno));
+    case FileDecoder::End::kTooLarge:
+      return UserError(path_.string() +
+                       " needs more than 128 MiB of memory for decompression. Decompress it with xz first");
     case FileDecoder::End::kDamaged:
       break;
   }

@@ -15,12 +15,13 @@
 namespace psi_slam {
 namespace {
 
+constexpr int kMostWindowLog = 26;  // zstd takes as much memory beside the result; 64 MiB are rarely used
 constexpr std::size_t kFirstBytes = std::size_t{1} << 16;
 
 /// Decompresses the first part of the data. Throws MalformedBytes if the data end early or decompress to more
 /// than `most` bytes.
 std::string decompress_part(std::string_view name, std::string_view compressed, std::uint64_t most) {
-  const std::unique_ptr<Decompressor> decompressor = make_decompressor(name);
+  const std::unique_ptr<Decompressor> decompressor = make_decompressor(name, kMostWindowLog);
   std::string bytes;
   std::size_t used = 0;
   for (auto state = Decompressor::State::kInPart; state != Decompressor::State::kAtEndOfPart;) {

@@ -17,10 +17,14 @@ namespace {
 
 using State = Decompressor::State;
 
-/// Passes the compressed blocks to zstd one by one, because the call that finds damage drops the bytes that
-/// it has decompressed.
+/// The caller passes the compressed blocks one by one, because the call that finds damage drops the bytes
+/// that it has decompressed.
 class ZstdDecompressor : public Decompressor {
  public:
+  explicit ZstdDecompressor(int most_window_log) {
+    ZSTD_DCtx_setParameter(context_.get(), ZSTD_d_windowLogMax, most_window_log);
+  }
+
   std::size_t wanted() const override { return std::max<std::size_t>(wanted_, 1); }
 
   Step step(std::string_view& compressed, char* bytes, std::size_t room) override {
@@ -37,6 +41,7 @@ class ZstdDecompressor : public Decompressor {
   std::size_t wanted_ = 1;  // compressed bytes that zstd expects next; 0 at the end of a frame
 };
 
+/// The caller passes the compressed blocks one by one, as for zstd.
 class Lz4Decompressor : public Decompressor {
  public:
   Lz4Decompressor() {
@@ -44,19 +49,19 @@ class Lz4Decompressor : public Decompressor {
     if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)) == 0) context_.reset(context);
   }
 
-  std::size_t wanted() const override { return std::numeric_limits<std::size_t>::max(); }
+  std::size_t wanted() const override { return std::max<std::size_t>(wanted_, 1); }
 
   Step step(std::string_view& compressed, char* bytes, std::size_t room) override {
     if (!context_) return {0, State::kDamaged};
     std::size_t taken = compressed.size();
-    const std::size_t hint =
-        LZ4F_decompress(context_.get(), bytes, &room, compressed.data(), &taken, nullptr);
-    if (LZ4F_isError(hint) != 0) return {0, State::kDamaged};
+    wanted_ = LZ4F_decompress(context_.get(), bytes, &room, compressed.data(), &taken, nullptr);
+    if (LZ4F_isError(wanted_) != 0) return {0, State::kDamaged};
     compressed.remove_prefix(taken);
-    return {room, hint == 0 ? State::kAtEndOfPart : State::kInPart};
+    return {room, wanted_ == 0 ? State::kAtEndOfPart : State::kInPart};
   }
 
  private:
+  std::size_t wanted_ = 1;  // compressed bytes that lz4 expects next; 0 at the end of a frame
   std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> context_{
       nullptr, &LZ4F_freeDecompressionContext};
 };
@@ -65,6 +70,7 @@ struct Bzip2 {
   using Stream = bz_stream;
   static bool begin(Stream& stream) { return BZ2_bzDecompressInit(&stream, 0, 0) == BZ_OK; }
   static void end(Stream& stream) { BZ2_bzDecompressEnd(&stream); }
+  static void skip_padding(std::string_view&) {}
   static State run(Stream& stream) {
     const int code = BZ2_bzDecompress(&stream);
     return code == BZ_OK ? State::kInPart : code == BZ_STREAM_END ? State::kAtEndOfPart : State::kDamaged;
@@ -76,8 +82,12 @@ struct Xz {
   static constexpr std::uint64_t kMostMemory_bytes = std::uint64_t{1} << 27;  // xz -9 needs half of it
   static bool begin(Stream& stream) { return lzma_stream_decoder(&stream, kMostMemory_bytes, 0) == LZMA_OK; }
   static void end(Stream& stream) { lzma_end(&stream); }
+  static void skip_padding(std::string_view& compressed) {
+    compressed.remove_prefix(std::min(compressed.find_first_not_of('\0'), compressed.size()));
+  }
   static State run(Stream& stream) {
     const lzma_ret code = lzma_code(&stream, LZMA_RUN);
+    if (code == LZMA_MEMLIMIT_ERROR) return State::kTooLarge;
     const bool goes_on = code == LZMA_OK || code == LZMA_BUF_ERROR;  // it needs more bytes or more room
     return goes_on ? State::kInPart : code == LZMA_STREAM_END ? State::kAtEndOfPart : State::kDamaged;
   }
@@ -92,7 +102,11 @@ class StreamDecompressor : public Decompressor {
   std::size_t wanted() const override { return std::numeric_limits<std::size_t>::max(); }
 
   Step step(std::string_view& compressed, char* bytes, std::size_t room) override {
-    if (!is_open_) stream_ = {};
+    if (!is_open_) {
+      Library::skip_padding(compressed);
+      if (compressed.empty()) return {0, State::kAtEndOfPart};
+      stream_ = {};
+    }
     if (!is_open_ && !(is_open_ = Library::begin(stream_))) return {0, State::kDamaged};
     constexpr std::size_t kMost = std::numeric_limits<unsigned>::max();  // bzip2 counts bytes as unsigned int
     const std::size_t in = std::min(compressed.size(), kMost);
@@ -132,11 +146,11 @@ std::string_view compression_of(std::string_view head) {
   return {};
 }
 
-std::unique_ptr<Decompressor> make_decompressor(std::string_view compression) {
+std::unique_ptr<Decompressor> make_decompressor(std::string_view compression, int most_window_log) {
   if (compression == "bz2") return std::make_unique<StreamDecompressor<Bzip2>>();
   if (compression == "lz4") return std::make_unique<Lz4Decompressor>();
   if (compression == "xz") return std::make_unique<StreamDecompressor<Xz>>();
-  if (compression == "zstd") return std::make_unique<ZstdDecompressor>();
+  if (compression == "zstd") return std::make_unique<ZstdDecompressor>(most_window_log);
   return nullptr;
 }
 

@@ -11,7 +11,8 @@ namespace psi_slam {
 /// frames of zstd.
 class Decompressor {
  public:
-  enum class State { kInPart, kAtEndOfPart, kDamaged };
+  /// kTooLarge: decompression needs more memory than is allowed.
+  enum class State { kInPart, kAtEndOfPart, kDamaged, kTooLarge };
 
   /// Result of step().
   struct Step {
@@ -21,8 +22,8 @@ class Decompressor {
 
   virtual ~Decompressor() = default;
 
-  /// Largest number of compressed bytes to pass to the next step(), so that all bytes before damage are
-  /// written.
+  /// Maximum number of compressed bytes to pass to the next step(), so that all blocks but the last before
+  /// damage are written.
   virtual std::size_t wanted() const = 0;
 
   /// Decompresses the beginning of `compressed`, which it removes, to at most `room` bytes. If it fills the
@@ -35,7 +36,8 @@ class Decompressor {
 std::string_view compression_of(std::string_view head);
 
 /// Returns a decompressor for a compression named as by compression_of(), except gzip. Returns null for any
-/// other name. Memory does not depend on the sizes that the data state.
-std::unique_ptr<Decompressor> make_decompressor(std::string_view compression);
+/// other name. Decompression needs at most 128 MiB for xz, 2 to the power of `most_window_log` bytes for
+/// zstd, and 20 MiB for the others, whatever sizes the data state.
+std::unique_ptr<Decompressor> make_decompressor(std::string_view compression, int most_window_log = 27);
 
 }  // namespace psi_slam

@@ -65,7 +65,7 @@ class CompressedFileDecoder : public FileDecoder {
       const Decompressor::Step step = decompressor_->step(input_, bytes + done, size - done);
       done += step.written;
       state_ = step.state;
-      if (state_ == Decompressor::State::kDamaged) break;
+      if (state_ == Decompressor::State::kDamaged || state_ == Decompressor::State::kTooLarge) break;
       holds_output_ = done == size && state_ == Decompressor::State::kInPart;
     }
     return done;
@@ -74,6 +74,7 @@ class CompressedFileDecoder : public FileDecoder {
   End end() const override {
     if (std::ferror(file_.get()) != 0) return End::kUnreadable;
     if (state_ == Decompressor::State::kDamaged) return End::kDamaged;
+    if (state_ == Decompressor::State::kTooLarge) return End::kTooLarge;
     return state_ == Decompressor::State::kInPart ? End::kCutOff : End::kEndOfFile;
   }
 

@@ -12,7 +12,8 @@ namespace psi_slam {
 class FileDecoder {
  public:
   /// Reason why read() returned fewer bytes than requested. kUnreadable: errno says why.
-  enum class End { kEndOfFile, kCutOff, kDamaged, kUnreadable };
+  /// kTooLarge: decompression needs more memory than is allowed.
+  enum class End { kEndOfFile, kCutOff, kDamaged, kTooLarge, kUnreadable };
 
   virtual ~FileDecoder() = default;
 

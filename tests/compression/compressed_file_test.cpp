@@ -3,6 +3,8 @@
 
 #include <random>
 
+#include "base/byte_cursor.h"
+#include "compression/compression.h"
 #include "packed_files.h"
 #include "temporary_folder.h"
 #include "test_files.h"
@@ -77,6 +79,50 @@ TEST_P(EachCompression, is_read_in_one_or_several_parts_up_to_a_truncation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EachCompression, testing::Values("bz2", "lz4", "xz", "zstd"));
+
+TEST(CompressedFile, yields_all_but_a_block_of_lz4_before_damage) {
+  constexpr std::size_t kBlock = 65'536;
+  const TemporaryFolder folder;
+  const std::string bytes = noise(20 * kBlock);
+  std::string packed = packed_as("lz4", bytes);
+  const std::size_t block = packed.find(bytes.substr(11 * kBlock, 20)) - 4;  // noise is stored as it is
+  write_file(folder.path() / "log", packed.replace(block, 4, "\xFF\xFF\xFF\x7F"));
+  CompressedFile file(folder.path() / "log");
+  std::string part(bytes.size(), '\0');
+  const std::size_t got = file.read(part.data(), part.size());
+  EXPECT_GE(got, 10 * kBlock);
+  EXPECT_TRUE(part.substr(0, got) == bytes.substr(0, got));
+}
+
+TEST(CompressedFile, reads_padded_streams_of_xz) {
+  const TemporaryFolder folder;
+  const std::string padding(400'000, '\0');
+  write_file(folder.path() / "log", packed_as("xz", "begin ") + padding + packed_as("xz", "end") + padding);
+  EXPECT_EQ(content_of(folder.path() / "log"), "begin end");
+}
+
+TEST(CompressedFile, says_that_xz_needs_too_much_memory) {
+  const TemporaryFolder folder;
+  std::string packed = packed_as("xz", "some text");
+  constexpr std::size_t kHeader = 12;  // offset of the header of the block, after that of the stream
+  const std::size_t size = 4 * (static_cast<std::size_t>(packed.at(kHeader)) + 1);
+  packed.at(packed.find("\x21\x01", kHeader) + 2) = 32;  // dictionary of 256 MiB
+  const std::uint32_t checksum =
+      lzma_crc32(reinterpret_cast<const std::uint8_t*>(packed.data()) + kHeader, size - 4, 0);
+  packed.replace(kHeader + size - 4, 4, reinterpret_cast<const char*>(&checksum), 4);
+  write_file(folder.path() / "log", packed);
+  EXPECT_EQ(sentence_of([&] { content_of(folder.path() / "log"); }),
+            (folder.path() / "log").string() +
+                " needs more than 128 MiB of memory for decompression. Decompress it with xz first");
+}
+
+TEST(CompressedMessage, may_have_a_window_of_64_MiB) {
+  const auto frame = [](char window) {
+    return std::string("\x28\xB5\x2F\xFD\0", 5) + window + std::string("\x29\0\0hello", 8);
+  };
+  EXPECT_EQ(decompress("zstd", frame('\x80'), 5), "hello");
+  EXPECT_THROW(decompress("zstd", frame('\x88'), 5), MalformedBytes);
+}
 
 TEST(CompressedFile, reports_its_progress) {
   const TemporaryFolder folder;

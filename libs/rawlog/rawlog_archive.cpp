@@ -11,7 +11,6 @@
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationPointCloud.h>
-#include <mrpt/obs/CRawlog.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 #include <sys/resource.h>
@@ -26,6 +25,8 @@
 #include <fstream>
 #include <new>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include "base/forked_child.h"
@@ -128,23 +129,35 @@ CObservation::Ptr as_points(const CObservation::Ptr& cloud, bool slices) {
 }
 
 /// Returns what psi-slam uses of an observation; null if nothing. Images would take long to send.
-CObservation::Ptr used_part(const CObservation::Ptr& observation, bool slices) {
+CObservation::Ptr used_observation(const CObservation::Ptr& observation, bool slices) {
   if (observation && is_cloud(*observation)) return as_points(observation, slices);
   return observation && is_used(*observation) ? observation : nullptr;
 }
 
-/// Returns what psi-slam uses of an object; null if nothing.
+}  // namespace
+
 Object used_part(const Object& object, bool slices) {
   if (const auto observation = std::dynamic_pointer_cast<CObservation>(object))
-    return used_part(observation, slices);
+    return used_observation(observation, slices);
   if (auto* frame = dynamic_cast<CSensoryFrame*>(object.get())) {
     const auto used = CSensoryFrame::Create();
     for (const CObservation::Ptr& observation : *frame)
-      if (const CObservation::Ptr part = used_part(observation, slices)) used->insert(part);
+      if (const CObservation::Ptr part = used_observation(observation, slices)) used->insert(part);
     return used;
   }
   return dynamic_cast<const CActionCollection*>(object.get()) != nullptr ? object : nullptr;
 }
+
+void find_external_files(const std::filesystem::path& path) {
+  // CRawlog::detectImagesDirectory() of MRPT 2.5 omits the slash after the folder of the log.
+  const std::string name = path.filename().string();
+  std::filesystem::path folder = path.parent_path() / (name.substr(0, name.rfind(".rawlog")) + "_Images");
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) folder = path.parent_path() / "Images";
+  mrpt::io::setLazyLoadPathBase(folder.string());
+}
+
+namespace {
 
 void lower_limit(int resource, rlim_t most) {
   rlimit limit{};
@@ -205,7 +218,7 @@ void send_object(const Object& object, const RawlogStream& objects, const Sender
 
 void send_objects(const std::filesystem::path& path, bool slices, const Sender& sender) {
   try {
-    mrpt::io::setLazyLoadPathBase(mrpt::obs::CRawlog::detectImagesDirectory(path.string()));
+    find_external_files(path);
     RawlogStream objects(std::make_unique<CompressedFile>(path), false);
     while (true) {
       sender.send(Kind::kReads, objects.progress());

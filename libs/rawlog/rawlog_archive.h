@@ -9,10 +9,18 @@
 
 namespace psi_slam {
 
+/// Returns what psi-slam uses of an object: an action, scans, odometry, gyroscopes, a sensory frame of these,
+/// and of clouds, see is_cloud(), the points as a CObservationPointCloud, or without points if `slices` is
+/// false. Null if nothing.
+mrpt::serialization::CSerializable::Ptr used_part(const mrpt::serialization::CSerializable::Ptr& object,
+                                                  bool slices);
+
+/// Makes MRPT find the external files of log.rawlog in the folder log_Images, or else Images, beside it.
+/// Holds for the whole process.
+void find_external_files(const std::filesystem::path& path);
+
 /// Reads those objects of an MRPT rawlog file that psi-slam uses, in the order of the file: actions, scans,
-/// odometry, gyroscopes, and sensory frames without their other observations. The file may be compressed. Of
-/// clouds, see is_cloud(), it sends the points as a CObservationPointCloud, or without points if `slices` is
-/// false.
+/// odometry, gyroscopes, clouds, and sensory frames of these; see used_part(). The file may be compressed.
 ///
 /// MRPT allocates whatever size an object states, and some damaged objects crash it. Therefore a child
 /// process reads the file with MRPT and sends the objects. Beyond the memory of this process when it starts,

@@ -270,6 +270,29 @@ class KeptObjects : public ObjectSource {
   std::size_t next_ = 0;
 };
 
+/// What psi-slam uses of the objects of a rawlog that is being recorded. Images would take much memory.
+class UsedObjects : public ObjectSource {
+ public:
+  UsedObjects(std::unique_ptr<ByteSource> recording, bool slices)
+      : stream_(std::move(recording), true), slices_(slices) {
+    find_external_files(stream_.path());
+  }
+
+  mrpt::serialization::CSerializable::Ptr next() override {
+    while (const auto object = stream_.next())
+      if (auto used = used_part(object, slices_)) return used;
+    return nullptr;
+  }
+  std::string place() const override { return stream_.place(); }
+  SkippedLines dropped() const override { return stream_.dropped(); }
+  const std::filesystem::path& path() const override { return stream_.path(); }
+  double progress() const override { return stream_.progress(); }
+
+ private:
+  RawlogStream stream_;
+  bool slices_;
+};
+
 /// Returns the scans of an object that have a time stamp.
 std::vector<const CObservation*> scans_of(mrpt::serialization::CSerializable& object, bool slices) {
   std::vector<const CObservation*> scans;
@@ -395,7 +418,8 @@ std::unique_ptr<LogReader> open_rawlog(const std::filesystem::path& path, const 
 
 std::unique_ptr<LogReader> open_rawlog_stream(std::unique_ptr<ByteSource> recording,
                                               const LogOptions& options, double look_over_s) {
-  return open_observation_stream(std::make_unique<RawlogStream>(std::move(recording), true), options,
+  const bool slices = height_slice(options).has_value();
+  return open_observation_stream(std::make_unique<UsedObjects>(std::move(recording), slices), options,
                                  look_over_s);
 }
 

@@ -11,9 +11,12 @@
 #include <cmath>
 #include <cstring>
 
+#include "compression/compressed_file.h"
 #include "log_files.h"
+#include "rawlog/observation_stream.h"
 #include "rawlog_files.h"
 #include "temporary_folder.h"
+#include "test_files.h"
 
 namespace psi_slam {
 namespace {
@@ -159,6 +162,26 @@ class RawlogCloud : public testing::TestWithParam<Sensor> {
     return observation;
   }
 
+  static void check_slices(const std::vector<Frame>& frames) {
+    ASSERT_EQ(frames.size(), 2U) << "the 2D scan is not read";
+    EXPECT_EQ(frames[1].time_us, kFirst_us + 100'000);
+    EXPECT_NEAR(frames[1].odom_T_robot.x, 2, 1e-9);
+    const LaserScan& scan = frames[1].scan;
+    EXPECT_NEAR(scan.robot_T_laser.phi, 0.4, 1e-6);
+    std::size_t beams = 0;
+    for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+      if (!std::isfinite(scan.ranges_m[i])) continue;
+      ++beams;
+      const double heading = scan.robot_T_laser.phi + static_cast<double>(scan.bearings_rad->at(i));
+      const auto range = static_cast<double>(scan.ranges_m[i]);
+      EXPECT_LT(distance_from_walls_m(scan.robot_T_laser.x + range * std::cos(heading),
+                                      scan.robot_T_laser.y + range * std::sin(heading)),
+                0.03)
+          << "beam " << i;
+    }
+    EXPECT_GE(beams, GetParam().least_beams);
+  }
+
   static LogOptions sliced() {
     LogOptions options;
     options.slice_z_m = "0.3 1.0";
@@ -169,27 +192,40 @@ class RawlogCloud : public testing::TestWithParam<Sensor> {
   std::filesystem::path path_ = folder_.path() / "log.rawlog";
 };
 
+/// Frames of a file, or of a recording that is read as it grows.
+std::vector<Frame> frames_read(const std::filesystem::path& path, const LogOptions& options, bool is_live) {
+  if (!is_live) return frames_of(path, options);
+  return all_frames(*open_rawlog_stream(std::make_unique<CompressedFile>(path), options, 1));
+}
+
 TEST_P(RawlogCloud, is_sliced_at_heights_above_the_floor) {
-  write_rawlog(path_, {movement({1, 0, 0}), sensory_frame({observed(kFirst_us), range_scan(kFirst_us)}),
-                       movement({1, 0, 0}), sensory_frame({observed(kFirst_us + 100'000)})});
-  const auto frames = frames_of(path_, sliced());
-  ASSERT_EQ(frames.size(), 2U) << "the 2D scan is not read";
-  EXPECT_EQ(frames[1].time_us, kFirst_us + 100'000);
-  EXPECT_NEAR(frames[1].odom_T_robot.x, 2, 1e-9);
-  const LaserScan& scan = frames[1].scan;
-  EXPECT_NEAR(scan.robot_T_laser.phi, 0.4, 1e-6);
-  std::size_t beams = 0;
-  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    if (!std::isfinite(scan.ranges_m[i])) continue;
-    ++beams;
-    const double heading = scan.robot_T_laser.phi + static_cast<double>(scan.bearings_rad->at(i));
-    const auto range = static_cast<double>(scan.ranges_m[i]);
-    EXPECT_LT(distance_from_walls_m(scan.robot_T_laser.x + range * std::cos(heading),
-                                    scan.robot_T_laser.y + range * std::sin(heading)),
-              0.03)
-        << "beam " << i;
-  }
-  EXPECT_GE(beams, GetParam().least_beams);
+  // The robot stands still: a moving one would not see the same points twice.
+  write_rawlog(path_, {movement({2, 0, 0}), sensory_frame({observed(kFirst_us), range_scan(kFirst_us)}),
+                       movement({0, 0, 0}), sensory_frame({observed(kFirst_us + 100'000)})});
+  for (const bool is_live : {false, true}) check_slices(frames_read(path_, sliced(), is_live));
+}
+
+TEST(RawlogClouds, of_external_files_are_read_by_both_readers) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "log.rawlog";
+  std::filesystem::create_directory(folder.path() / "log_Images");
+  std::string bytes;
+  for (const TPoint3D& point : wall_points())
+    for (const double number : {point.x, point.y, point.z, 1.0}) {
+      const auto value = static_cast<float>(number);
+      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+  write_file(folder.path() / "log_Images" / "cloud.bin", bytes);
+  auto cloud = mrpt::obs::CObservationPointCloud::Create();
+  cloud->setAsExternalStorage("cloud.bin",
+                              mrpt::obs::CObservationPointCloud::ExternalStorageFormat::KittiBinFile);
+  cloud->timestamp = mrpt_time(kFirst_us);
+  cloud->sensorLabel = "LIDAR";
+  write_rawlog(path, {movement({1, 0, 0}), sensory_frame({cloud})});
+  LogOptions options;
+  options.slice_z_m = "-0.3 1.0";
+  for (const bool is_live : {true, false})  // this process must not know the folder beforehand
+    EXPECT_EQ(frames_read(path, options, is_live).size(), 1U) << is_live;
 }
 
 TEST_P(RawlogCloud, without_laser_scans_asks_for_a_slice) {

@@ -17,6 +17,7 @@ struct Kind {
 };
 
 constexpr std::string_view kArchive = "It is an archive. Unpack it and name the log in it";
+constexpr std::string_view kImage = "It is an image. Name the log that the map was made from";
 constexpr std::string_view kConvertible =
     "It looks like a table or a JSON log of scans. Convert it with share/scripts/carmen-from-text.py";
 
@@ -32,8 +33,8 @@ constexpr std::array kKinds{
     Kind{0, "psi-slam session", "It is a session of psi-slam. Continue it with --resume"},
     Kind{0, "version https://git-lfs", "It is a pointer of Git LFS. Fetch the file with: git lfs pull"},
     Kind{0, "<", "It looks like a web page. Download the log again"},
-    Kind{0, "\x89PNG", "It is an image. Name the log that the map was made from"},
-    Kind{0, "P5", "It is an image. Name the log that the map was made from"},
+    Kind{0, "\x89PNG", kImage},
+    Kind{0, "P5", kImage},
     Kind{0, "\xD4\xC3\xB2\xA1",
          "It holds network packets. Convert them to a ROS bag with the lidar's driver"},
     Kind{Kind::kAnywhere, "VERTEX", "It looks like a pose graph, which has no scans. Name a log"},

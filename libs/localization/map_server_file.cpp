@@ -31,6 +31,8 @@ constexpr Grid::cellType kOccupied = -std::numeric_limits<Grid::cellType>::max()
 constexpr Grid::cellType kFree = std::numeric_limits<Grid::cellType>::max();
 constexpr Grid::cellType kUnknown = 0;
 
+const char* const kOriginExpected = "a list of two or three numbers: x and y in metres, yaw in radians";
+
 /// Reads the values of a map.yaml. Throws UserError that names the key.
 class MapKeys {
  public:
@@ -60,11 +62,10 @@ class MapKeys {
     fail(key, "a number");
   }
 
-  /// Number in a list; empty if the list is shorter.
-  std::optional<double> number_in(const std::string& key, std::size_t place) const {
-    const char* expected = "a list of two or three numbers: x and y in metres, yaw in radians";
+  /// Number at a place of the list `origin`; empty if the list is shorter.
+  std::optional<double> number_of_origin(std::size_t place) const {
     try {
-      const auto& list = (*yaml_)[key].asSequence();
+      const auto& list = (*yaml_)["origin"].asSequence();
       if (place >= list.size()) return std::nullopt;
       std::string text = list.at(place).as<std::string>();
       if (const auto number = parse_number(text)) return *number;
@@ -72,7 +73,7 @@ class MapKeys {
       if (text == "nan" || text == "-nan" || text == ".nan") return std::numeric_limits<double>::quiet_NaN();
     } catch (const std::exception&) {  // it is no list
     }
-    fail(key, expected);
+    fail("origin", kOriginExpected);
   }
 
   [[noreturn]] void fail(const std::string& key, const std::string& expected) const {
@@ -87,12 +88,11 @@ class MapKeys {
 
 TPose2D origin_of(const MapKeys& keys) {
   const auto coordinate = [&](std::size_t place) {
-    const double metres = keys.number_in("origin", place).value_or(std::nan(""));
-    if (!std::isfinite(metres))
-      keys.fail("origin", "a list of two or three numbers: x and y in metres, yaw in radians");
+    const double metres = keys.number_of_origin(place).value_or(std::nan(""));
+    if (!std::isfinite(metres)) keys.fail("origin", kOriginExpected);
     return metres;
   };
-  const double yaw_rad = keys.number_in("origin", 2).value_or(0);
+  const double yaw_rad = keys.number_of_origin(2).value_or(0);
   return {coordinate(0), coordinate(1), std::isfinite(yaw_rad) ? yaw_rad : 0};
 }
 
@@ -172,14 +172,9 @@ class ImageCells {
   double opaque_ = 255;
 };
 
-/// Grid around a turned image.
-Grid turned_grid(const MapServerFile& file, const ImageCells& cells) {
+/// Draws a turned image into a grid that holds it.
+void draw_turned(const MapServerFile& file, const ImageCells& cells, Grid& grid) {
   const double resolution_m = file.resolution_m;
-  const auto& [low, high] = corners_of_grid(
-      file, {static_cast<std::uint64_t>(cells.width()), static_cast<std::uint64_t>(cells.height())});
-  Grid grid;
-  grid.setSize(static_cast<float>(low.x), static_cast<float>(high.x), static_cast<float>(low.y),
-               static_cast<float>(high.y), static_cast<float>(resolution_m), 0.5F);
   const TPose2D& origin = file.map_T_image;
   const auto [sin, cos] = portable::sin_cos(origin.phi);
   const auto cell_at = [&, sin = sin, cos = cos](double x, double y) {
@@ -200,7 +195,6 @@ Grid turned_grid(const MapServerFile& file, const ImageCells& cells) {
         cell = cell == kUnknown ? found : found == kUnknown ? cell : std::min(cell, found);
       }
     }
-  return grid;
 }
 
 }  // namespace
@@ -242,14 +236,15 @@ std::optional<Grid> grid_of_image(const MapServerFile& file) {
   const std::optional<cv::Mat> image = decoded(file.image);
   if (!image) return std::nullopt;
   const ImageCells cells(file, *image);
-  if (file.map_T_image.phi != 0) return turned_grid(file, cells);
+  const auto& [low, high] = corners_of_grid(
+      file, {static_cast<std::uint64_t>(cells.width()), static_cast<std::uint64_t>(cells.height())});
   Grid grid;
-  const auto edge = [&](double origin_m, int count) {
-    return static_cast<float>(origin_m + count * file.resolution_m);
-  };
-  const TPose2D& origin = file.map_T_image;
-  grid.setSize(edge(origin.x, 0), edge(origin.x, cells.width()), edge(origin.y, 0),
-               edge(origin.y, cells.height()), static_cast<float>(file.resolution_m), 0.5F);
+  grid.setSize(static_cast<float>(low.x), static_cast<float>(high.x), static_cast<float>(low.y),
+               static_cast<float>(high.y), static_cast<float>(file.resolution_m), 0.5F);
+  if (file.map_T_image.phi != 0) {
+    draw_turned(file, cells, grid);
+    return grid;
+  }
   const int rows = std::min(static_cast<int>(grid.getSizeY()), cells.height());
   const int columns = std::min(static_cast<int>(grid.getSizeX()), cells.width());
   for (int row = 0; row < rows; ++row)

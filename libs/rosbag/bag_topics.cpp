@@ -103,11 +103,12 @@ class TopicChooser {
   }
 
   void find_imu_topics() {
-    choice_.imu_topics = ignores_gyroscope(options_) ? Names() : topics_of_type(topics_, kRosImu);
-    if (!names_gyroscope(options_))
-      choice_.imu_topics = robots_.of_robot(choice_.imu_topics, choice_.scan_topics.front());
-    if (!names_gyroscope(options_)) return;
-    choice_.imu = choose("log.imu", options_.imu, choice_.imu_topics, kRosImu);
+    const Names all = ignores_gyroscope(options_) ? Names() : topics_of_type(topics_, kRosImu);
+    if (!names_gyroscope(options_)) {
+      choice_.imu_topics = robots_.of_robot(all, choice_.scan_topics.front());
+      return;
+    }
+    choice_.imu = choose("log.imu", options_.imu, all, kRosImu);
     choice_.imu_topics = {choice_.imu};
   }
 

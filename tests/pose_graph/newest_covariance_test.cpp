@@ -40,6 +40,12 @@ void drive_on(PoseGraph& graph, double heading_rad = 0) {
   if (node > 0) link((node - 1) / kSegmentNodes * kSegmentNodes, node, Constraint::Kind::kLocalMap, graph);
 }
 
+PoseGraph drive(std::size_t nodes) {
+  PoseGraph graph;
+  for (std::size_t i = 0; i < nodes; ++i) drive_on(graph);
+  return graph;
+}
+
 TEST(NewestCovariance, grows_between_loops_and_is_rarely_computed) {
   constexpr std::size_t kNodes = 1000;
   PoseGraph graph;
@@ -65,8 +71,7 @@ TEST(NewestCovariance, grows_between_loops_and_is_rarely_computed) {
 // Each of 60 nodes brings a loop, but the graph grows by 0.5 % only with every fourth node.
 TEST(NewestCovariance, is_rarely_computed_if_each_node_has_a_loop) {
   constexpr std::size_t kNodes = 600;
-  PoseGraph graph;
-  for (std::size_t i = 0; i < kNodes; ++i) drive_on(graph);
+  PoseGraph graph = drive(kNodes);
   NewestCovariance newest;
   newest.update(graph);
   for (std::size_t i = 0; i < 60; ++i) {
@@ -93,8 +98,7 @@ TEST(NewestCovariance, is_carried_along_the_segments) {
 }
 
 TEST(NewestCovariance, is_carried_over_several_nodes_at_once) {
-  PoseGraph graph;
-  for (std::size_t i = 0; i < 1000; ++i) drive_on(graph);
+  PoseGraph graph = drive(1000);
   NewestCovariance newest;
   newest.update(graph);
   for (std::size_t i = 0; i < 2 * kSegmentNodes + 1; ++i) drive_on(graph);
@@ -103,8 +107,7 @@ TEST(NewestCovariance, is_carried_over_several_nodes_at_once) {
 }
 
 TEST(NewestCovariance, is_computed_again_where_the_path_is_interrupted) {
-  PoseGraph graph;
-  for (std::size_t i = 0; i < 1000; ++i) drive_on(graph);
+  PoseGraph graph = drive(1000);
   NewestCovariance newest;
   newest.update(graph);
   const std::size_t begin = graph.add_node({0, 5, 0});

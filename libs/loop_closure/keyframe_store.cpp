@@ -15,6 +15,22 @@ namespace {
 
 constexpr std::size_t kUnpackedLocalMaps = 48;
 
+// The covariance of a step that the front end states: without a match it is the error of odometry; of a
+// match, later scans take back most.
+PathCovariance covariance_of(const FrontEndStep& step, const PathNoise& noise) {
+  PathCovariance covariance;
+  if (step.matched)
+    covariance.drift = noise.stated_share * noise.stated_share * step.covariance_since_node;
+  else
+    covariance.unmatched = step.covariance_since_node;
+  return covariance;
+}
+
+Eigen::Matrix3d scan_covariance(const PathNoise& noise) {
+  const double m2 = noise.scan_sigma_m * noise.scan_sigma_m;
+  return Eigen::Vector3d(m2, m2, noise.scan_sigma_rad * noise.scan_sigma_rad).asDiagonal();
+}
+
 }  // namespace
 
 double travel_and_turn_m(const mrpt::math::TPose2D& from, const mrpt::math::TPose2D& to) {
@@ -55,8 +71,7 @@ void constrain_to_path(const FrontEndStep& step, const PathNoise& noise, Keyfram
   const std::size_t node = *step.node;
   NodeScan& here = keyframes.nodes[node];
   here.segment = node;
-  Eigen::Matrix3d covariance = keyframes.covariance_in_segment;
-  keyframes.covariance_in_segment.setZero();
+  PathCovariance covariance = std::exchange(keyframes.in_segment, PathCovariance());
   if (step.memberships.empty()) return;
 
   const NodeScan& before = keyframes.nodes.at(node - 1);
@@ -69,10 +84,13 @@ void constrain_to_path(const FrontEndStep& step, const PathNoise& noise, Keyfram
   const double drift_rad2 =
       noise.sigma_rad_per_sqrt_m * noise.sigma_rad_per_sqrt_m * length_m +
       noise.sigma_rad_per_sqrt_rad * noise.sigma_rad_per_sqrt_rad * std::abs(motion.phi);
-  Eigen::Matrix3d step_covariance = noise.stated_share * noise.stated_share * step.covariance_since_node;
-  step_covariance.diagonal() += Eigen::Vector3d(drift_m2, drift_m2, drift_rad2);
-  covariance = carried_covariance(covariance, first_T_before, first_T_here) +
-               in_turned_axes(step_covariance, first_T_before.phi);
+  PathCovariance of_step = covariance_of(step, noise);
+  of_step.drift.diagonal() += Eigen::Vector3d(drift_m2, drift_m2, drift_rad2);
+  const auto extend = [&](Eigen::Matrix3d& sum, const Eigen::Matrix3d& one) {
+    sum = carried_covariance(sum, first_T_before, first_T_here) + in_turned_axes(one, first_T_before.phi);
+  };
+  extend(covariance.drift, of_step.drift);
+  extend(covariance.unmatched, of_step.unmatched);
 
   const bool begins = here.travelled_m - first.travelled_m >= kSegment_m;
   Constraint constraint;
@@ -80,12 +98,14 @@ void constrain_to_path(const FrontEndStep& step, const PathNoise& noise, Keyfram
   constraint.from = before.segment;
   constraint.to = node;
   constraint.from_T_to = first_T_here;
-  constraint.information = begins ? noisy_information(covariance, 0, 0)
-                                  : noisy_information(covariance, noise.scan_sigma_m, noise.scan_sigma_rad);
+  Eigen::Matrix3d drift = covariance.drift;
+  if (!begins) drift += scan_covariance(noise);
+  constraint.information = noisy_information(drift + covariance.unmatched, 0, 0);
+  constraint.doubt = (kPathDoubt * kPathDoubt - 1) * drift;
   graph.add_constraint(constraint);
   if (begins) return;
   here.segment = before.segment;
-  keyframes.covariance_in_segment = covariance;
+  keyframes.in_segment = covariance;
 }
 
 void set_reference(LoopRecord& loop, const KeyframeStore& keyframes) {

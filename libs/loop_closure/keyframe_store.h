@@ -37,14 +37,19 @@ struct UnplacedRun {
   bool contains(std::size_t node) const { return begin <= node && node < end; }
 };
 
+/// Covariance of a node of the path relative to an earlier one, along the axes of the earlier one.
+struct PathCovariance {
+  Eigen::Matrix3d drift = Eigen::Matrix3d::Zero();      ///< errors that may repeat along the path
+  Eigen::Matrix3d unmatched = Eigen::Matrix3d::Zero();  ///< of odometry, where no scan matched
+};
+
 struct KeyframeStore {
   std::vector<NodeScan> nodes;             ///< nodes in the order of their numbers
   std::vector<PlacedLocalMap> local_maps;  ///< finished local maps, in the order of their ids
   std::shared_ptr<LocalMapCache> cache;    ///< holds the same local maps; null: no local map is ever packed
   /// Runs whose place in the map is unknown, in ascending order. The last one may still grow.
   std::vector<UnplacedRun> unplaced;
-  /// Covariance of the newest node relative to the first node of its segment, along the axes of that node.
-  Eigen::Matrix3d covariance_in_segment = Eigen::Matrix3d::Zero();
+  PathCovariance in_segment;  ///< of the newest node relative to the first node of its segment
 };
 
 /// A turn of 1 rad counts as this much travel: by default, after both of them the front end adds about
@@ -70,7 +75,7 @@ void remember_node(const FrontEndStep& step, std::size_t frame, KeyframeStore& k
 /// Errors of the path that the front end measures: a random walk.
 struct PathNoise {
   /// Share of the standard deviations that the front end states for a step. The next scan is matched with the
-  /// same local map and takes most of the error of a step back.
+  /// same local map and takes most of the error of a step back. Steps without a match have all of it.
   double stated_share = 0.2;
   /// Drift that successive scans share, as standard deviations.
   double sigma_m_per_sqrt_m = 0.002;  ///< of the position, after one metre
@@ -84,7 +89,8 @@ struct PathNoise {
 };
 
 /// How many times as wrong as the random walk states the path may be, where places are searched and loops are
-/// rejected: errors that repeat, such as a wrong scale of the bearings, add up along the path.
+/// rejected: errors that repeat, such as a wrong scale of the bearings, add up along the path. Where no scan
+/// matched, the path states its whole error, without doubt.
 inline constexpr double kPathDoubt = 5;
 
 /// Length of a path segment, metres. Short enough to bend with the path, long enough that the scans of a

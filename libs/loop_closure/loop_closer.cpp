@@ -52,7 +52,7 @@ LoopCloser::Candidates LoopCloser::candidates(std::size_t node, const KeyframeSt
                                               const PoseGraph& graph) {
   const auto sigmas_of_nodes = [&](const std::vector<std::size_t>& others) {
     PathCovarianceOptions to_others;
-    to_others.path_doubt = kPathDoubt;
+    to_others.with_doubt = true;
     to_others.targets = others;
     search_.run(graph, node, to_others);
     std::vector<PositionSigma> sigmas;

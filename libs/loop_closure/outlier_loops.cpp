@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "loop_closure/keyframe_store.h"
 #include "pose_graph/constraint_error.h"
+#include "pose_graph/doubtful_graph.h"
 #include "pose_graph/graduated_non_convexity.h"
 #include "pose_graph/marginal_covariance.h"
 #include "pose_graph/shared_errors.h"
@@ -21,6 +21,10 @@ std::vector<double> optimized_chi(PoseGraph& graph, SparsePoseAdjustment& solver
   std::vector<double> chi;
   for (const std::size_t loop : loops) chi.push_back(std::sqrt(fits[loop].chi2));
   return chi;
+}
+
+void disable(PoseGraph& graph, const std::vector<std::size_t>& loops) {
+  for (const std::size_t loop : loops) graph.set_enabled(loop, false);
 }
 
 // Enables the loops that fit, such as those that contradicted false loops which were rejected later. Returns
@@ -42,12 +46,10 @@ std::vector<double> reject_outlier_loops(PoseGraph& graph, SparsePoseAdjustment&
   for (const std::size_t loop : loops) graph.set_enabled(loop, true);
   std::vector<double> chi = optimized_chi(graph, solver, loops);
   if (std::all_of(chi.begin(), chi.end(), [](double one) { return one <= kInlierChi; })) return chi;
-  for (const double path_doubt : {kPathDoubt, 1.0}) {
-    GraduatedOptions options;
-    options.path_doubt = path_doubt;
-    for (const std::size_t outlier : optimize_graduated(graph, solver, options).outliers)
-      graph.set_enabled(outlier, false);
-  }
+  PoseGraph doubtful = doubtful_graph(graph);
+  disable(graph, optimize_graduated(doubtful, solver).outliers);
+  for (std::size_t node = 0; node < graph.num_nodes(); ++node) graph.set_pose(node, doubtful.pose(node));
+  disable(graph, optimize_graduated(graph, solver).outliers);
   chi = optimized_chi(graph, solver, loops);
   while (enable_fitting(graph, loops, chi)) chi = optimized_chi(graph, solver, loops);
   return chi;

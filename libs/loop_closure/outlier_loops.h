@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rejects loops that the rest of the graph contradicts: by graduated non-convexity over the whole graph, and
-// by nothing else. It runs twice. First the path may be kPathDoubt times as wrong as it states. It then bends
+// by nothing else. It runs twice. First the path is doubtful, see doubtful_graph(). It then bends
 // where loops that agree with each other say so, also if its error is the same along the whole path, and a
 // false loop stands alone against the path and the other loops. Then the path, which the other loops have
 // bent, is as certain as it states, and contradicts the loops that are a little false.

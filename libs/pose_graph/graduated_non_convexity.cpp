@@ -53,8 +53,6 @@ GraduatedReport optimize_graduated(PoseGraph& graph, SparsePoseAdjustment& solve
   const auto solve = [&](double loop_width2, int max_iterations) {
     PoseAdjustmentOptions round = given;
     round.max_iterations = max_iterations;
-    if (options.path_doubt != 1)
-      round.local_map_kernel = {RobustKernel::Type::kScaled, 1 / options.path_doubt};
     round.loop_kernel = {RobustKernel::Type::kGemanMcClure, std::sqrt(loop_width2)};
     solver.set_options(round);
     PoseAdjustmentReport report = solver.optimize(graph);

@@ -21,7 +21,6 @@ inline constexpr double kInlierChi = 5;
 
 struct GraduatedOptions {
   double inlier_width = kInlierChi;  ///< width of the final kernel, standard deviations
-  double path_doubt = 1;             ///< factor on the standard deviations of the path
   double narrowing = 1.2;            ///< factor, > 1, by which the squared width falls per round
   int max_rounds = 200;
   int first_iterations = 10;  ///< iterations of the solve with the widest kernel
@@ -37,9 +36,8 @@ struct GraduatedReport {
 };
 
 /// Moves the poses of the graph and leaves its constraints unchanged. During the call, the
-/// Geman-McClure kernel replaces the solver's kernel for loops, and a kernel with the doubt that for the
-/// path; constraints with their own kernel keep it. Throws UserError
-/// as SparsePoseAdjustment::optimize() does.
+/// Geman-McClure kernel replaces the solver's kernel for loops; constraints with their own kernel keep it.
+/// Throws UserError as SparsePoseAdjustment::optimize() does.
 GraduatedReport optimize_graduated(PoseGraph& graph, SparsePoseAdjustment& solver,
                                    const GraduatedOptions& options = {});
 

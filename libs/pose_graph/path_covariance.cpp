@@ -99,9 +99,9 @@ void PathCovarianceSearch::rotate(Node& node) {
 }
 
 PoseCovariance PathCovarianceSearch::measured_by(const GraphLink& link) const {
-  const PoseCovariance& stated = link.covariance;
-  const double f = link.of_path ? path_variance_ : 1;
-  return {f * stated.xx, f * stated.xy, f * stated.xt, f * stated.yy, f * stated.yt, f * stated.tt};
+  PoseCovariance covariance = link.covariance;
+  if (with_doubt_) add(covariance, link.doubt);
+  return covariance;
 }
 
 void PathCovarianceSearch::settle(const PoseGraph& graph, std::uint32_t here) {
@@ -142,7 +142,7 @@ void PathCovarianceSearch::run(const PoseGraph& graph, std::size_t source,
   ++run_;
   seen_ = 0;
   source_ = source;
-  path_variance_ = options.path_doubt * options.path_doubt;
+  with_doubt_ = options.with_doubt;
   nodes_.resize(graph.num_nodes());
   queue_ = {};
   std::size_t num_wanted = 0;

@@ -20,8 +20,7 @@
 namespace psi_slam {
 
 struct PathCovarianceOptions {
-  /// Factor on the standard deviations of constraints of the kind kLocalMap.
-  double path_doubt = 1;
+  bool with_doubt = false;  ///< whether to add Constraint::doubt
   /// The cost of a chain, in m^2, is the trace of its position covariance, plus its heading variance times
   /// the square of this length. Heading errors become position errors along the chain.
   double heading_lever_m = 2;
@@ -83,7 +82,7 @@ class PathCovarianceSearch {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
   std::uint64_t run_ = 0;
   std::size_t source_ = 0;
-  double path_variance_ = 1;  // factor on the covariances of the path
+  bool with_doubt_ = false;
   std::size_t seen_ = 0;
 };
 

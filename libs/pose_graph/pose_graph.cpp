@@ -26,11 +26,15 @@ TPose2D checked(const TPose2D& pose) {
   return {pose.x, pose.y, wrap_to_pi(pose.phi)};
 }
 
+PoseCovariance packed(const Eigen::Matrix3d& covariance) {
+  return {covariance(0, 0), covariance(0, 1), covariance(0, 2),
+          covariance(1, 1), covariance(1, 2), covariance(2, 2)};
+}
+
 GraphLink link_of(const Constraint& constraint) {
   GraphLink link;
   link.from = static_cast<std::uint32_t>(constraint.from);
   link.to = static_cast<std::uint32_t>(constraint.to);
-  link.of_path = constraint.kind == Constraint::Kind::kLocalMap;
   Eigen::Matrix3d covariance;
   bool invertible = false;
   // Scales the matrix to a unit diagonal, so that the units do not decide whether it counts as singular.
@@ -43,8 +47,8 @@ GraphLink link_of(const Constraint& constraint) {
   } else {
     covariance = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
   }
-  link.covariance = {covariance(0, 0), covariance(0, 1), covariance(0, 2),
-                     covariance(1, 1), covariance(1, 2), covariance(2, 2)};
+  link.covariance = packed(covariance);
+  link.doubt = packed(constraint.doubt);
   return link;
 }
 
@@ -55,8 +59,6 @@ double RobustKernel::cost(double chi2) const {
   switch (type) {
     case Type::kNone:
       return chi2;
-    case Type::kScaled:
-      return width2 * chi2;
     case Type::kHuber:
       return chi2 <= width2 ? chi2 : 2 * width * std::sqrt(chi2) - width2;
     case Type::kCauchy:
@@ -74,8 +76,6 @@ double RobustKernel::weight(double chi2) const {
   switch (type) {
     case Type::kNone:
       return 1;
-    case Type::kScaled:
-      return width2;
     case Type::kHuber:
       return chi2 <= width2 ? 1 : width / std::sqrt(chi2);
     case Type::kCauchy:

@@ -85,9 +85,11 @@ class DrivenPath {
   Eigen::Matrix3d covariance(std::size_t constraint) const {
     return graph.constraint(constraint).information.inverse();
   }
+  Eigen::Matrix3d doubt(std::size_t constraint) const { return graph.constraint(constraint).doubt; }
 
   KeyframeStore keyframes;
   PoseGraph graph;
+  bool matched = true;  // whether the scans of later nodes match
 
  private:
   void add(const TPose2D& motion, bool in_local_map,
@@ -98,6 +100,7 @@ class DrivenPath {
     step.points = std::make_shared<ScanPoints>();
     step.node = graph.add_node({0, 0, 0});  // poses of the graph do not matter
     step.covariance_since_node = covariance;
+    step.matched = matched;
     if (in_local_map) step.memberships.push_back({0, 0, {}, {}});
     remember_node(step, *step.node, keyframes);
     constrain_to_path(step, kPathNoise, keyframes, graph);
@@ -181,6 +184,21 @@ TEST(ConstrainToPath, adds_a_part_of_the_covariance_that_the_front_end_states) {
   const Eigen::Matrix3d part = kPathNoise.stated_share * kPathNoise.stated_share * turned;
   EXPECT_TRUE((path.covariance(1) - without.covariance(1)).isApprox(part, 1e-6));
   EXPECT_TRUE(path.covariance(0).isApprox(without.covariance(0), 1e-9));
+}
+
+TEST(ConstrainToPath, keeps_the_error_of_odometry_where_no_scan_matches) {
+  const Eigen::Matrix3d stated = Eigen::Vector3d(4e-2, 9e-2, 1e-2).asDiagonal();
+  DrivenPath none({0, 0, 0});
+  DrivenPath matched({0, 0, 0});
+  DrivenPath unmatched({0, 0, 0});
+  unmatched.matched = false;
+  none.move({0.3, 0, 0.2});
+  for (DrivenPath* one : {&matched, &unmatched}) one->move({0.3, 0, 0.2}, stated);
+  EXPECT_TRUE((unmatched.covariance(0) - none.covariance(0)).isApprox(stated, 1e-6));
+  // Only the errors of matches may repeat.
+  const double more = kPathDoubt * kPathDoubt - 1;
+  EXPECT_TRUE(matched.doubt(0).isApprox(more * matched.covariance(0), 1e-6));
+  EXPECT_TRUE(unmatched.doubt(0).isApprox(more * none.covariance(0), 1e-6));
 }
 
 TEST(ConstrainToPath, does_not_depend_on_the_frame_of_the_front_end) {

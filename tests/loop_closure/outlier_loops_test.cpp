@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -31,14 +32,16 @@ Constraint measured(Constraint::Kind kind, std::size_t from, std::size_t to, con
 }
 
 // A straight chain of nodes, one metre apart. Each constraint of the path has standard deviations of 0.1 m
-// and 0.01 rad, divided by `certainty`.
+// and 0.01 rad, divided by `certainty`; with its doubt, all have 0.1 m and 0.01 rad.
 PoseGraph straight_chain(std::size_t nodes, double certainty = 1) {
   PoseGraph graph;
   for (std::size_t i = 0; i < nodes; ++i) {
     graph.add_node({static_cast<double>(i), 0, 0});
-    if (i > 0)
-      graph.add_constraint(
-          measured(Constraint::Kind::kLocalMap, i - 1, i, {1, 0, 0}, 0.1 / certainty, 0.01 / certainty));
+    if (i == 0) continue;
+    Constraint step =
+        measured(Constraint::Kind::kLocalMap, i - 1, i, {1, 0, 0}, 0.1 / certainty, 0.01 / certainty);
+    step.doubt = (certainty * certainty - 1) * Eigen::Matrix3d(step.information.inverse());
+    graph.add_constraint(step);
   }
   return graph;
 }

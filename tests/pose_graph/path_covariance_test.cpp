@@ -290,7 +290,7 @@ TEST(PathCovariance, breaks_ties_the_same_way_every_time) {
   }
 }
 
-TEST(PathCovariance, the_doubt_scales_the_path_and_not_the_loops) {
+TEST(PathCovariance, adds_the_doubt_of_each_constraint_on_request) {
   PoseGraph graph;
   for (const double x_m : {0.0, 1.0, 2.0}) graph.add_node({x_m, 0, 0});
   Constraint constraint;
@@ -298,14 +298,14 @@ TEST(PathCovariance, the_doubt_scales_the_path_and_not_the_loops) {
   constraint.information = Eigen::Vector3d(100, 100, 1e9).asDiagonal();
   constraint.from = 0;
   constraint.to = 1;
-  constraint.kind = Constraint::Kind::kLocalMap;
+  constraint.doubt = Eigen::Vector3d(0.24, 0, 0).asDiagonal();
   graph.add_constraint(constraint);
   constraint.from = 1;
   constraint.to = 2;
-  constraint.kind = Constraint::Kind::kLoop;
+  constraint.doubt.setZero();
   graph.add_constraint(constraint);
   PathCovarianceOptions doubtful;
-  doubtful.path_doubt = 5;
+  doubtful.with_doubt = true;
   EXPECT_NEAR(path_covariances(graph, 0)[2].covariance(0, 0), 0.01 + 0.01, 1e-9);
   EXPECT_NEAR(path_covariances(graph, 0, doubtful)[2].covariance(0, 0), 25 * 0.01 + 0.01, 1e-9);
 }

@@ -43,7 +43,7 @@ PairSquares squares_of_pairs(const PoseGraph& graph, const TruePose& a_T_b, std:
   of_graph.update(graph);
   PathCovarianceSearch of_path;
   PathCovarianceOptions doubtful;
-  doubtful.path_doubt = kPathDoubt;
+  doubtful.with_doubt = true;
   RandomDraws random(seed, "pairs of nodes", 0);
   PairSquares squares;
   for (std::size_t i = 0; i < kFirsts; ++i) {

@@ -17,13 +17,12 @@
 namespace psi_slam {
 
 /// Robust kernel: a constraint adds the cost rho(s) to the error sum instead of its squared error s = e^T
-/// Omega e. The kernel limits the effect of a false constraint on the map. All kernels but kScaled
+/// Omega e. The kernel limits the effect of a false constraint on the map. All kernels
 /// approach rho(s) = s for small s.
 struct RobustKernel {
   /// Form of the cost function.
   enum class Type {
     kNone,            ///< rho(s) = s
-    kScaled,          ///< rho(s) = width^2 s: standard deviations 1 / width times as large
     kHuber,           ///< rho(s) grows as sqrt(s) beyond the width; convex in the error
     kCauchy,          ///< rho(s) grows logarithmically
     kDynamicScaling,  ///< dynamic covariance scaling (Agarwal et al., ICRA 2013): bounded by 3 width^2
@@ -36,8 +35,8 @@ struct RobustKernel {
   /// Returns rho(chi2) for chi2 >= 0.
   double cost(double chi2) const;
 
-  /// Returns drho/dchi2, in [0, 1] unless the kernel is kScaled: the factor on the information matrix in
-  /// iteratively reweighted least squares.
+  /// Returns drho/dchi2, in [0, 1]: the factor on the information matrix in iteratively reweighted least
+  /// squares.
   double weight(double chi2) const;
 };
 
@@ -57,6 +56,9 @@ struct Constraint {
   mrpt::math::TPose2D from_T_to;  ///< measured pose of `to` in the frame of `from`: metres, radians
   /// Inverse covariance of (x, y, theta) of from_T_to, in the axes of `from`: 1/m^2, 1/(m rad), 1/rad^2.
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
+  /// Covariance to add where places are searched and loops are chosen, in the same axes: errors that may
+  /// repeat along the path, and then add up. See doubtful_graph().
+  Eigen::Matrix3d doubt = Eigen::Matrix3d::Zero();
   Kind kind = Kind::kOdometry;         ///< origin of the measurement
   std::optional<RobustKernel> kernel;  ///< kernel of this constraint; empty: the solver's kernel for its kind
 };
@@ -75,10 +77,10 @@ struct PoseCovariance {
 struct GraphLink {
   std::uint32_t from = 0;  ///< node where the constraint begins
   std::uint32_t to = 0;    ///< node where the constraint ends
-  bool of_path = false;    ///< whether the constraint is of the kind kLocalMap
   /// Covariance of from_T_to along the axes of `from`. The variances are infinite if the information is
   /// singular.
   PoseCovariance covariance;
+  PoseCovariance doubt;  ///< Constraint::doubt
 };
 
 /// Graph of nodes and constraints, both numbered from 0 in the order of insertion. Nodes and constraints are

@@ -83,6 +83,9 @@ class Judge {
            "fetch the log again, or map the readable part");
     }
     if (facts_.contents.skipped.count > 0) note("skipped_lines", facts_.contents.skipped.sentence());
+    if (!facts_.contents.repeated_scans.empty())
+      warn("repeated_readings", facts_.contents.repeated_scans,
+           "check the power supply, the connection and the driver of the laser");
     for (const std::string& assumption : facts_.contents.assumptions) note("assumption", assumption);
   }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "frames/log_format.h"
+#include "frames/repeated_scans.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/log_options.h"
 
@@ -36,22 +37,34 @@ struct LogContents {
   std::vector<std::vector<std::string>> laser_names;
   SkippedLines skipped;
   std::vector<std::string> assumptions;             ///< see FrameSource::assumptions()
+  std::string repeated_scans;                       ///< see RepeatedScans::sentence()
   std::map<std::string, std::size_t> messages;      ///< CARMEN: lines of each kind, ignored ones included
   std::size_t scans_with_two_poses = 0;             ///< CARMEN: scans whose pose differs from their odometry
   std::map<std::string, std::size_t> other_lasers;  ///< rawlog: scans of lasers that are not read, by label
 };
 
 /// Reader of one format. Each frame is the scan of one laser, even if several lasers are read:
-/// SynchronizedSource combines them.
+/// SynchronizedSource combines them. Leaves out scans that repeat an earlier one; see repeated_scans.h.
 class LogReader : public FrameSource {
  public:
   std::optional<Frame> next() final {
     auto frame = read_frame();
-    if (frame) frame->index = frames_given_++;
+    bool knows_turn = true;  // since the frame that was given last
+    for (; frame && repeated_.repeats(*frame); frame = read_frame()) {
+      contents_.repeated_scans = repeated_.sentence();
+      knows_turn = knows_turn && frame->imu_heading_rad;
+    }
+    if (!frame) return frame;
+    if (!knows_turn) frame->imu_heading_rad.reset();
+    frame->index = frames_given_++;
     return frame;
   }
   SkippedLines skipped_lines() const override { return contents_.skipped; }
-  std::vector<std::string> assumptions() const override { return contents_.assumptions; }
+  std::vector<std::string> assumptions() const override {
+    std::vector<std::string> assumptions = contents_.assumptions;
+    if (!contents_.repeated_scans.empty()) assumptions.push_back(contents_.repeated_scans);
+    return assumptions;
+  }
   const LogContents& contents() const { return contents_; }
 
  protected:
@@ -64,6 +77,7 @@ class LogReader : public FrameSource {
 
  private:
   std::size_t frames_given_ = 0;
+  RepeatedScans repeated_;
 };
 
 /// Returns whether open_log() combines the scans of several lasers of a log with these contents. Throws

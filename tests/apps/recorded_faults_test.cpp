@@ -47,6 +47,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         FaultyLog{"one_bad_scan.db3.zstd", "small.tum", 0.02, "1 message of the log is unusable"},
         FaultyLog{"two_robots.db3.zstd", "robot2.tum", 0.016, "", {"--set", "log.scan_topic=/robot2/scan"}},
+        FaultyLog{"stall_a.clf.gz", "stall.tum", 0.01, "18 scans repeat the readings of an earlier scan"},
+        FaultyLog{"stall_none.clf.gz", "stall.tum", 0.01, ""},
+        FaultyLog{"published_twice.db3.zstd", "small.tum", 0.01,
+                  "scans repeat the readings of an earlier scan"},
         FaultyLog{"first_scan_bad.db3.zstd", "small.tum", 0.02, "1 message of the log is unusable"}),
     [](const auto& tested) { return tested.param.file.substr(0, tested.param.file.find('.')); });
 

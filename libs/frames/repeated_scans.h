@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds scans that are no new measurement: a lidar that stalls, or its driver, gives the readings of an
+// earlier scan again with a new time stamp. The readings then repeat to the last bit although the robot
+// moved.
+//
+// A simulator without noise repeats readings truthfully, which other explanations of a repeat cover: the
+// robot stands, it is back where it measured these readings as far as odometry can tell, or the walls look
+// the same from both poses, as in a bare corridor. The laser must have shown that its readings change.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <string>
+
+#include "psi_slam/frame.h"
+
+namespace psi_slam {
+
+class RepeatedScans {
+ public:
+  /// Takes the next frame of a reader, whose companions are empty. Returns whether its readings are those of
+  /// an earlier scan of the laser although odometry, or else the gyroscope, shows that the robot is
+  /// elsewhere.
+  bool repeats(const Frame& frame);
+
+  /// States for how many frames repeats() was true, and when: one sentence without full stop; empty for none.
+  std::string sentence() const;
+
+ private:
+  /// Readings that a laser gave, with the newest pose at which they can have been measured.
+  struct Seen {
+    Frame frame;
+    double path_m = 0;  ///< path_m_ at that pose
+    double turned_rad = 0;
+  };
+
+  void travel(const Frame& frame);
+  bool is_elsewhere(const Seen& seen, const Frame& frame) const;
+
+  std::map<std::size_t, std::deque<Seen>> seen_;  ///< by the laser, the newest readings last
+  Frame last_;                                    ///< the frame before, without readings
+  bool has_last_ = false;
+  double path_m_ = 0;      ///< path by odometry so far
+  double turned_rad_ = 0;  ///< sum of the absolute turns so far
+  TimeUs begin_us_ = 0;    ///< time of the first frame
+  std::size_t count_ = 0;
+  TimeUs first_us_ = 0;  ///< time of the first repeat
+  TimeUs last_us_ = 0;   ///< time of the newest repeat
+};
+
+}  // namespace psi_slam

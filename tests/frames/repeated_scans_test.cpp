@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frames/repeated_scans.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "simulated_run.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+Frame frame_of(const SimulatedRun& run, std::size_t i) {
+  Frame frame;
+  frame.index = i;
+  frame.time_us = static_cast<TimeUs>(1e6 * SimulatedRun::kPeriod_s * static_cast<double>(i));
+  frame.odom_T_robot = run.odometry[i];
+  frame.scan = run.scan(i);
+  return frame;
+}
+
+std::vector<Frame> frames_of(const SimulatedRun& run) {
+  std::vector<Frame> frames;
+  for (std::size_t i = 0; i < run.truth.size(); ++i) frames.push_back(frame_of(run, i));
+  return frames;
+}
+
+/// Returns the indices of the frames that repeat an earlier one.
+std::vector<std::size_t> repeats_in(const std::vector<Frame>& frames, RepeatedScans&& finder = {}) {
+  std::vector<std::size_t> repeats;
+  for (const Frame& frame : frames)
+    if (finder.repeats(frame)) repeats.push_back(frame.index);
+  return repeats;
+}
+
+SimulatedRun without_noise(SimulatedRun run) {
+  run.noise_m = 0;
+  return run;
+}
+
+TEST(RepeatedScans, finds_an_older_scan_with_new_stamps) {
+  std::vector<Frame> frames = frames_of(simulated_run({{0.08, 1.0, 60}}));
+  for (const std::size_t stalled : {40U, 41U, 42U}) frames[stalled].scan.ranges_m = frames[30].scan.ranges_m;
+  RepeatedScans finder;
+  EXPECT_EQ(finder.sentence(), "");
+  for (const Frame& frame : frames) finder.repeats(frame);
+  EXPECT_EQ(
+      finder.sentence(),
+      "3 scans repeat the readings of an earlier scan although the robot moved (the first 8.0 s, the last "
+      "8.4 s into the log), so they are left out: the laser stalled, or its driver publishes scans twice");
+  EXPECT_THAT(repeats_in(frames), testing::ElementsAre(40, 41, 42));
+}
+
+TEST(RepeatedScans, judges_each_laser_by_itself) {
+  std::vector<Frame> frames = frames_of(simulated_run({{0.08, 1.0, 60}}));
+  for (const std::size_t stalled : {40U, 41U, 42U}) frames[stalled].scan.ranges_m = frames[30].scan.ranges_m;
+  frames[41].scan.laser = 1;
+  EXPECT_THAT(repeats_in(frames), testing::ElementsAre(40, 42));
+}
+
+TEST(RepeatedScans, turns_by_a_gyroscope_count_without_odometry) {
+  std::vector<Frame> frames = frames_of(simulated_run({{0.0, 3.0, 60}}));
+  for (Frame& frame : frames) {
+    frame.has_odometry = false;
+    frame.imu_heading_rad = frame.odom_T_robot.phi;
+  }
+  frames[41].scan.ranges_m = frames[40].scan.ranges_m;
+  EXPECT_THAT(repeats_in(frames), testing::ElementsAre(41));
+  for (Frame& frame : frames) frame.imu_heading_rad.reset();
+  EXPECT_THAT(repeats_in(frames), testing::IsEmpty());
+}
+
+TEST(RepeatedScans, a_robot_that_stands_repeats_scans_without_noise) {
+  SimulatedRun run = without_noise(simulated_run({{0.08, 1.0, 30}, {0, 0, 100}, {0.08, 1.0, 30}}));
+  EXPECT_THAT(repeats_in(frames_of(run)), testing::IsEmpty());
+  for (std::size_t i = 30; i < run.odometry.size(); ++i)  // odometry drifts by 1 mm/s
+    run.odometry[i].x += 0.0002 * static_cast<double>(i - 30);
+  EXPECT_THAT(repeats_in(frames_of(run)), testing::IsEmpty());
+}
+
+TEST(RepeatedScans, a_robot_that_comes_back_repeats_scans_without_noise) {
+  // Forwards, back and around, by odometry with errors of 2 %.
+  const SimulatedRun run =
+      without_noise(simulated_run({{0.125, 0, 20}, {-0.125, 0, 20}, {0, 15, 24}, {0, 15, 24}}));
+  std::vector<Frame> frames = frames_of(run);
+  for (std::size_t i = 21; i <= 40; ++i) frames[i].scan.ranges_m = frames[40 - i].scan.ranges_m;
+  for (std::size_t i = 65; i <= 88; ++i) frames[i].scan.ranges_m = frames[i - 24].scan.ranges_m;
+  EXPECT_THAT(repeats_in(frames), testing::IsEmpty());
+}
+
+TEST(RepeatedScans, a_bare_corridor_looks_the_same_everywhere_without_noise) {
+  SimulatedRun run = without_noise(simulated_run({{0.1, 0, 60}}, {5, 1, 0}));
+  run.walls.clear();
+  add_box(run.walls, -100, 0, 100, 2.5);
+  for (TPose2D& pose : run.truth) pose.phi = 0;
+  std::vector<Frame> frames = frames_of(run);
+  for (Frame& frame : frames)
+    for (float& range_m : frame.scan.ranges_m)
+      range_m = range_m > 20 ? std::numeric_limits<float>::infinity() : std::round(range_m * 100) / 100;
+  ASSERT_EQ(frames[10].scan.ranges_m, frames[50].scan.ranges_m);
+  EXPECT_THAT(repeats_in(frames), testing::IsEmpty());
+}
+
+TEST(RepeatedScans, ignores_scans_without_shape) {
+  std::vector<Frame> frames = frames_of(simulated_run({{0.08, 1.0, 60}}));
+  for (const float value :
+       {0.0F, 81.83F, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    for (Frame& frame : frames) frame.scan.ranges_m.assign(frame.scan.ranges_m.size(), value);
+    EXPECT_THAT(repeats_in(frames), testing::IsEmpty());
+  }
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -18,6 +18,7 @@
 // A stream is looked over only for its first seconds, see open_carmen_stream(). All its malformed lines are
 // skipped, because a connection may be cut at any time.
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -27,6 +28,8 @@
 #include "frames/log_reader.h"
 #include "frames/look_over.h"
 #include "frames/odometry_interpolator.h"
+#include "frames/pose_operations.h"
+#include "frames/pose_tolerance.h"
 
 namespace psi_slam {
 namespace {
@@ -270,8 +273,7 @@ class CarmenReader : public LogReader {
     const bool is_raw = starts_with(fields.message(), "RAWLASER");
     const bool is_robotlaser = starts_with(fields.message(), "ROBOTLASER");
     CarmenLaserMessage message = read_laser(fields);
-    if (!is_raw && !is_robotlaser && !(message.odom_T_laser == message.odom_T_robot))
-      ++contents_.scans_with_two_poses;
+    if (!is_raw && !is_robotlaser) compare_poses(message, laser.number);
     Frame frame;
     frame.time_us = message.time_us;
     frame.odom_T_robot = message.odom_T_robot;
@@ -287,6 +289,16 @@ class CarmenReader : public LogReader {
                                       " scans, so later ones are not used");
     }
     return std::nullopt;
+  }
+
+  /// Counts the scan if its line has a second pose. A second pose that moves with the robot is the laser's.
+  void compare_poses(const CarmenLaserMessage& message, std::size_t laser) {
+    constexpr PoseTolerance kRounding{0.005, 0.005};
+    if (!(message.odom_T_laser == message.odom_T_robot)) ++contents_.scans_with_two_poses;
+    const mrpt::math::TPose2D robot_T_second = between(message.odom_T_robot, message.odom_T_laser);
+    const auto [first, is_new] = robot_T_second_.emplace(laser, robot_T_second);
+    if (!is_new && !is_same_place(first->second, robot_T_second, kRounding))
+      contents_.second_pose_is_mapped = true;
   }
 
   /// Prepares a laser for its first scan: applies the PARAM lines before it. Throws UserError if several
@@ -350,6 +362,7 @@ class CarmenReader : public LogReader {
   OdometryInterpolator interpolator_;
   // Pointers into contents_.messages, by number of the laser, to avoid a search.
   std::vector<std::size_t*> scan_counts_;
+  std::map<std::size_t, mrpt::math::TPose2D> robot_T_second_;  // second pose of the first scan, by laser
   std::set<std::string> other_names_;  // of messages of a stream that are counted, but not read
   bool with_odometry_;
   bool ignores_odom_lines_ = false;  // because the first lines of the stream had none; none has come so far

@@ -72,7 +72,13 @@ double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {
 /// Aligns scans with each other and compares their motions with odometry. Sets the members of `diagnosis`
 /// that depend on odometry.
 void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& options, LogDiagnosis& diagnosis) {
-  const std::vector<FrameMark>& marks = pass.marks;
+  const auto& lasers = pass.facts.contents.laser_names;
+  const double stated_delay_s = delay_of_laser(stated_delays(diagnosis.options),
+                                               lasers.empty() ? std::vector<std::string>() : lasers.front());
+  // The studies of smaller delays include them.
+  const double removed_delay_s = std::abs(stated_delay_s) > kMostEstimatedDelay_s ? stated_delay_s : 0;
+  const std::vector<FrameMark> marks =
+      removed_delay_s == 0 ? pass.marks : with_scan_delay(pass.marks, removed_delay_s);
   const auto tracks = tracks_from(frames_in_motion(marks, kTracks), marks.size());
   const auto pairs = pairs_by_motion(marks, kComparedMotion_m, kComparedTurn_rad, kPairs);
   const auto suspects = suspected_jumps(marks, pass.facts.time.median_period_s, 100);
@@ -91,13 +97,15 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
   std::vector<FrameMark> corrected = marks;  // for a delay without which odometry contradicts the scans
   diagnosis.odometry = check_odometry_and_delay(corrected, tracks, library);
   diagnosis.odometry_is_sound = is_sound(diagnosis.odometry);
+  if (auto& offset = diagnosis.odometry.clock_offset) offset->delay_s += removed_delay_s;
   if (diagnosis.odometry_is_sound) {
     std::vector<AlignedPair> aligned = align_pairs(corrected, pairs, library);
     diagnosis.reversals = find_lost_reversals(aligned, library);
     diagnosis.delay = remove_scan_delay(aligned, marks);
     // The scans are compared as recorded: measured in the middle of the sweep on average.
     if (diagnosis.delay)
-      diagnosis.delay->delay_s += std::abs(diagnosis.sweep_direction.stated_sweep_time_s) / 2;
+      diagnosis.delay->delay_s +=
+          removed_delay_s + std::abs(diagnosis.sweep_direction.stated_sweep_time_s) / 2;
     diagnosis.mount = estimate_laser_mount(aligned, pass.facts.robot_T_laser);
     diagnosis.jumps = confirm_jumps(marks, suspects, library);
     diagnosis.revisits = check_revisits(marks, revisits, library);

@@ -93,6 +93,7 @@ void LogFactsCollector::add(const Frame& frame, float max_range_m, float min_ran
   facts.max_range_m = max_range_m;
   std::size_t returns = 0;
   for (const float range : scan.ranges_m) {
+    if (std::isnan(range)) ++facts.invalid;
     if (!std::isfinite(range)) continue;
     if (range >= min_range_m && range < max_range_m) ++returns;
     const auto cm = static_cast<std::size_t>(static_cast<double>(range) * 100.0 + 0.5);  // below 1 km

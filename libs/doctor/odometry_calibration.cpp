@@ -86,7 +86,7 @@ LaserEstimate estimate(const std::filesystem::path& path, LogOptions options, co
   options.scan_delay_s = scan_delay_text({{"", delay_s}});
   found = estimate_once(path, options, part_of(progress, 0.5, 1));
   if (found.delay) found.delay->delay_s += delay_s;
-  if (found.delay && std::abs(found.delay->delay_s) > kMostScanDelay_s) found.delay.reset();
+  if (found.delay && std::abs(found.delay->delay_s) > kMostEstimatedDelay_s) found.delay.reset();
   return found;
 }
 

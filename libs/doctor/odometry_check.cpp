@@ -34,6 +34,10 @@ constexpr std::size_t kFewestSamples = 8;
 const double kLeastTurn_rad = DEG2RAD(1.2);
 constexpr double kDegreesPerRadian = 180.0 / M_PI;
 constexpr double kLeastResultant = 0.35;
+constexpr double kEnlarged = 5;     // ratio of turns, far above that of odometry of another time or robot
+constexpr double kSameRatio = 0.3;  // of lengths
+const double kStill_rad = DEG2RAD(3.0);
+constexpr double kClearShare = 0.9;  // of turns that agree: no other clock would explain more
 
 /// Turns between two consecutive frames of a track.
 struct Step {
@@ -87,6 +91,7 @@ std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vect
   TPose2D last_step{0, 0, 0};
   ScanAlignment newest;
   for (std::size_t k = 1; k < frames.size(); ++k) {
+    if (!have_same_span(library.at(frames.front()), library.at(frames[k]))) break;
     const AlignableScan scan(library.at(frames[k]));
     const FramePair step{frames[k - 1], frames[k]};
     const TPose2D odometry_step = odometry_between(marks, step);
@@ -140,6 +145,10 @@ void compare_lengths(const std::vector<Track>& tracks, OdometryAgreement& agreem
   agreement.length_samples = ratios.size();
   if (ratios.size() < kFewestSamples) return;
   agreement.length_ratio = quantile(ratios, 0.5);
+  const auto near = std::count_if(ratios.begin(), ratios.end(), [&](double ratio) {
+    return std::abs(ratio - agreement.length_ratio) <= kSameRatio * agreement.length_ratio;
+  });
+  agreement.length_share = static_cast<double>(near) / static_cast<double>(ratios.size());
   if (slips_rad.size() < kFewestSamples) return;
   agreement.direction_offset_rad = portable::atan2(directions.y(), directions.x());
   agreement.direction_concentration = directions.norm() / static_cast<double>(slips_rad.size());
@@ -153,20 +162,30 @@ bool fits(const Step& step, double factor) {
   return std::abs(wrapToPi(step.odometry_turn_rad - factor * step.scan_turn_rad)) <= tolerance_rad;
 }
 
+/// Returns whether the heading of odometry ever changes.
+bool turns_anywhere(const std::vector<FrameMark>& marks) {
+  const std::vector<double> headings_rad = unwrapped_headings(marks);
+  const auto [least, most] = std::minmax_element(headings_rad.begin(), headings_rad.end());
+  return !headings_rad.empty() && *most - *least > kStill_rad;
+}
+
 /// Returns how well the turns of odometry match the turns of the scans if odometry is in degrees that were
-/// wrapped as radians. 1: perfect agreement; about 0: unrelated turns. Tries small turns first: degrees
-/// enlarge the errors of turns 57 times.
+/// wrapped as radians. 1: perfect agreement; 0: unrelated turns, or most turns of odometry are not enlarged.
+/// Tries small turns first: degrees enlarge the errors of turns 57 times.
 double degrees_resultant(const std::vector<Step>& steps, double factor) {
   for (const double most_rad : {DEG2RAD(2.5), DEG2RAD(6.0)}) {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     std::size_t count = 0;
+    std::size_t enlarged = 0;
     for (const Step& step : steps) {
       const double turn_rad = std::abs(step.scan_turn_rad);
       if (turn_rad < DEG2RAD(0.3) || turn_rad > most_rad) continue;
       sum += unit_vector(step.odometry_turn_rad - factor * step.scan_turn_rad);
       ++count;
+      if (std::abs(step.odometry_turn_rad) > kEnlarged * turn_rad) ++enlarged;
     }
-    if (count >= 3 * kFewestSamples) return sum.norm() / static_cast<double>(count);
+    if (count < 3 * kFewestSamples) continue;
+    return 2 * enlarged > count ? sum.norm() / static_cast<double>(count) : 0;
   }
   return 0;
 }
@@ -206,7 +225,7 @@ bool is_sound(const OdometryAgreement& odometry) {
       odometry.length_ratio == 0 || (odometry.length_ratio > 0.6 && odometry.length_ratio < 1.6);
   const bool heading_is_right =
       odometry.heading == HeadingRelation::kAgrees || odometry.heading == HeadingRelation::kUnknown;
-  return length_is_right && heading_is_right;
+  return length_is_right && heading_is_right && !odometry.clock_offset;
 }
 
 std::vector<std::vector<std::size_t>> tracks_from(const std::vector<std::size_t>& starts,
@@ -230,6 +249,8 @@ OdometryAgreement check_odometry(const std::vector<FrameMark>& marks,
   agreement.tracks = followed.size();
   compare_lengths(followed, agreement);
   compare_turns(followed, agreement);
+  if (agreement.heading == HeadingRelation::kNone && turns_anywhere(marks))
+    agreement.heading = HeadingRelation::kUnrelated;
   return agreement;
 }
 
@@ -237,14 +258,28 @@ OdometryAgreement check_odometry_and_delay(std::vector<FrameMark>& marks,
                                            const std::vector<std::vector<std::size_t>>& tracks,
                                            const ScanLibrary& library) {
   OdometryAgreement agreement = check_odometry(marks, tracks, library);
-  if (is_sound(agreement)) return agreement;
-  const auto delay = estimate_scan_delay(marks, agreement.turns);
-  if (!delay || !delay->is_significant()) return agreement;
-  std::vector<FrameMark> shifted = with_scan_delay(marks, delay->delay_s);
-  OdometryAgreement with_delay = check_odometry(shifted, tracks, library);
-  if (!is_sound(with_delay)) return agreement;
-  marks = std::move(shifted);
-  return with_delay;
+  if (is_sound(agreement) &&
+      (agreement.heading != HeadingRelation::kAgrees || agreement.heading_share > kClearShare))
+    return agreement;
+  if (!is_sound(agreement)) {
+    const auto delay = estimate_scan_delay(marks, agreement.turns);
+    if (delay && delay->is_significant()) {
+      std::vector<FrameMark> shifted = with_scan_delay(marks, delay->delay_s);
+      OdometryAgreement with_delay = check_odometry(shifted, tracks, library);
+      if (is_sound(with_delay)) {
+        marks = std::move(shifted);
+        return with_delay;
+      }
+    }
+  }
+  const auto offset = estimate_clock_offset(marks, agreement.turns);
+  if (!offset || !offset->is_significant()) return agreement;
+  const OdometryAgreement with_offset =
+      check_odometry(with_scan_delay(marks, offset->delay_s), tracks, library);
+  if (is_sound(with_offset) && with_offset.heading == HeadingRelation::kAgrees &&
+      with_offset.heading_share > agreement.heading_share)
+    agreement.clock_offset = offset;
+  return agreement;
 }
 
 }  // namespace psi_slam

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "doctor/log_facts.h"
@@ -29,6 +30,7 @@ struct OdometryAgreement {
   double odometry_path_m = 0;      ///< sum of the displacements of all tracks, by odometry
   std::size_t length_samples = 0;  ///< tracks with a displacement that the scans determine
   double length_ratio = 0;  ///< median over tracks of displacement by odometry / by scans; 0 if unknown
+  double length_share = 0;  ///< fraction of the tracks whose ratio is within 30 % of the median
   std::size_t turn_samples = 0;
   HeadingRelation heading = HeadingRelation::kUnknown;
   /// Fraction of turns with this relation; for kDegrees and kOppositeDegrees, quality of the match in [0, 1].
@@ -42,6 +44,9 @@ struct OdometryAgreement {
   /// if the headings of odometry do not match the positions of odometry.
   double odometry_slip_rad = 0;
   std::vector<ScanTurn> turns{};  ///< turns between consecutive frames of all tracks
+  /// Difference of the clocks of scans and odometry. Odometry agrees with the scans if it is removed, and not
+  /// as recorded, which is what the other members describe.
+  std::optional<ScanDelay> clock_offset{};
 };
 
 /// Returns whether units and signs of odometry are right, as far as the scans tell.
@@ -57,7 +62,8 @@ OdometryAgreement check_odometry(const std::vector<FrameMark>& marks,
                                  const ScanLibrary& library);
 
 /// Like check_odometry(). If odometry is not sound, but is with scans that were measured before their time
-/// stamps, also replaces the odometry of `marks` by that of the times of measurement.
+/// stamps, also replaces the odometry of `marks` by that of the times of measurement. For more than a second
+/// between both, sets OdometryAgreement::clock_offset instead.
 OdometryAgreement check_odometry_and_delay(std::vector<FrameMark>& marks,
                                            const std::vector<std::vector<std::size_t>>& tracks,
                                            const ScanLibrary& library);

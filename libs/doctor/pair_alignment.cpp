@@ -33,6 +33,7 @@ std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const 
   std::vector<AlignedPair> aligned;
   aligned.reserve(pairs.size());
   for (const FramePair& pair : pairs) {
+    if (!have_same_span(library.at(pair.first), library.at(pair.second))) continue;
     const TPose2D by_odometry = odometry_between(marks, pair);
     const AlignableScan reference(library.at(pair.first));
     const AlignableScan scan(library.at(pair.second));

@@ -23,7 +23,7 @@ struct AlignedPair {
   ScanAlignment by_scans;  ///< aligned with odometry's motion as the guess
 };
 
-/// Aligns all pairs. The result includes unreliable alignments.
+/// Aligns all pairs whose scans have the same span. The result includes unreliable alignments.
 std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
                                      const ScanLibrary& library, const ShareObserver& progress = {});
 

@@ -69,6 +69,7 @@ std::vector<std::string> quick_check(const std::vector<Frame>& log, std::size_t 
   if (diagnosis.mount) diagnosis.mount->odometry_scale /= options.odometry_scale.value_or(1);
   if ((options.calibrate && delays.empty()) || is_of_one_laser) diagnosis.delay.reset();
   if (diagnosis.delay) diagnosis.delay->delay_s += delay_of_laser(delays, {});
+  if (auto& offset = diagnosis.odometry.clock_offset) offset->delay_s += delay_of_laser(delays, {});
   std::vector<std::string> faults;
   for (Finding& finding : judge(diagnosis)) {
     if (finding.severity != Severity::kWarning || finding.code == "empty_scans") continue;

@@ -5,6 +5,7 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <limits>
 
 #include "base/portable_math.h"
@@ -25,6 +26,10 @@ constexpr int kIterations = 20;
 // Residuals beyond this count less (Cauchy weights): odometry that slips, scans that are badly aligned.
 const double kNoise_rad = mrpt::DEG2RAD(1.0);
 constexpr double kGainDeviation = 0.3;  // of the ratio of turns, before any scan is compared
+constexpr double kOffsetStep_s = 0.1;   // turns of robots take longer
+constexpr double kMostOffset_s = 300;
+constexpr std::size_t kTurnsForOffset = 200;
+constexpr double kFarBetter = 0.5;  // ratio of the mean costs of an offset of clocks and of its rivals
 
 /// Odometry of all marks at shifted times.
 class ShiftedOdometry {
@@ -33,6 +38,7 @@ class ShiftedOdometry {
     track_of_.reserve(marks.size());
     for (const FrameMark& mark : marks) {
       if (tracks_.back().ends_before(mark.time_us)) tracks_.emplace_back();
+      if (begins_us_.size() < tracks_.size()) begins_us_.push_back(mark.time_us);
       tracks_.back().add(mark.time_us, mark.odom_T_robot);
       track_of_.push_back(tracks_.size() - 1);
     }
@@ -44,6 +50,14 @@ class ShiftedOdometry {
                                         static_cast<TimeUs>(std::lround(1e6 * delay_s)));
   }
 
+  /// Returns whether the track has odometry of the times at which both scans were measured.
+  bool covers(const FramePair& pair, double delay_s) const {
+    const std::size_t track = track_of_[pair.first];
+    const auto delay_us = static_cast<TimeUs>(std::lround(1e6 * delay_s));
+    return track_of_[pair.second] == track && marks_[pair.first].time_us - delay_us >= begins_us_[track] &&
+           marks_[pair.second].time_us - delay_us <= tracks_[track].end_us();
+  }
+
   double turn_rad(const FramePair& pair, double delay_s) const {
     return wrapToPi(at(pair.second, delay_s).phi - at(pair.first, delay_s).phi);
   }
@@ -51,8 +65,14 @@ class ShiftedOdometry {
  private:
   const std::vector<FrameMark>& marks_;
   std::vector<OdometryTrack> tracks_;
+  std::vector<TimeUs> begins_us_;  // of the tracks
   std::vector<std::size_t> track_of_;
 };
+
+/// Cost of a difference of turns, limited by the logarithm: odometry slips, and alignments fail.
+double cost_of(double residual_rad) {
+  return portable::log1p(portable::pow(wrapToPi(residual_rad) / kNoise_rad, 2));
+}
 
 /// Returns the multiple of the candidates' step that explains the turns best. Empty if the limit does.
 std::optional<double> best_candidate_s(const ShiftedOdometry& odometry, const std::vector<ScanTurn>& turns) {
@@ -61,30 +81,23 @@ std::optional<double> best_candidate_s(const ShiftedOdometry& odometry, const st
   for (int i = 0; i <= 2 * kCandidates; ++i) {  // 0, -1, 1, -2, 2, ...: of equal costs, the smallest delay
     const int k = i % 2 == 0 ? i / 2 : -(i + 1) / 2;
     double cost = 0;
-    for (const ScanTurn& turn : turns) {
-      const double residual =
-          wrapToPi(turn.turn_rad - odometry.turn_rad(turn.frames, kMostScanDelay_s * k / kCandidates));
-      cost += portable::log1p(portable::pow(residual / kNoise_rad, 2));
-    }
+    for (const ScanTurn& turn : turns)
+      cost +=
+          cost_of(turn.turn_rad - odometry.turn_rad(turn.frames, kMostEstimatedDelay_s * k / kCandidates));
     if (cost >= lowest) continue;
     lowest = cost;
     best = k;
   }
   if (std::abs(best) == kCandidates) return std::nullopt;
-  return kMostScanDelay_s * best / kCandidates;
+  return kMostEstimatedDelay_s * best / kCandidates;
 }
 
-}  // namespace
-
-std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks,
-                                             const std::vector<ScanTurn>& turns) {
-  if (turns.size() < kFewestTurns) return std::nullopt;
-  const ShiftedOdometry odometry(marks);
-  const auto candidate_s = best_candidate_s(odometry, turns);
-  if (!candidate_s) return std::nullopt;
-  // Gauss-Newton steps for the delay and the ratio of turns, with a weak prior: without turns, both stay.
-  const Eigen::Vector2d prior(*candidate_s, 1);
-  const Eigen::Matrix2d prior_hessian = Eigen::Vector2d(portable::pow(kNoise_rad / kMostScanDelay_s, 2),
+/// Estimates the delay near a candidate by Gauss-Newton steps for the delay and the ratio of turns, with a
+/// weak prior: without turns, both stay. Empty if the delay leaves the candidate by kMostEstimatedDelay_s.
+std::optional<ScanDelay> refined(const ShiftedOdometry& odometry, const std::vector<ScanTurn>& turns,
+                                 double candidate_s) {
+  const Eigen::Vector2d prior(candidate_s, 1);
+  const Eigen::Matrix2d prior_hessian = Eigen::Vector2d(portable::pow(kNoise_rad / kMostEstimatedDelay_s, 2),
                                                         portable::pow(kNoise_rad / kGainDeviation, 2))
                                             .asDiagonal();
   Eigen::Vector2d estimate = prior;
@@ -108,10 +121,73 @@ std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks
     }
     if (i < kIterations) estimate += hessian.ldlt().solve(gradient);
   }
-  if (!(std::abs(estimate[0]) < kMostScanDelay_s)) return std::nullopt;
+  if (!(std::abs(estimate[0] - candidate_s) < kMostEstimatedDelay_s)) return std::nullopt;
   const Eigen::Matrix2d covariance =
       estimate_covariance<2>(hessian, gradients, kNoise_rad * kNoise_rad * prior_hessian);
   return ScanDelay{turns.size(), estimate[0], std::sqrt(covariance(0, 0))};
+}
+
+/// Mean cost of the turns under the assumption that odometry turns `factor` times as far, at the same times.
+double cost_of_factor(const ShiftedOdometry& odometry, const std::vector<ScanTurn>& turns, double factor) {
+  double cost = 0;
+  for (const ScanTurn& turn : turns)
+    cost += cost_of(factor * turn.turn_rad - odometry.turn_rad(turn.frames, 0));
+  return cost / static_cast<double>(turns.size());
+}
+
+/// Mean cost of the turns at a delay, over those whose times odometry covers. Infinite if it covers less than
+/// half of them.
+double mean_cost_at(const ShiftedOdometry& odometry, const std::vector<ScanTurn>& turns, double delay_s) {
+  double cost = 0;
+  std::size_t covered = 0;
+  for (const ScanTurn& turn : turns) {
+    if (!odometry.covers(turn.frames, delay_s)) continue;
+    ++covered;
+    cost += cost_of(turn.turn_rad - odometry.turn_rad(turn.frames, delay_s));
+  }
+  return 2 * covered < turns.size() ? std::numeric_limits<double>::infinity()
+                                    : cost / static_cast<double>(covered);
+}
+
+}  // namespace
+
+std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks,
+                                             const std::vector<ScanTurn>& turns) {
+  if (turns.size() < kFewestTurns) return std::nullopt;
+  const ShiftedOdometry odometry(marks);
+  const auto candidate_s = best_candidate_s(odometry, turns);
+  if (!candidate_s) return std::nullopt;
+  const auto delay = refined(odometry, turns, *candidate_s);
+  if (!delay || !(std::abs(delay->delay_s) < kMostEstimatedDelay_s)) return std::nullopt;
+  return delay;
+}
+
+std::optional<ScanDelay> estimate_clock_offset(const std::vector<FrameMark>& marks,
+                                               const std::vector<ScanTurn>& turns) {
+  if (turns.size() < kFewestTurns) return std::nullopt;
+  const ShiftedOdometry odometry(marks);
+  std::vector<ScanTurn> some;  // enough to find the offset
+  for (std::size_t i = 0; i < turns.size(); i += turns.size() / kTurnsForOffset + 1) some.push_back(turns[i]);
+  double rival = cost_of_factor(odometry, some, 0);
+  for (const double degrees : {mrpt::RAD2DEG(1.0), -mrpt::RAD2DEG(1.0)})
+    rival = std::min(rival, cost_of_factor(odometry, some, degrees));
+  double best_s = 0;
+  double lowest = std::numeric_limits<double>::infinity();
+  const double half_s = seconds(marks.back().time_us - marks.front().time_us) / 2;
+  for (int k = 0; k * kOffsetStep_s < std::min(kMostOffset_s, half_s); ++k) {
+    for (const double delay_s : {-k * kOffsetStep_s, k * kOffsetStep_s}) {
+      const double cost = mean_cost_at(odometry, some, delay_s);
+      if (std::abs(delay_s) <= kMostEstimatedDelay_s) rival = std::min(rival, cost);
+      if (cost >= lowest) continue;
+      lowest = cost;
+      best_s = delay_s;
+    }
+  }
+  if (lowest > kFarBetter * rival) return std::nullopt;
+  std::vector<ScanTurn> covered;
+  for (const ScanTurn& turn : turns)
+    if (odometry.covers(turn.frames, best_s)) covered.push_back(turn);
+  return refined(odometry, covered, best_s);
 }
 
 std::vector<FrameMark> with_scan_delay(const std::vector<FrameMark>& marks, double delay_s) {

@@ -19,6 +19,9 @@ struct ScanTurn {
   double turn_rad = 0;
 };
 
+/// Delays by drivers and networks are shorter. Clocks that were not synchronised differ by more.
+inline constexpr double kMostEstimatedDelay_s = 1;
+
 struct ScanDelay {
   std::size_t turns = 0;   ///< number of pairs of scans that were compared
   double delay_s = 0;      ///< see LogOptions::scan_delay_s
@@ -28,12 +31,18 @@ struct ScanDelay {
   bool is_significant() const { return std::abs(delay_s) > 4 * deviation_s; }
 };
 
-/// Estimates the delay, at most one second. Also estimates the ratio of turns by odometry to turns by scans,
-/// so that a wrong wheel base does not disturb. Where the robot turns at a constant rate, no delay shows; the
-/// deviation is then up to a second. Empty for fewer than 40 turns, and if no delay of less than a second
-/// explains the turns.
+/// Estimates the delay, at most kMostEstimatedDelay_s. Also estimates the ratio of turns by odometry to turns
+/// by scans, so that a wrong wheel base does not disturb. Where the robot turns at a constant rate, no delay
+/// shows; the deviation is then up to a second. Empty for fewer than 40 turns, and if no delay of less than a
+/// second explains the turns.
 std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks,
                                              const std::vector<ScanTurn>& turns);
+
+/// Finds clocks that differ by more than a second: searches delays of up to five minutes, but at most half of
+/// the log, for one that explains the turns far better than smaller delays, and than odometry that does not
+/// turn or is in degrees. Empty if there is none, or for fewer than 40 turns.
+std::optional<ScanDelay> estimate_clock_offset(const std::vector<FrameMark>& marks,
+                                               const std::vector<ScanTurn>& turns);
 
 /// Returns the marks with the odometry of the times at which the scans were measured.
 std::vector<FrameMark> with_scan_delay(const std::vector<FrameMark>& marks, double delay_s);

@@ -20,6 +20,7 @@ using mrpt::math::TPose2D;
 constexpr double kSameHeading_rad = 0.35;
 constexpr double kElsewhere_m = 0.05;
 constexpr double kElsewhere_rad = 0.05;
+constexpr double kSameSpan_rad = 0.05;  // lasers that count beams inexactly vary by less
 
 // Distance by odometry between two frames.
 double odometry_m(const FrameMark& a, const FrameMark& b) {
@@ -206,6 +207,15 @@ std::vector<std::vector<std::size_t>> full_turns(const std::vector<FrameMark>& m
     first = last;
   }
   return turns;
+}
+
+bool have_same_span(const LaserScan& a, const LaserScan& b) {
+  const auto span_rad = [](const LaserScan& scan) {
+    if (!scan.bearings_rad || scan.bearings_rad->empty()) return 0.0;
+    const std::vector<float>& bearings = *scan.bearings_rad;
+    return std::abs(static_cast<double>(bearings.back() - bearings.front()));
+  };
+  return std::abs(span_rad(a) - span_rad(b)) <= kSameSpan_rad;
 }
 
 void ScanLibrary::want(const std::vector<std::size_t>& indices) {

@@ -60,6 +60,10 @@ std::vector<FramePair> revisiting_pairs(const std::vector<FrameMark>& marks, dou
 std::vector<std::vector<std::size_t>> full_turns(const std::vector<FrameMark>& marks, double step_rad,
                                                  double distance_m, std::size_t most);
 
+/// Returns whether two scans span about the same angle. If a laser changes the number of its beams but states
+/// one angle between them, the bearings of some scans are wrong, and alignments turn by as much.
+bool have_same_span(const LaserScan& a, const LaserScan& b);
+
 /// Selected scans of a log, by the index of their frame.
 class ScanLibrary {
  public:
@@ -73,6 +77,11 @@ class ScanLibrary {
 
   /// Keeps the wanted ones of all scans of a log.
   void take(const std::vector<const LaserScan*>& scans);
+
+  /// Replaces the mount of all scans.
+  void set_mount(const mrpt::math::TPose2D& robot_T_laser) {
+    for (auto& [index, scan] : scans_) scan.robot_T_laser = robot_T_laser;
+  }
 
   const LaserScan& at(std::size_t index) const { return scans_.at(index); }
 

@@ -176,7 +176,7 @@ std::vector<StatedDelay> stated_delays(const LogOptions& options) {
                           });
     if (!delay || is_known || (delay->name.empty() && texts.size() > 1))
       throw UserError("log.scan_delay_s is \"" + options.scan_delay_s +
-                      "\", expected auto, -1 to 1 seconds, or a laser's name and its seconds such as "
+                      "\", expected auto, -600 to 600 seconds, or a laser's name and its seconds such as "
                       "\"RLASER 0.1\". Separate several lasers by commas, and name each one once");
     delays.push_back(*std::move(delay));
   }

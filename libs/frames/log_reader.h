@@ -40,6 +40,7 @@ struct LogContents {
   std::string repeated_scans;                       ///< see RepeatedScans::sentence()
   std::map<std::string, std::size_t> messages;      ///< CARMEN: lines of each kind, ignored ones included
   std::size_t scans_with_two_poses = 0;             ///< CARMEN: scans whose pose differs from their odometry
+  bool second_pose_is_mapped = false;               ///< CARMEN: that pose does not move with the robot
   std::map<std::string, std::size_t> other_lasers;  ///< rawlog: scans of lasers that are not read, by label
 };
 

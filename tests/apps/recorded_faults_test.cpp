@@ -2,6 +2,11 @@
 // Recordings with one fault each, whose maps are compared with the true path.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <utility>
+
 #include "app_run.h"
 #include "path_error.h"
 #include "shared_logs.h"
@@ -12,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 struct FaultyLog {
   std::string file;   // in the folder faults
@@ -52,7 +58,75 @@ INSTANTIATE_TEST_SUITE_P(
         FaultyLog{"published_twice.db3.zstd", "small.tum", 0.01,
                   "scans repeat the readings of an earlier scan"},
         FaultyLog{"first_scan_bad.db3.zstd", "small.tum", 0.02, "1 message of the log is unusable"}),
-    [](const auto& tested) { return tested.param.file.substr(0, tested.param.file.find('.')); });
+    [](const auto& tested) {
+      std::string name = tested.param.file.substr(0, tested.param.file.find('.'));
+      std::replace_if(
+          name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
+      return name + "_" + std::to_string(tested.index);
+    });
+
+struct JudgedLog {
+  std::string file;               // in the folder faults
+  std::vector<std::string> says;  // parts of what psi-slam check prints
+  std::vector<std::string> omits{};
+  friend void PrintTo(const JudgedLog& log, std::ostream* out) { *out << log.file; }
+};
+
+class JudgedFault : public testing::TestWithParam<JudgedLog> {};
+
+TEST_P(JudgedFault, gets_the_right_advice) {
+  const auto log = shared_file("faults/" + GetParam().file);
+  if (!log) GTEST_SKIP() << kNeedsData;
+  const AppRun run = run_app({"check", log->string()});
+  EXPECT_EQ(run.code, 0) << run.err;
+  for (const std::string& part : GetParam().says) EXPECT_THAT(run.out, HasSubstr(part));
+  for (const std::string& part : GetParam().omits) EXPECT_THAT(run.out, Not(HasSubstr(part)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, JudgedFault,
+    testing::Values(
+        JudgedLog{"stall_a.clf.gz", {"18 scans repeat the readings of an earlier scan"}, {"second pose"}},
+        JudgedLog{"stall_none.clf.gz", {}, {"repeat", "second pose"}},
+        JudgedLog{"published_twice.db3.zstd", {"scans repeat the readings"}, {"unrelated", "odometry's"}},
+        JudgedLog{"offset_+1.3s.db3.zstd",
+                  {"the stamps of scans and odometry differ by 1.3", "log.scan_delay_s = 1.3"},
+                  {"degrees, not", "feet", "does not change"}},
+        JudgedLog{"offset_-2.0s.db3.zstd",
+                  {"the stamps of scans and odometry differ by ", "log.scan_delay_s = -"},
+                  {"degrees, not", "feet", "does not change"}},
+        JudgedLog{"beam_count_varies.db3.zstd", {}, {"odometry's", "feet", "metres"}},
+        JudgedLog{"thinned_pause.log.gz", {"verdict: ready to map"}, {"clock"}}),
+    [](const auto& tested) { return "log_" + std::to_string(tested.index); });
+
+TEST(RecordedFaults, the_advised_delay_removes_an_offset_of_clocks) {
+  for (const auto& [file, delay_s] :
+       {std::pair("offset_+1.3s.db3.zstd", 1.3), std::pair("offset_-2.0s.db3.zstd", -2.0)}) {
+    const auto log = shared_file(std::string("faults/") + file);
+    if (!log) GTEST_SKIP() << kNeedsData;
+    const std::string checked = run_app({"check", log->string()}).out;
+    const std::string option = "log.scan_delay_s = ";
+    const std::size_t at = checked.find(option);
+    ASSERT_NE(at, std::string::npos) << checked;
+    const std::string advised =
+        checked.substr(at + option.size(), checked.find('\n', at) - at - option.size());
+    EXPECT_NEAR(std::stod(advised), delay_s, 0.02);
+    const TemporaryFolder folder;
+    const AppRun run = run_app({log->string(), "-o", (folder.path() / "map").string(), "-q", "--set",
+                                "log.scan_delay_s=" + advised});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    std::ifstream mapped(folder.path() / "map" / "trajectory.tum");
+    std::ofstream true_times(folder.path() / "true_times.tum");
+    double stamp_s = 0;
+    std::string pose;
+    while (mapped >> stamp_s && std::getline(mapped, pose))
+      if (stamp_s - delay_s >= 1700000000)  // the truth begins
+        true_times << std::fixed << stamp_s - delay_s << pose << '\n';
+    true_times.close();
+    EXPECT_LE(path_error_m(folder.path() / "true_times.tum", log->parent_path() / "small.tum"), 0.02) << file;
+  }
+}
 
 TEST(RecordedFaults, a_log_packed_by_bzip2_gives_the_map_of_the_log_packed_by_gzip) {
   const auto bzip2 = shared_file("faults/plain.log.bz2");

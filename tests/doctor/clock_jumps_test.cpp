@@ -46,5 +46,17 @@ TEST(ClockJumps, are_not_small_steps_back_and_true_gaps) {
   }
 }
 
+TEST(ClockJumps, are_no_pauses_in_a_log_that_is_thinned_by_distance) {
+  std::vector<FrameMark> marks;
+  TimeUs time_us = 0;
+  for (int i = 0; i < 100; ++i) {
+    marks.push_back({time_us, {0.2 * i, 0, 0}});
+    time_us += i % 30 == 29 ? 40'000'000 : 450'000 + 10'000 * (i % 7);
+  }
+  EXPECT_TRUE(clock_jumps(marks, 0.48, true).empty());
+  for (int i = 0; i < 5; ++i) marks.insert(marks.begin(), {-500'000 * (i + 1), {0, 0, 0}});
+  EXPECT_EQ(clock_jumps(marks, 0.48, true).size(), 3U) << "scans of a robot at rest";
+}
+
 }  // namespace
 }  // namespace psi_slam

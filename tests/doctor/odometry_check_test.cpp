@@ -84,6 +84,53 @@ TEST_F(OdometryCheckTest, detects_constant_and_unrelated_headings) {
             HeadingRelation::kUnrelated);
 }
 
+TEST_F(OdometryCheckTest, headings_that_change_elsewhere_are_not_constant) {
+  const SimulatedRun run = round_trips(1);
+  std::size_t frame = 0;
+  const OdometryAgreement agreement =
+      check([&](TPose2D& pose) { pose.phi = frame++ < 500 ? 1 : 2; }, {}, run);
+  EXPECT_EQ(agreement.heading, HeadingRelation::kUnrelated);
+}
+
+TEST_F(OdometryCheckTest, finds_clocks_that_differ) {
+  const SimulatedRun run = round_trips(2);
+  const auto path = folder_.path() / "log";
+  write_file(path, carmen_log(run));
+  for (const int periods : {-40, -10, 7, 150}) {
+    std::vector<FrameMark> marks;  // odometry of a clock that is ahead by this number of periods
+    const int last = static_cast<int>(run.odometry.size()) - 1;
+    for (int i = 0; i <= last; ++i)
+      marks.push_back(
+          {200'000 * i, run.odometry[static_cast<std::size_t>(std::clamp(i + periods, 0, last))]});
+    const auto tracks = tracks_from(frames_in_motion(marks, 60), marks.size());
+    ScanLibrary library;
+    for (const auto& track : tracks) library.want(track);
+    library.fetch(path, {});
+    const OdometryAgreement agreement = check_odometry_and_delay(marks, tracks, library);
+    EXPECT_FALSE(is_sound(agreement));
+    ASSERT_TRUE(agreement.clock_offset) << periods;
+    EXPECT_NEAR(agreement.clock_offset->delay_s, 0.2 * periods, 0.05);
+    EXPECT_LT(agreement.clock_offset->deviation_s, 0.03);
+  }
+}
+
+TEST_F(OdometryCheckTest, odometry_of_another_robot_is_unrelated) {
+  SimulatedRun run = round_trips(2);
+  const SimulatedRun other = simulated_run({{0.1, 2, 80},
+                                            {0, -5, 60},
+                                            {0.06, -1.5, 200},
+                                            {0.1, 4, 60},
+                                            {0, 0, 100},
+                                            {0.08, 0.7, 300},
+                                            {0, 3, 40},
+                                            {0.1, -1, 192}});
+  std::size_t frame = 0;
+  const OdometryAgreement agreement = check(
+      [&](TPose2D& pose) { pose = other.odometry[std::min(frame++, other.odometry.size() - 1)]; }, {}, run);
+  EXPECT_EQ(agreement.heading, HeadingRelation::kUnrelated);
+  EXPECT_FALSE(agreement.clock_offset);
+}
+
 TEST_F(OdometryCheckTest, measures_the_heading_of_the_laser) {
   for (const double yaw_rad : {M_PI / 2, M_PI - 0.01, -1.0}) {
     LogOptions options;

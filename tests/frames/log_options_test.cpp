@@ -43,11 +43,11 @@ TEST(LogOptions, invalid_values_are_reported_by_name_and_value) {
   options.odometry_scale = 0;
   EXPECT_EQ(sentence_about(options), "log.odometry_scale is 0, expected 0.01 to 100");
   options = {};
-  for (const char* wrong : {"-1.5", "late", "0.1, 0.2", "A 0.1, A 0.2", "A 0.1, 0.2", "A 0.1,", "A"}) {
+  for (const char* wrong : {"-600.5", "late", "0.1, 0.2", "A 0.1, A 0.2", "A 0.1, 0.2", "A 0.1,", "A"}) {
     options.scan_delay_s = wrong;
     EXPECT_EQ(sentence_about(options),
               std::string("log.scan_delay_s is \"") + wrong +
-                  "\", expected auto, -1 to 1 seconds, or a laser's name and its seconds such as \"RLASER "
+                  "\", expected auto, -600 to 600 seconds, or a laser's name and its seconds such as \"RLASER "
                   "0.1\". Separate several lasers by commas, and name each one once");
   }
 

@@ -89,7 +89,7 @@ struct LogOptions {
   std::optional<double> odometry_scale;
 
   /// Time by which the time stamps of scans are later than the measurement, compared with the stamps of
-  /// odometry, seconds, in [-1, 1]. "0.1": the delay of all lasers. "NAME SECONDS": the delay of one laser;
+  /// odometry, seconds, in [-600, 600]. "0.1": the delay of all lasers. "NAME SECONDS": the delay of one laser;
   /// separate several lasers by commas. Names are those of `laser`; lasers that are not named have no delay.
   /// "auto": 0, or with `calibrate` the estimate for each laser.
   std::string scan_delay_s = "auto";

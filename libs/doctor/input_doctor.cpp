@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/input_doctor.h"
+#include "doctor/turned_laser.h"
 
 #include <cmath>
 #include <limits>
@@ -85,9 +86,12 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
   const auto revisits = revisiting_pairs(marks, 0.5, 0.5, 30, 150);
   const BeamAngleEvidence evidence =
       pass.facts.contents.states_beam_angles ? BeamAngleEvidence{} : choose_beam_angle_evidence(marks);
+  const FieldOfViewEvidence of_field_of_view = choose_field_of_view_evidence(marks);
   ScanLibrary library;
   for (const auto& track : tracks) library.want(track);
   library.want(pairs);
+  library.want(of_field_of_view.turning_pairs);
+  library.want(of_field_of_view.straight_pairs);
   library.want(suspects);
   library.want(revisits);
   library.want(evidence.turning_pairs);
@@ -98,15 +102,21 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
   diagnosis.odometry = check_odometry_and_delay(corrected, tracks, library);
   diagnosis.odometry_is_sound = is_sound(diagnosis.odometry);
   if (auto& offset = diagnosis.odometry.clock_offset) offset->delay_s += removed_delay_s;
+  if (!diagnosis.odometry_is_sound && !diagnosis.odometry.clock_offset)
+    diagnosis.field_of_view = study_field_of_view(marks, of_field_of_view, library);
   if (diagnosis.odometry_is_sound) {
     std::vector<AlignedPair> aligned = align_pairs(corrected, pairs, library);
+    const auto turned =
+        find_turned_mount(diagnosis.odometry, corrected, pass.facts.robot_T_laser, aligned, library);
+    diagnosis.laser_is_turned = turned.has_value();
     diagnosis.reversals = find_lost_reversals(aligned, library);
     diagnosis.delay = remove_scan_delay(aligned, marks);
     // The scans are compared as recorded: measured in the middle of the sweep on average.
     if (diagnosis.delay)
       diagnosis.delay->delay_s +=
           removed_delay_s + std::abs(diagnosis.sweep_direction.stated_sweep_time_s) / 2;
-    diagnosis.mount = estimate_laser_mount(aligned, pass.facts.robot_T_laser);
+    diagnosis.mount =
+        estimate_laser_mount(aligned, turned ? turned->robot_T_laser : pass.facts.robot_T_laser);
     diagnosis.jumps = confirm_jumps(marks, suspects, library);
     diagnosis.revisits = check_revisits(marks, revisits, library);
     std::optional<double> laser_heading_rad;

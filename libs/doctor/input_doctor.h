@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "doctor/beam_angle_study.h"
+#include "doctor/field_of_view_study.h"
 #include "doctor/log_facts.h"
 #include "doctor/odometry_check.h"
 #include "doctor/pair_alignment.h"
@@ -47,7 +48,10 @@ struct LogDiagnosis {
   BeamAngles used_beam_angles = BeamAngles::kAuto;  ///< kAuto if the log states its angles
   std::vector<BodySector> own_body;                 ///< beams that see the robot itself
   OdometryAgreement odometry;
-  bool odometry_is_sound = false;  ///< units and signs are right; if not, the next six members are not set
+  bool odometry_is_sound = false;  ///< units and signs are right; if not, the members up to beam_angles are
+                                   ///< not set
+  FieldOfViewStudy field_of_view;  ///< set only if odometry is not sound
+  bool laser_is_turned = false;    ///< the heading of `mount` shows that the stated one is wrong
   LostReversals reversals;
   OdometryJumps jumps;
   RevisitAgreement revisits;

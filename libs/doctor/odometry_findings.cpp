@@ -67,6 +67,10 @@ class OdometryJudge : public FindingList {
       judge_clock_offset(*odometry.clock_offset);
       return;
     }
+    if (diagnosis_.field_of_view.finds_fault()) {
+      judge_field_of_view(diagnosis_.field_of_view);
+      return;
+    }
     judge_length(odometry);
     judge_heading(odometry);
     if (odometry.length_samples == 0 || odometry.heading == HeadingRelation::kUnknown) {
@@ -74,6 +78,21 @@ class OdometryJudge : public FindingList {
            "odometry could not be checked: too few scans could be aligned, or they fit several places, "
            "as in a bare corridor");
     }
+  }
+
+  void judge_field_of_view(const FieldOfViewStudy& study) {
+    const FieldOfViewFit& stated = study.fits.front();
+    const FieldOfViewFit& best = study.fits[study.best];
+    const auto degrees = [](const FieldOfViewFit& fit) {
+      return trimmed_text(RAD2DEG(fit.field_of_view_rad), 1);
+    };
+    warn("field_of_view",
+         "the laser has a field of view of " + degrees(best) + " degrees, not " + degrees(stated) + ": " +
+             percent(best.turn_share) + " of " + counted(study.turns, "turn") +
+             " are those of odometry, not " + percent(stated.turn_share) + ", and points are off walls by " +
+             fixed(1000 * best.mean_distance_m, 0) + " mm after straight motion, not " +
+             fixed(1000 * stated.mean_distance_m, 0) + " mm",
+         "log.field_of_view_deg = " + degrees(best));
   }
 
   void judge_clock_offset(const ScanDelay& offset) {
@@ -161,6 +180,7 @@ class OdometryJudge : public FindingList {
 
   void judge_direction(const OdometryAgreement& odometry) {
     const double off_rad = odometry.direction_offset_rad;
+    if (diagnosis_.laser_is_turned) return;  // see judge_mount()
     if (odometry.direction_concentration < 0.8 || std::abs(off_rad) < DEG2RAD(15.0)) return;
     const double heading_rad = mrpt::math::wrapToPi(facts_.robot_T_laser.phi - off_rad);
     warn("laser_heading",
@@ -258,12 +278,17 @@ class OdometryJudge : public FindingList {
       const std::string x = fixed(mount.robot_T_laser.x, 3);
       const std::string y = fixed(mount.robot_T_laser.y, 3);
       const std::string yaw = fixed(RAD2DEG(yaw_rad), 2);
-      note("laser_mount",
-           "scans and odometry move as if the laser were at x " + x + " m, y " + y + " m, yaw " + yaw +
-               " degrees on the robot (accurate to " + fixed(mount.deviation_m, 3) + " m and " +
-               fixed(RAD2DEG(mount.deviation_rad), 2) + " degrees), not at x " + fixed(stated.x, 3) +
-               " m, y " + fixed(stated.y, 3) + " m, yaw " + fixed(RAD2DEG(stated.phi), 2) + " degrees",
-           "log.laser_x_m = " + x + ", log.laser_y_m = " + y + ", log.laser_yaw_deg = " + yaw);
+      const std::string sentence =
+          "scans and odometry move as if the laser were at x " + x + " m, y " + y + " m, yaw " + yaw +
+          " degrees on the robot (accurate to " + fixed(mount.deviation_m, 3) + " m and " +
+          fixed(RAD2DEG(mount.deviation_rad), 2) + " degrees), not at x " + fixed(stated.x, 3) + " m, y " +
+          fixed(stated.y, 3) + " m, yaw " + fixed(RAD2DEG(stated.phi), 2) + " degrees";
+      const std::string remedy =
+          "log.laser_x_m = " + x + ", log.laser_y_m = " + y + ", log.laser_yaw_deg = " + yaw;
+      if (diagnosis_.laser_is_turned)
+        warn("laser_mount", sentence, remedy);
+      else
+        note("laser_mount", sentence, remedy);
     }
     judge_scale(mount);
   }

@@ -5,10 +5,13 @@
 #include <utility>
 
 #include "doctor/input_doctor.h"
+#include "doctor/turned_laser.h"
 #include "frames/laser_choice.h"
 
 namespace psi_slam {
 namespace {
+
+using mrpt::math::TPose2D;
 
 constexpr std::size_t kQuickTracks = 30;
 constexpr std::size_t kQuickJumps = 30;
@@ -22,21 +25,31 @@ void compare_odometry_with(const std::vector<const LaserScan*>& scans, LogDiagno
   const auto suspects = suspected_jumps(marks, diagnosis.facts.time.median_period_s, kQuickJumps);
   const auto revisits = revisiting_pairs(marks, 0.5, 0.5, 30, kQuickRevisits);
   const auto pairs = pairs_by_motion(marks, kComparedMotion_m, kComparedTurn_rad, kQuickPairs);
+  const FieldOfViewEvidence of_field_of_view = choose_field_of_view_evidence(marks);
   ScanLibrary library;
   for (const auto& track : tracks) library.want(track);
   library.want(suspects);
   library.want(revisits);
   library.want(pairs);
+  library.want(of_field_of_view.turning_pairs);
+  library.want(of_field_of_view.straight_pairs);
   library.take(scans);
   std::vector<FrameMark> corrected = marks;
   diagnosis.odometry = check_odometry_and_delay(corrected, tracks, library);
   diagnosis.odometry_is_sound = is_sound(diagnosis.odometry);
-  if (!diagnosis.odometry_is_sound) return;
+  if (!diagnosis.odometry_is_sound) {
+    if (!diagnosis.odometry.clock_offset)
+      diagnosis.field_of_view = study_field_of_view(marks, of_field_of_view, library);
+    return;
+  }
   diagnosis.delay = estimate_scan_delay(marks, diagnosis.odometry.turns);
   if (diagnosis.delay && diagnosis.delay->is_significant())
     corrected = with_scan_delay(marks, diagnosis.delay->delay_s);
-  diagnosis.mount =
-      estimate_laser_mount(align_pairs(corrected, pairs, library), diagnosis.facts.robot_T_laser);
+  const TPose2D& stated_mount = diagnosis.facts.robot_T_laser;
+  std::vector<AlignedPair> aligned = align_pairs(corrected, pairs, library);
+  diagnosis.mount = find_turned_mount(diagnosis.odometry, corrected, stated_mount, aligned, library);
+  diagnosis.laser_is_turned = diagnosis.mount.has_value();
+  if (!diagnosis.mount) diagnosis.mount = estimate_laser_mount(aligned, stated_mount);
   diagnosis.jumps = confirm_jumps(marks, suspects, library);
   diagnosis.revisits = check_revisits(marks, revisits, library);
 }

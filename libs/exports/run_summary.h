@@ -26,8 +26,9 @@ struct CalibratedOption {
   std::string laser;   ///< name of the laser that the estimate is for; empty: all lasers
   std::string option;  ///< name of the option, which states the unit: "log.scan_delay_s"
   double value = 0;
-  double deviation = 0;  ///< standard deviation
-  bool is_used = false;  ///< false: not determined well enough, or not needed
+  double deviation = 0;   ///< standard deviation
+  bool is_used = false;   ///< false: not determined well enough, or not needed
+  bool is_fault = false;  ///< replaces a wrong statement of the log, also without log.calibrate
 };
 
 /// Facts about a run that are not part of its result.
@@ -36,7 +37,8 @@ struct RunInfo {
   std::string log_name;                         ///< name of the log for display: "intel.clf.gz"
   std::map<std::string, std::string> settings;  ///< value of each option by its name "section.key"
   std::vector<std::string> warnings{};          ///< warnings about log and map, a sentence each
-  std::vector<CalibratedOption> calibration{};  ///< estimates of log.calibrate
+  std::vector<CalibratedOption>
+      calibration{};  ///< estimates of log.calibrate, and what replaces wrong statements
 };
 
 /// The log as it was read. Beams, bearings, maximum range and mount are those of the first scan.

@@ -10,6 +10,7 @@
 
 #include "base/number_text.h"
 #include "base/portable_math.h"
+#include "doctor/laser_faults.h"
 #include "doctor/odometry_calibration.h"
 #include "frames/laser_choice.h"
 #include "frames/pose_operations.h"
@@ -37,8 +38,21 @@ const char* const kDelay = "log.scan_delay_s";
 const char* const kLaserX = "log.laser_x_m";
 const char* const kLaserY = "log.laser_y_m";
 const char* const kLaserYaw = "log.laser_yaw_deg";
+const char* const kFieldOfView = "log.field_of_view_deg";
 
 const char* const kUndetermined = "not used, because the log does not determine it well enough";
+
+bool is_determined(const LaserMountEstimate& mount) {
+  return mount.deviation_m <= kMountDeviation_m && mount.deviation_rad <= kMountDeviation_rad;
+}
+
+std::string text_of(const LaserMountEstimate& mount) {
+  const TPose2D& pose = mount.robot_T_laser;
+  return "x " + fixed_text(pose.x, 3) + " m, y " + fixed_text(pose.y, 3) + " m, yaw " +
+         fixed_text(RAD2DEG(pose.phi), 2) + " degrees (standard deviations " +
+         fixed_text(mount.deviation_m, 3) + " m and " + fixed_text(RAD2DEG(mount.deviation_rad), 2) +
+         " degrees)";
+}
 
 class Calibrator {
  public:
@@ -100,22 +114,18 @@ class Calibrator {
     if (!found_.mount) return say("finds too few scans that show the pose of the laser");
     const LaserMountEstimate& mount = *found_.mount;
     const TPose2D& pose = mount.robot_T_laser;
-    const bool is_determined =
-        mount.deviation_m <= kMountDeviation_m && mount.deviation_rad <= kMountDeviation_rad;
+    const bool is_certain = is_determined(mount);
     const TPose2D off = between(found_.stated_mount, pose);
     const bool differs = off.norm() > std::max(kUsualError_m, kSignificant * mount.deviation_m) ||
                          std::abs(off.phi) > std::max(kUsualError_rad, kSignificant * mount.deviation_rad);
-    const bool is_used = is_determined && differs;
+    const bool is_used = is_certain && differs;
     add(kLaserX, pose.x, mount.deviation_m, is_used);
     add(kLaserY, pose.y, mount.deviation_m, is_used);
     add(kLaserYaw, RAD2DEG(pose.phi), RAD2DEG(mount.deviation_rad), is_used);
-    say("estimates the pose of the laser: x " + fixed_text(pose.x, 3) + " m, y " + fixed_text(pose.y, 3) +
-        " m, yaw " + fixed_text(RAD2DEG(pose.phi), 2) + " degrees (standard deviations " +
-        fixed_text(mount.deviation_m, 3) + " m and " + fixed_text(RAD2DEG(mount.deviation_rad), 2) +
-        " degrees), " +
-        (is_used         ? "used"
-         : is_determined ? "not used, because it hardly differs from the stated pose"
-                         : kUndetermined));
+    say("estimates the pose of the laser: " + text_of(mount) + ", " +
+        (is_used      ? "used"
+         : is_certain ? "not used, because it hardly differs from the stated pose"
+                      : kUndetermined));
   }
 
   const OdometryCalibration& found_;
@@ -129,22 +139,54 @@ LogCalibration use_calibration(const OdometryCalibration& calibration, const Log
   return Calibrator(calibration, options).made();
 }
 
+LogCalibration use_laser_faults(const LaserFaults& faults) {
+  LogCalibration made;
+  const auto add = [&](const char* option, double value, double deviation) {
+    made.estimates.push_back({"", "", option, value, deviation, /*is_used=*/true, /*is_fault=*/true});
+  };
+  if (faults.field_of_view_rad) {
+    const double value_deg = RAD2DEG(*faults.field_of_view_rad);
+    add(kFieldOfView, value_deg, 0);
+    made.sentences.push_back("the scans have a field of view of " + trimmed_text(value_deg, 1) +
+                             " degrees, not " + trimmed_text(RAD2DEG(faults.stated_field_of_view_rad), 1) +
+                             " as the log states; it is used. State another one with " + kFieldOfView);
+  }
+  if (faults.mount && is_determined(*faults.mount)) {
+    const LaserMountEstimate& mount = *faults.mount;
+    const TPose2D& pose = mount.robot_T_laser;
+    add(kLaserX, pose.x, mount.deviation_m);
+    add(kLaserY, pose.y, mount.deviation_m);
+    add(kLaserYaw, RAD2DEG(pose.phi), RAD2DEG(mount.deviation_rad));
+    made.sentences.push_back("the laser is mounted at " + text_of(mount) + ", not at yaw " +
+                             fixed_text(RAD2DEG(faults.stated_mount.phi), 2) +
+                             " degrees as the log states; this pose is used. State another one with " +
+                             kLaserX + ", " + kLaserY + " and " + kLaserYaw);
+  }
+  return made;
+}
+
 LogCalibration calibrate_log(const std::filesystem::path& log, const LogOptions& options,
                              const ShareObserver& progress) {
-  return use_calibration(calibrate_odometry(log, options, progress), options);
+  LogCalibration made = use_laser_faults(find_laser_faults(log, options));
+  if (!options.calibrate) return made;
+  const LogOptions corrected = calibrated_options(options, made);
+  LogCalibration calibration = use_calibration(calibrate_odometry(log, corrected, progress), corrected);
+  calibration.estimates.insert(calibration.estimates.begin(), made.estimates.begin(), made.estimates.end());
+  calibration.sentences.insert(calibration.sentences.begin(), made.sentences.begin(), made.sentences.end());
+  return calibration;
 }
 
 LogOptions calibrated_options(LogOptions options, const LogCalibration& calibration) {
-  if (!options.calibrate) return options;
   std::map<std::string, double> used;
   std::vector<StatedDelay> delays;
   for (const CalibratedOption& estimate : calibration.estimates) {
-    if (!estimate.is_used) continue;
+    if (!estimate.is_used || (!estimate.is_fault && !options.calibrate)) continue;
     if (estimate.option == kDelay) delays.push_back({estimate.laser, estimate.value});
     used[estimate.option] = estimate.value;
   }
   if (const auto scale = used.find(kScale); scale != used.end()) options.odometry_scale = scale->second;
   if (!delays.empty()) options.scan_delay_s = scan_delay_text(delays);
+  if (used.count(kFieldOfView) > 0) options.field_of_view_rad = DEG2RAD(used[kFieldOfView]);
   if (used.count(kLaserX) > 0)
     options.robot_T_laser = TPose2D{used[kLaserX], used[kLaserY], DEG2RAD(used[kLaserYaw])};
   return options;

@@ -12,6 +12,7 @@
 
 namespace psi_slam {
 
+struct LaserFaults;
 struct OdometryCalibration;
 
 /// Estimates of a log.
@@ -27,12 +28,17 @@ struct LogCalibration {
 /// the mount by 3 cm or 0.8 degrees.
 LogCalibration use_calibration(const OdometryCalibration& calibration, const LogOptions& options);
 
-/// Calibrates the log as `options` read it. The estimates do not name the log. Throws UserError if the log is
-/// unreadable.
+/// Decides what replaces wrong statements of the log about its laser, and says so: a field of view; a mount
+/// whose standard deviations are as small as use_calibration() requires.
+LogCalibration use_laser_faults(const LaserFaults& faults);
+
+/// Finds wrong statements about the laser, and with options.calibrate calibrates the log as `options` read
+/// it. The estimates do not name the log. Throws UserError if the log is unreadable.
 LogCalibration calibrate_log(const std::filesystem::path& log, const LogOptions& options,
                              const ShareObserver& progress = {});
 
-/// Returns the options with those estimates that are used, unless options.calibrate is false.
+/// Returns the options with those estimates that are used; without options.calibrate, with those only that
+/// replace wrong statements.
 LogOptions calibrated_options(LogOptions options, const LogCalibration& calibration);
 
 /// Marks the estimated mount as not used. Returns whether it was used.

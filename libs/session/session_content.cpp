@@ -36,13 +36,15 @@ TPose2D pose_of(const Json& json) {
 
 Json json_of(const LogCalibration& calibration) {
   Json estimates = Json::array();
-  for (const CalibratedOption& estimate : calibration.estimates)
+  for (const CalibratedOption& estimate : calibration.estimates) {
     estimates.push_back({{"log", estimate.log},
                          {"laser", estimate.laser},
                          {"option", estimate.option},
                          {"value", estimate.value},
                          {"deviation", estimate.deviation},
                          {"is_used", estimate.is_used}});
+    if (estimate.is_fault) estimates.back()["is_fault"] = true;
+  }
   return {{"estimates", estimates}, {"sentences", calibration.sentences}};
 }
 
@@ -52,7 +54,8 @@ LogCalibration calibration_of(const Json& json) {
     calibration.estimates.push_back(
         {estimate.at("log").get<std::string>(), estimate.at("laser").get<std::string>(),
          estimate.at("option").get<std::string>(), estimate.at("value").get<double>(),
-         estimate.at("deviation").get<double>(), estimate.at("is_used").get<bool>()});
+         estimate.at("deviation").get<double>(), estimate.at("is_used").get<bool>(),
+         estimate.value("is_fault", false)});
   calibration.sentences = json.at("sentences").get<std::vector<std::string>>();
   return calibration;
 }

@@ -26,7 +26,10 @@ std::optional<LogCalibration> continued(const RecordedLog& last, const std::stri
   if (!last.calibration || last.calibration->estimates.empty()) return std::nullopt;
   LogCalibration calibration = *last.calibration;
   for (CalibratedOption& estimate : calibration.estimates) estimate.log = name;
-  calibration.sentences = {"log.calibrate keeps the estimates of " + last.name};
+  const bool is_estimated = std::any_of(calibration.estimates.begin(), calibration.estimates.end(),
+                                        [](const CalibratedOption& estimate) { return !estimate.is_fault; });
+  calibration.sentences = {is_estimated ? "log.calibrate keeps the estimates of " + last.name
+                                        : "the laser is read as in " + last.name};
   return calibration;
 }
 
@@ -200,10 +203,13 @@ SessionInput SessionInput::with_edits(EditJournal edits) const {
 
 void SessionInput::calibrate(const LogOptions& options, const ShareObserver& progress) {
   RecordedLog& last = logs_.back();
-  if (!options.calibrate || log_.empty()) return;
-  if (keeps_calibration_) check_kept_calibration(options);
-  if (last.calibration) return;
+  if (log_.empty()) return;
+  if (keeps_calibration_ && options.calibrate) check_kept_calibration(options);
+  // The rest of a recorded log is read as its beginning was.
+  if (last.calibration || ((is_examined_ || same_log_) && !options.calibrate)) return;
+  is_examined_ = true;
   LogCalibration calibration = calibrate_log(log_, options, progress);
+  if (!options.calibrate && calibration.sentences.empty()) return;
   for (CalibratedOption& estimate : calibration.estimates) estimate.log = last.name;
   last.calibration = std::move(calibration);
 }

@@ -49,10 +49,11 @@ class SessionInput {
   /// Returns this input with `edits` instead of its own edits.
   SessionInput with_edits(EditJournal edits) const;
 
-  /// Estimates the options that log.calibrate leaves open, unless that was done or the recording has the
-  /// estimates. open_input() does this too, but each time and without progress. A log that continues the
-  /// recording keeps the estimates of the log before it, but not its mount if it has several lasers. Throws
-  /// UserError if the log is unreadable, or if its lasers do not have the names of the estimates.
+  /// Finds wrong statements of the log about its laser, and estimates the options that log.calibrate leaves
+  /// open, unless that was done or the recording has the estimates. open_input() does this too, but each time
+  /// and without progress. A log that continues the recording keeps the estimates of the log before it, but
+  /// not its mount if it has several lasers. Throws UserError if the log is unreadable, or if its lasers do
+  /// not have the names of the estimates.
   void calibrate(const LogOptions& options, const ShareObserver& progress = {});
 
   /// Returns a source of all frames, recorded frames first, numbered from 0. Throws UserError if the log is
@@ -84,6 +85,7 @@ class SessionInput {
   std::vector<RecordedLog> logs_;
   EditJournal edits_;
   bool same_log_ = false;           ///< log_ is the last log of the recording
+  bool is_examined_ = false;        ///< calibrate() was called
   bool keeps_calibration_ = false;  ///< the calibration of log_ is that of the log before it
 };
 

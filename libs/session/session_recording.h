@@ -24,7 +24,7 @@ struct RecordedLog {
   SkippedLines skipped{};
   std::optional<std::string> broken_off{};      ///< damage after the last frame, as a sentence
   bool scans_left = false;                      ///< whether the log is known to have more scans
-  std::optional<LogCalibration> calibration{};  ///< by which the log was read; empty without log.calibrate
+  std::optional<LogCalibration> calibration{};  ///< by which the log was read; empty if nothing is replaced
 };
 
 /// A merged run other than the first one; see RunStart.

@@ -57,6 +57,8 @@ INSTANTIATE_TEST_SUITE_P(
         FaultyLog{"stall_none.clf.gz", "stall.tum", 0.01, ""},
         FaultyLog{"published_twice.db3.zstd", "small.tum", 0.01,
                   "scans repeat the readings of an earlier scan"},
+        FaultyLog{"laser_backwards.db3.zstd", "laser_backwards.tum", 0.012,
+                  "not at yaw 0.00 degrees as the log states; this pose is used"},
         FaultyLog{"first_scan_bad.db3.zstd", "small.tum", 0.02, "1 message of the log is unusable"}),
     [](const auto& tested) {
       std::string name = tested.param.file.substr(0, tested.param.file.find('.'));
@@ -96,6 +98,13 @@ INSTANTIATE_TEST_SUITE_P(
                   {"the stamps of scans and odometry differ by ", "log.scan_delay_s = -"},
                   {"degrees, not", "feet", "does not change"}},
         JudgedLog{"beam_count_varies.db3.zstd", {}, {"odometry's", "feet", "metres"}},
+        JudgedLog{"wrong_fov.log.gz",
+                  {"field of view of 180 degrees, not 90", "log.field_of_view_deg = 180"},
+                  {"degrees, not radians"}},
+        JudgedLog{"right_fov.log.gz", {"verdict: ready to map"}},
+        JudgedLog{"laser_backwards.db3.zstd",
+                  {"as if the laser were at x 0.25", "log.laser_yaw_deg = "},
+                  {"reversing"}},
         JudgedLog{"thinned_pause.log.gz", {"verdict: ready to map"}, {"clock"}}),
     [](const auto& tested) { return "log_" + std::to_string(tested.index); });
 
@@ -126,6 +135,24 @@ TEST(RecordedFaults, the_advised_delay_removes_an_offset_of_clocks) {
     true_times.close();
     EXPECT_LE(path_error_m(folder.path() / "true_times.tum", log->parent_path() / "small.tum"), 0.02) << file;
   }
+}
+
+TEST(RecordedFaults, a_wrong_field_of_view_gives_the_map_of_the_right_one) {
+  const auto wrong = shared_file("faults/wrong_fov.log.gz");
+  const auto right = shared_file("faults/right_fov.log.gz");
+  if (!wrong || !right) GTEST_SKIP() << kNeedsData;
+  const TemporaryFolder folder;
+  const auto map = [&](const fs::path& log, const char* name, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{log.string(), "-o", (folder.path() / name).string(), "-q"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_app(arguments).err;
+  };
+  EXPECT_THAT(map(*wrong, "wrong"), HasSubstr("a field of view of 180 degrees, not 90 as the log states"));
+  EXPECT_EQ(map(*right, "right"), "");
+  EXPECT_LE(
+      path_error_m(folder.path() / "wrong" / "trajectory.tum", folder.path() / "right" / "trajectory.tum"),
+      0.03);
+  EXPECT_THAT(map(*wrong, "stated", {"--set", "log.field_of_view_deg=90"}), Not(HasSubstr("it is used")));
 }
 
 TEST(RecordedFaults, a_log_packed_by_bzip2_gives_the_map_of_the_log_packed_by_gzip) {

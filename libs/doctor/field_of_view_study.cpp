@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/field_of_view_study.h"
+
+#include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/portable_math.h"
+#include "frames/laser_readings.h"
+#include "frames/scan_alignment.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::DEG2RAD;
+using mrpt::math::TPose2D;
+
+constexpr std::size_t kFewestTurningPairs = 15;
+constexpr std::size_t kMostTurningPairs = 60;
+// The right field of view explains what the wrong one does not.
+constexpr double kLeastGain = 0.1;  // of the mean distance to walls, as a share
+constexpr double kErrors = 5;       // least difference of the distances, in standard errors
+constexpr double kMostTurns = 0.7;  // least share of the turns that agree
+constexpr double kTurnToleranceShare =
+    0.2;  // of a turn: odometry slips, and a wrong field of view shows half of it
+const double kTurnTolerance_rad = DEG2RAD(1.0);
+
+/// Returns the field of view of evenly spaced bearings, as log.field_of_view_deg states it. 0 if they are not
+/// about the same to both sides.
+double field_of_view_rad(const std::vector<float>& bearings) {
+  if (bearings.size() < 2) return 0;
+  const auto first = static_cast<double>(bearings.front());
+  const auto last = static_cast<double>(bearings.back());
+  const double step_rad = std::abs(last - first) / static_cast<double>(bearings.size() - 1);
+  if (std::abs(first + last) > 2 * step_rad) return 0;
+  const bool is_open = usual_beam_angles(bearings.size()) == BeamAngles::kLeftOpen;
+  return std::abs(last - first) + (is_open ? step_rad : 0);
+}
+
+/// Rounds to 0.1 degrees: logs state angles in radians with a few decimals.
+double rounded_rad(double angle_rad) {
+  return DEG2RAD(std::round(10 * mrpt::RAD2DEG(angle_rad)) / 10);
+}
+
+BeamBearings bearings_for(const std::vector<float>& stated, double field_of_view_rad) {
+  std::vector<float> bearings =
+      make_bearings_rad(usual_beam_angles(stated.size()), stated.size(), field_of_view_rad);
+  if (stated.back() < stated.front()) mirror(bearings);
+  return std::make_shared<const std::vector<float>>(std::move(bearings));
+}
+
+AlignableScan with_other_bearings(LaserScan scan, const BeamBearings& bearings_rad) {
+  if (bearings_rad) scan.bearings_rad = bearings_rad;
+  return AlignableScan(scan);
+}
+
+/// Costs and turns of pairs of scans under several fields of view.
+struct Alignments {
+  std::vector<std::vector<double>> distances_m;  ///< [pair][field of view]: mean distance to walls
+  std::vector<double> turn_shares;               ///< [field of view]: fraction of the turns of odometry
+};
+
+/// Aligns pairs of scans of as many beams as `beams`, with the stated bearings where `bearings` is null.
+Alignments align_all(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
+                     const ScanLibrary& library, const std::vector<BeamBearings>& bearings,
+                     std::size_t beams) {
+  Alignments all;
+  all.turn_shares.assign(bearings.size(), 0);
+  for (const FramePair& pair : pairs) {
+    const LaserScan& first = library.at(pair.first);
+    const LaserScan& second = library.at(pair.second);
+    if (first.ranges_m.size() != beams || second.ranges_m.size() != beams) continue;
+    const TPose2D motion = odometry_between(marks, pair);
+    const double tolerance_rad = kTurnTolerance_rad + kTurnToleranceShare * std::abs(motion.phi);
+    std::vector<double> row;
+    for (std::size_t k = 0; k < bearings.size(); ++k) {
+      const ScanAlignment alignment =
+          align_scans(with_other_bearings(first, bearings[k]), with_other_bearings(second, bearings[k]),
+                      {motion, {motion.x, motion.y, motion.phi / 2}});
+      row.push_back(alignment.cost_m);
+      const double off_rad = mrpt::math::wrapToPi(alignment.reference_T_scan.phi - motion.phi);
+      if (alignment.is_reliable() && std::abs(off_rad) <= tolerance_rad) ++all.turn_shares[k];
+    }
+    all.distances_m.push_back(std::move(row));
+  }
+  for (double& share : all.turn_shares)
+    share /= static_cast<double>(std::max<std::size_t>(1, all.distances_m.size()));
+  return all;
+}
+
+double mean_distance_m(const std::vector<std::vector<double>>& rows, std::size_t k) {
+  double sum_m = 0;
+  for (const std::vector<double>& row : rows) sum_m += row[k];
+  return sum_m / static_cast<double>(rows.size());
+}
+
+/// Returns whether the distances under the field of view `k` are smaller than as stated, beyond doubt.
+bool fits_walls_better(const std::vector<std::vector<double>>& rows, const FieldOfViewStudy& study,
+                       std::size_t k) {
+  const double stated_m = study.fits.front().mean_distance_m;
+  const double better_m = stated_m - study.fits[k].mean_distance_m;
+  double squares = 0;
+  for (const std::vector<double>& row : rows) squares += portable::pow(row[0] - row[k] - better_m, 2);
+  return better_m > kLeastGain * stated_m &&
+         better_m > kErrors * std::sqrt(squares) / static_cast<double>(rows.size());
+}
+
+}  // namespace
+
+FieldOfViewEvidence choose_field_of_view_evidence(const std::vector<FrameMark>& marks) {
+  FieldOfViewEvidence evidence;
+  evidence.turning_pairs = pairs_by_turn(marks, DEG2RAD(6.0), DEG2RAD(45.0), 0.5, kMostTurningPairs);
+  for (const FramePair& pair : pairs_by_motion(marks, 0.5, DEG2RAD(6.0), 10 * kMostTurningPairs))
+    if (evidence.straight_pairs.size() < kMostTurningPairs && odometry_between(marks, pair).norm() > 0.4)
+      evidence.straight_pairs.push_back(pair);
+  return evidence;
+}
+
+FieldOfViewStudy study_field_of_view(const std::vector<FrameMark>& marks, const FieldOfViewEvidence& evidence,
+                                     const ScanLibrary& library) {
+  FieldOfViewStudy study;
+  if (evidence.turning_pairs.empty()) return study;
+  const std::vector<float>& stated = *library.at(evidence.turning_pairs.front().first).bearings_rad;
+  const double stated_rad = field_of_view_rad(stated);
+  if (stated_rad <= 0) return study;
+  std::vector<BeamBearings> bearings;
+  for (const double factor : {1.0, 2.0, 0.5}) {
+    if (factor * stated_rad > 2 * M_PI + 1e-6) continue;
+    const double fov_rad = std::min(rounded_rad(factor * stated_rad), 2 * M_PI);
+    study.fits.push_back({fov_rad});
+    bearings.push_back(factor == 1 ? nullptr : bearings_for(stated, fov_rad));
+  }
+  const Alignments turns = align_all(marks, evidence.turning_pairs, library, bearings, stated.size());
+  const Alignments straight = align_all(marks, evidence.straight_pairs, library, bearings, stated.size());
+  study.turns = turns.distances_m.size();
+  study.straight_pairs = straight.distances_m.size();
+  if (std::min(study.turns, study.straight_pairs) < kFewestTurningPairs) return {};
+  std::size_t best = 0;
+  for (std::size_t k = 0; k < study.fits.size(); ++k) {
+    study.fits[k].turn_share = turns.turn_shares[k];
+    study.fits[k].mean_distance_m = mean_distance_m(straight.distances_m, k);
+    if (study.fits[k].turn_share > study.fits[best].turn_share) best = k;
+  }
+  if (study.fits[best].turn_share >= kMostTurns && study.fits.front().turn_share < 1 - kMostTurns &&
+      fits_walls_better(straight.distances_m, study, best))
+    study.best = best;
+  return study;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds, before a log is mapped, what it states so wrongly about its laser that no map can be right: the
+// field of view, and the heading on the robot.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "doctor/pair_alignment.h"
+#include "psi_slam/log_options.h"
+
+namespace psi_slam {
+
+/// Wrong statements of a log about its laser, and what the scans show instead.
+struct LaserFaults {
+  double stated_field_of_view_rad = 0;
+  std::optional<double> field_of_view_rad;  ///< set if the stated one is wrong; see FieldOfViewStudy
+  mrpt::math::TPose2D stated_mount;
+  std::optional<LaserMountEstimate> mount;  ///< set if the stated heading is wrong; see turned_laser.h
+};
+
+/// Looks for wrong statements about the single laser of a log. Aligns a few dozen pairs of scans; only if
+/// many of them contradict odometry, diagnoses the whole log. Finds nothing in a log of several lasers or
+/// without odometry, and nothing that `options` state. Finds nothing in an unreadable log.
+LaserFaults find_laser_faults(const std::filesystem::path& path, const LogOptions& options);
+
+}  // namespace psi_slam

@@ -29,7 +29,7 @@ constexpr double kTurnToleranceShare =
 const double kTurnTolerance_rad = DEG2RAD(1.0);
 
 /// Returns the field of view of evenly spaced bearings, as log.field_of_view_deg states it. 0 if they are not
-/// about the same to both sides.
+/// symmetric to one or two beams.
 double field_of_view_rad(const std::vector<float>& bearings) {
   if (bearings.size() < 2) return 0;
   const auto first = static_cast<double>(bearings.front());

@@ -43,7 +43,7 @@ FieldOfViewEvidence choose_field_of_view_evidence(const std::vector<FrameMark>& 
 
 /// Compares the stated field of view with its double and half. `library` must hold the frames of `evidence`,
 /// with the bearings that the log states. Without result for fewer than 15 pairs of a kind, and for bearings
-/// that are not about the same to both sides: log.field_of_view_deg cannot correct these.
+/// that are not symmetric: log.field_of_view_deg cannot correct these.
 FieldOfViewStudy study_field_of_view(const std::vector<FrameMark>& marks, const FieldOfViewEvidence& evidence,
                                      const ScanLibrary& library);
 

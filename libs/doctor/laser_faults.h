@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds, before a log is mapped, what it states so wrongly about its laser that no map can be right: the
-// field of view, and the heading on the robot.
+// Finds wrong statements of a log about its laser that make every map wrong: a field of view that is twice or
+// half as large, and a heading on the robot that is far off.
 #pragma once
 
 #include <filesystem>

@@ -40,7 +40,7 @@ std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks
 
 /// Finds clocks that differ by more than a second: searches delays of up to five minutes, but at most half of
 /// the log, for one that explains the turns far better than smaller delays, and than odometry that does not
-/// turn or is in degrees. Empty if there is none, or for fewer than 40 turns.
+/// turn or is in degrees. Empty without such a delay, and for fewer than 40 turns.
 std::optional<ScanDelay> estimate_clock_offset(const std::vector<FrameMark>& marks,
                                                const std::vector<ScanTurn>& turns);
 

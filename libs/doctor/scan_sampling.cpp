@@ -210,6 +210,7 @@ std::vector<std::vector<std::size_t>> full_turns(const std::vector<FrameMark>& m
 }
 
 bool have_same_span(const LaserScan& a, const LaserScan& b) {
+  if (a.ranges_m.size() == b.ranges_m.size()) return true;  // the removal of motion changes bearings, too
   const auto span_rad = [](const LaserScan& scan) {
     if (!scan.bearings_rad || scan.bearings_rad->empty()) return 0.0;
     const std::vector<float>& bearings = *scan.bearings_rad;

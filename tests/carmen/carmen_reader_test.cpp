@@ -75,6 +75,14 @@ TEST_F(CarmenReaderTest, flaser_has_the_odometry_of_its_line) {
   EXPECT_EQ(contents_.scans_with_two_poses, 2U);
 }
 
+TEST_F(CarmenReaderTest, tells_the_pose_of_the_laser_from_a_mapped_pose) {
+  read(flaser("FLASER", "1.1 0 0", "1 0 0", "1") + flaser("FLASER", "2 0.1 1.5708", "2 0 1.5708", "2"));
+  EXPECT_EQ(contents_.scans_with_two_poses, 2U);
+  EXPECT_FALSE(contents_.second_pose_is_mapped);
+  read(flaser("FLASER", "1 0 0", "1 0 0", "1") + flaser("FLASER", "2 0.1 1.5708", "2 0 1.5708", "2"));
+  EXPECT_TRUE(contents_.second_pose_is_mapped);
+}
+
 TEST_F(CarmenReaderTest, reads_rlaser_if_selected_or_alone) {
   const std::string rear = flaser("RLASER", "0 0 0", "5 0 0", "2");
   const std::string log = flaser("FLASER", "0 0 0", "1 0 0", "1") + rear;

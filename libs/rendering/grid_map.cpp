@@ -23,6 +23,7 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 constexpr int kMaxEvidence = 30'000;
+constexpr int kMaxNewest = 5 * kHitEvidence;  // five scans outweigh all scans before
 
 TBoundingBox bounds_of_log(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
                            const GridMapOptions& options) {
@@ -92,6 +93,20 @@ class Evidence {
     return grid;
   }
 
+  /// Returns the cells whose newest scans show an obstacle that `grid`, the map of all scans, does not show.
+  std::vector<NewObstacle> new_obstacles(COccupancyGridMap2D& grid) const {
+    std::vector<NewObstacle> found;
+    for (std::int64_t y = 0; y < layout_.height; ++y) {
+      const auto* row = grid.getRow(static_cast<int>(y));
+      for (std::int64_t x = 0; x < layout_.width; ++x) {
+        const Cell& cell = cells_[static_cast<std::size_t>(y * layout_.width + x)];
+        if (cell.newest > 0 && cell.evidence <= 0)
+          found.push_back({static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), row[x]});
+      }
+    }
+    return found;
+  }
+
  private:
   struct Cell {
     std::int16_t evidence = 0;
@@ -99,10 +114,16 @@ class Evidence {
     /// number of beams that ended in the cell or crossed it, at most 3. Bits 14 and 15: of those that ended
     /// in it.
     std::uint16_t marks = 0;
+    std::int16_t newest =
+        0;  // evidence within kMaxNewest of free or occupied, so that new scans outweigh old
 
     unsigned last_scan() const { return marks & kLastScan; }
     unsigned beams() const { return marks >> kScanBits & kMostBeams; }
     unsigned hit_beams() const { return marks >> (kScanBits + kBeamBits) & kMostBeams; }
+    void count(int of_scan) {
+      evidence = static_cast<std::int16_t>(std::clamp(evidence + of_scan, -kMaxEvidence, kMaxEvidence));
+      newest = static_cast<std::int16_t>(std::clamp(newest + of_scan, -kMaxNewest, kMaxNewest));
+    }
     void mark(unsigned scan, unsigned beams, unsigned hit_beams) {
       marks = static_cast<std::uint16_t>(scan | beams << kScanBits | hit_beams << (kScanBits + kBeamBits));
     }
@@ -143,13 +164,13 @@ class Evidence {
     if (cell.last_scan() == scan_) return;
     cell.mark(scan_, std::min(kMostBeams, cell.beams() + beams),
               std::min(kMostBeams, cell.hit_beams() + beams));
-    cell.evidence = static_cast<std::int16_t>(std::min(cell.evidence + kHitEvidence, kMaxEvidence));
+    cell.count(kHitEvidence);
   }
 
   static void add_pass(Cell& cell, unsigned scan, unsigned beams) {
     if (cell.last_scan() == scan) return;
     cell.mark(scan, std::min(kMostBeams, cell.beams() + beams), cell.hit_beams());
-    cell.evidence = static_cast<std::int16_t>(std::max(cell.evidence + kPassEvidence, -kMaxEvidence));
+    cell.count(kPassEvidence);
   }
 
   /// Whether enough beams saw what a cell shows. An obstacle counts the beams that ended in the eight cells
@@ -191,15 +212,6 @@ void for_each_drawn_frame(const std::vector<Frame>& log, const std::vector<TPose
   draw_until(log.size());
 }
 
-COccupancyGridMap2D::Ptr draw_everything(const std::vector<Frame>& log,
-                                         const std::vector<TPose2D>& map_T_robot, const GridLayout& layout,
-                                         const GridMapOptions& options) {
-  Evidence evidence(layout, options);
-  for_each_drawn_frame(log, map_T_robot,
-                       [&](const Frame& frame, const TPose2D& pose) { evidence.add(frame, pose); });
-  return evidence.grid();
-}
-
 }  // namespace
 
 COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
@@ -209,12 +221,15 @@ COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log, const std:
                                 std::to_string(map_T_robot.size()) + " poses");
   check_drawable(options);
   const GridLayout layout = layout_for(bounds_of_log(log, map_T_robot, options), options);
-  const auto grid = draw_everything(log, map_T_robot, layout, options);
+  Evidence evidence(layout, options);
+  for_each_drawn_frame(log, map_T_robot,
+                       [&](const Frame& frame, const TPose2D& pose) { evidence.add(frame, pose); });
+  const auto grid = evidence.grid();
   if (options.keep_moving) return grid;
-  MovingThings moving(*grid, layout, options);
+  MovingThings moving(*grid, evidence.new_obstacles(*grid), layout, options);
   for_each_drawn_frame(log, map_T_robot,
                        [&](const Frame& frame, const TPose2D& pose) { moving.add(frame, pose); });
-  moving.remove_from(*grid);
+  moving.update(*grid);
   return grid;
 }
 

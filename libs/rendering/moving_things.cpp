@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 
 #include "base/portable_math.h"
@@ -36,6 +37,11 @@ constexpr double kStraightRatio = 0.1;    // of the variances across and along a
 constexpr double kSurfaceGap_m = 0.25;    // largest distance between the ends of neighbouring beams
 constexpr double kSurfaceSpacings = 4;    // or multiple of the distance between the beams there
 constexpr std::uint16_t kMostCount = 60'000;
+constexpr double kPathStep_m = 0.5;  // shorter motions may be errors of the poses of a standing robot
+constexpr double kPass_m = 8;        // path between two passes
+constexpr double kPlace_m = 3;       // from a place of the path, the robot is still there, or again
+constexpr double kStay_s = 30;       // few people stand longer than this
+constexpr double kLeastBeams = 2;    // that must see more obstacles than are crossed
 
 /// Returns the mean angle between neighbouring beams, or 0 for a single beam.
 double beam_gap_rad(const Fan& fan) {
@@ -62,17 +68,50 @@ float share_of_near(double resolution_m) {
   return static_cast<float>(cells < 1 ? cells * cells : 1 / cells);
 }
 
+/// Returns the one of two obstacles that was seen first; `cell` if there is only this.
+template <class Cell>
+const Cell* older(const Cell* other, const Cell& cell) {
+  return other != nullptr && other->first_hit <= cell.first_hit ? other : &cell;
+}
+
+/// Shows those cells as occupied that are farther than `near` from all obstacles of the map, and those around
+/// them. The others are rims of walls. Returns `grid`.
+const COccupancyGridMap2D& show_new_obstacles(const std::vector<NewObstacle>& new_obstacles,
+                                              std::int64_t near, COccupancyGridMap2D& grid) {
+  if (new_obstacles.empty()) return grid;
+  const ObstacleField obstacles(grid);
+  const auto width = static_cast<std::int64_t>(grid.getSizeX());
+  for (const NewObstacle& cell : new_obstacles) {
+    const auto index = static_cast<std::size_t>(cell.y * width + cell.x);
+    if (-obstacles.find(index) > near) grid.getRow(cell.y)[cell.x] = cell_value(kHitEvidence);
+  }
+  const ObstacleField with_new(grid);
+  for (const NewObstacle& cell : new_obstacles) {
+    const auto index = static_cast<std::size_t>(cell.y * width + cell.x);
+    // The nearest obstacle is a new one.
+    if (-obstacles.find(index) > -with_new.find(index))
+      grid.getRow(cell.y)[cell.x] = cell_value(kHitEvidence);
+  }
+  return grid;
+}
+
 }  // namespace
 
-MovingThings::MovingThings(const COccupancyGridMap2D& grid, const GridLayout& layout,
-                           const GridMapOptions& options)
+MovingThings::MovingThings(COccupancyGridMap2D& grid, const std::vector<NewObstacle>& new_obstacles,
+                           const GridLayout& layout, const GridMapOptions& options)
     : layout_(layout),
       maker_(options),
       near_(static_cast<std::int64_t>(std::max(kNear_m / layout.resolution_m, kNearCells))),
       beams_(static_cast<float>(std::max(1.0, kBeamsPerMetre * layout.resolution_m))),
       share_of_near_(share_of_near(layout.resolution_m)),
-      obstacles_(grid) {
+      obstacles_(show_new_obstacles(new_obstacles, near_, grid)) {
   list_obstacles(grid);
+  for (const NewObstacle& one : new_obstacles) {
+    const std::int32_t found = obstacles_.find(static_cast<std::size_t>(one.y * layout_.width + one.x));
+    if (found < 0) continue;
+    cells_[static_cast<std::size_t>(found)].is_new = true;
+    cells_[static_cast<std::size_t>(found)].of_all_scans = one.of_all_scans;
+  }
   for (Sightings& cell : cells_) find_normal(cell);
 }
 
@@ -138,11 +177,44 @@ void MovingThings::add(const Frame& frame, const TPose2D& map_T_robot) {
     end_interval();
     interval_start_us_ = frame.time_us;
     interval_start_ = robot;
+    follow_path(robot);
   }
   const CellBox map{layout_.resolution_m, layout_.x_min, layout_.y_min, layout_.width, layout_.height};
   for (const Fan* fan : maker_.fans(frame, map_T_robot)) {
     mark_hits(*fan, map);
     mark_passes(*fan, map);
+  }
+}
+
+void MovingThings::follow_path(const TPoint2D& robot) {
+  here_.time_us = interval_start_us_;
+  const bool is_first = interval_ == 1;
+  const double step_m = distance_m(robot, here_.robot);
+  if (!is_first && step_m < kPathStep_m) return;
+  here_.path_m += is_first ? 0 : step_m;
+  here_.robot = robot;
+}
+
+/// Whether the robot is in another pass than then: it drove on and came back.
+bool MovingThings::is_second_pass(const PathMark& since) const {
+  return here_.path_m - since.path_m >= kPass_m && distance_m(here_.robot, since.robot) <= kPlace_m;
+}
+
+/// Notes that a beam ended on an obstacle that was known before, or crossed it.
+void MovingThings::add_evidence(const Sightings* obstacle, double sign) {
+  if (obstacle == nullptr || obstacle->hits == 0) return;
+  const auto x = static_cast<double>(obstacle->normal_x);
+  const auto y = static_cast<double>(obstacle->normal_y);
+  evidence_.push_back({obstacle->occupied_since.path_m, sign * x * x, sign * x * y, sign * y * y});
+}
+
+void MovingThings::sum_evidence() {
+  std::sort(evidence_.begin(), evidence_.end(),
+            [](const Evidence& a, const Evidence& b) { return a.since_m < b.since_m; });
+  for (std::size_t i = 1; i < evidence_.size(); ++i) {
+    evidence_[i].xx += evidence_[i - 1].xx;
+    evidence_[i].xy += evidence_[i - 1].xy;
+    evidence_[i].yy += evidence_[i - 1].yy;
   }
 }
 
@@ -169,9 +241,11 @@ void MovingThings::mark_hits(const Fan& fan, const CellBox& map) {
 void MovingThings::mark_hit(const TPoint2D& end, bool of_surface) {
   const auto x = static_cast<std::int64_t>(end.x);
   const auto y = static_cast<std::int64_t>(end.y);
+  const Sightings* oldest = nullptr;
   const auto mark = [&](std::int32_t found) {
     mark_seen(found);
     Sightings& cell = cells_[static_cast<std::size_t>(found)];
+    oldest = older(oldest, cell);
     cell.hit_in = interval_;
     if (of_surface) cell.surface_in = interval_;
     return &cell;
@@ -183,6 +257,7 @@ void MovingThings::mark_hit(const TPoint2D& end, bool of_surface) {
     cell.last_end = interval_;
   } else if (-at_end <= near_)
     for_each_near(x, y, mark);
+  add_evidence(oldest, 1);
 }
 
 /// Marks the obstacles that the beams of a scan crossed, if their neighbours crossed the space around, too: a
@@ -201,6 +276,7 @@ void MovingThings::mark_passes(const Fan& fan, const CellBox& map) {
     if (!ray.returned || free_m <= 0) continue;
     const TPoint2D along = (ray.end - fan.start) * (1 / length_m);
     const TPoint2D end = map.in_cells(fan.start + along * free_m);
+    const Sightings* oldest = nullptr;
     leap_line(digital_line(start, end, layout_.width), [&](std::int64_t index) {
       const std::int32_t found = obstacles_.find(static_cast<std::size_t>(index));
       if (found < 0) return std::int64_t{-found};
@@ -215,9 +291,11 @@ void MovingThings::mark_passes(const Fan& fan, const CellBox& map) {
       }
       if (range_m * gap_rad > kWidestGap_m * sine || is_narrow(clear_m, i, range_m, gap_rad))
         return std::int64_t{1};
+      if (cell.hit_in != interval_) oldest = older(oldest, cell);
       mark_pass(found, static_cast<float>(range_m > kFullRange_m ? kFullRange_m / range_m : 1));
       return std::int64_t{1};
     });
+    add_evidence(oldest, -1);
   }
 }
 
@@ -237,6 +315,7 @@ void MovingThings::mark_seen(std::int32_t found) {
 }
 
 void MovingThings::end_interval() {
+  sum_evidence();
   for (const std::uint32_t index : seen_) {
     Sightings& cell = cells_[index];
     const bool is_new_visit = cell.seen_in == 0 || interval_ - cell.seen_in > kGapOfVisits;
@@ -249,7 +328,20 @@ void MovingThings::end_interval() {
       see_free(cell);
   }
   seen_.clear();
+  evidence_.clear();
   ++interval_;
+}
+
+/// Whether, of the obstacles that were known before this part of the path, this interval saw more than it
+/// crossed, in each direction that they face. At wrong poses it would cross those that face the error.
+bool MovingThings::agrees_with_obstacles_before(double path_m) const {
+  const auto after =
+      std::upper_bound(evidence_.begin(), evidence_.end(), path_m,
+                       [](double limit_m, const Evidence& evidence) { return limit_m < evidence.since_m; });
+  if (after == evidence_.begin()) return false;
+  const Evidence& sum = *std::prev(after);
+  const double smaller = (sum.xx + sum.yy) / 2 - portable::hypot((sum.xx - sum.yy) / 2, sum.xy);
+  return smaller > kLeastBeams;  // the smaller eigenvalue
 }
 
 /// Counts the beams that crossed a cell before the first beam and after the last beam that ended in the cell
@@ -273,17 +365,28 @@ bool MovingThings::is_hit_near(const Sightings& cell) const {
 
 void MovingThings::see_occupied(Sightings& cell, bool is_new_visit) {
   if (cell.hits == kMostCount) return;
+  const bool returns = cell.hits > 0 && cell.free_since_hit >= kReturn;
   if (cell.hits == 0) cell.first_hit = interval_;
+  if (cell.hits == 0 || returns) {
+    cell.occupied_since = here_;
+    cell.visits_before = cell.visits;
+    cell.stays = false;
+  }
   if (is_new_visit || cell.hits == 0 || interval_ - cell.last_hit > kGapOfVisits) ++cell.visits;
-  if (cell.hits > 0 && cell.free_since_hit >= kReturn)
+  if (returns)
     ++cell.returns;
   else if (cell.hits > 0)
     cell.free -= cell.free_since_hit;
   cell.last_hit = interval_;
+  cell.hit_m = here_.path_m;
   cell.free_of_visit = 0;
   cell.free_since_hit = 0;
+  cell.agreed_since_hit = 0;
+  cell.is_gone = false;
   ++cell.hits;
   if (cell.surface_in == interval_) ++cell.surface;
+  cell.stays = cell.stays || (is_second_pass(cell.occupied_since) &&
+                              seconds(here_.time_us - cell.occupied_since.time_us) >= kStay_s);
 }
 
 /// Counts the beams that crossed a cell or, as they would have hit the same thing, the obstacles within the
@@ -296,6 +399,9 @@ void MovingThings::see_free(Sightings& cell) {
   });
   const float beams = std::max(cell.beams, share_of_near_ * around);
   const float weight = std::min(std::min(1.0F, beams / beams_), kMostOfVisit - cell.free_of_visit);
+  if (cell.free_since_hit <= 0) cell.free_since = here_;
+  if (agrees_with_obstacles_before(cell.hit_m - kPlace_m)) cell.agreed_since_hit += weight;
+  cell.is_gone = cell.is_gone || is_second_pass(cell.free_since);
   cell.free += weight;
   cell.free_of_visit += weight;
   cell.free_since_hit += weight;

@@ -46,43 +46,85 @@
 
 namespace psi_slam {
 
+/// A cell of the map that all scans together do not show as occupied, though the newest scans do.
+struct NewObstacle {
+  std::int32_t x = 0;  ///< column and row in the map
+  std::int32_t y = 0;
+  mrpt::maps::COccupancyGridMap2D::cellType of_all_scans = 0;  ///< value by all scans
+};
+
 class MovingThings {
  public:
-  /// `grid` is the map of all scans, with this layout.
-  MovingThings(const mrpt::maps::COccupancyGridMap2D& grid, const GridLayout& layout,
-               const GridMapOptions& options);
+  /// `grid` is the map of all scans, with this layout. Shows those new obstacles in it that are not the rim
+  /// of a wall, until update().
+  MovingThings(mrpt::maps::COccupancyGridMap2D& grid, const std::vector<NewObstacle>& new_obstacles,
+               const GridLayout& layout, const GridMapOptions& options);
 
   /// Adds what a frame saw. Call with the drawn frames in their order. Throws as RayMaker::fans() does.
   void add(const Frame& frame, const mrpt::math::TPose2D& map_T_robot);
 
-  /// Makes the cells of moving things free in the map. Call once, after all frames.
-  void remove_from(mrpt::maps::COccupancyGridMap2D& grid);
+  /// Shows the newest confirmed state of each cell in the map. Call once, after all frames.
+  void update(mrpt::maps::COccupancyGridMap2D& grid);
 
  private:
+  /// A place on the path of the robot.
+  struct PathMark {
+    TimeUs time_us = 0;
+    double path_m = 0;           ///< length of the path up to here
+    mrpt::math::TPoint2D robot;  ///< position of the robot
+  };
+
   /// What the intervals say about an occupied cell of the map.
   struct Sightings {
     std::int32_t x = 0;  ///< column and row of the cell in the map
     std::int32_t y = 0;
     float normal_x = 0;  ///< unit vector across a straight obstacle; 0 if the obstacle is not straight
     float normal_y = 0;
-    std::uint32_t hit_in = 0;      ///< last interval with a beam that ended in the cell
-    std::uint32_t surface_in = 0;  ///< last interval in which that beam was one of a large surface
-    std::uint32_t passed_in = 0;   ///< last interval with a beam that crossed the cell
-    float beams = 0;               ///< weight of the beams that crossed the cell in that interval
-    std::uint32_t seen_in = 0;     ///< last interval that saw the cell
-    std::uint32_t first_hit = 0;   ///< first interval that saw the cell occupied; 0 if none did
-    std::uint32_t last_hit = 0;    ///< last interval that saw the cell occupied
-    std::uint32_t first_end = 0;   ///< first interval with a beam that ended in the cell itself; 0 if none
-    std::uint32_t last_end = 0;    ///< last such interval
-    std::uint16_t hits = 0;        ///< number of intervals that saw the cell occupied
-    std::uint16_t surface = 0;     ///< number of these in which a large surface was hit
-    std::uint16_t visits = 0;      ///< number of visits that saw the cell occupied
-    std::uint16_t returns = 0;     ///< number of times that it was seen occupied again after free
-    float free = 0;                ///< weight of the intervals that saw the cell free, without short gaps
-    float free_of_visit = 0;       ///< part of it since the start of the visit or the last hit
-    float free_since_hit = 0;      ///< part of it since the last hit
-    float crossed_before = 0;      ///< weight of the intervals that crossed the cell before first_end
-    float crossed_after = 0;       ///< and after last_end
+    std::uint32_t hit_in = 0;         ///< last interval with a beam that ended in the cell
+    std::uint32_t surface_in = 0;     ///< last interval in which that beam was one of a large surface
+    std::uint32_t passed_in = 0;      ///< last interval with a beam that crossed the cell
+    float beams = 0;                  ///< weight of the beams that crossed the cell in that interval
+    std::uint32_t seen_in = 0;        ///< last interval that saw the cell
+    std::uint32_t first_hit = 0;      ///< first interval that saw the cell occupied; 0 if none did
+    std::uint32_t last_hit = 0;       ///< last interval that saw the cell occupied
+    std::uint32_t first_end = 0;      ///< first interval with a beam that ended in the cell itself; 0 if none
+    std::uint32_t last_end = 0;       ///< last such interval
+    std::uint16_t hits = 0;           ///< number of intervals that saw the cell occupied
+    std::uint16_t surface = 0;        ///< number of these in which a large surface was hit
+    std::uint16_t visits = 0;         ///< number of visits that saw the cell occupied
+    std::uint16_t returns = 0;        ///< number of times that it was seen occupied again after free
+    float free = 0;                   ///< weight of the intervals that saw the cell free, without short gaps
+    float free_of_visit = 0;          ///< part of it since the start of the visit or the last hit
+    float free_since_hit = 0;         ///< part of it since the last hit
+    float crossed_before = 0;         ///< weight of the intervals that crossed the cell before first_end
+    float crossed_after = 0;          ///< and after last_end
+    float agreed_since_hit = 0;       ///< part of free_since_hit of intervals that saw the obstacles around
+    PathMark occupied_since;          ///< first sighting of the state in which it was last seen occupied
+    double hit_m = 0;                 ///< path of the robot up to the last sighting
+    PathMark free_since;              ///< first interval that saw it free since the last hit
+    std::uint16_t visits_before = 0;  ///< visits up to occupied_since
+    bool stays = false;               ///< whether two passes saw it occupied since occupied_since
+    bool is_gone = false;             ///< whether two passes saw it free since the last hit
+    bool is_new = false;              ///< whether all scans together do not show it occupied
+    mrpt::maps::COccupancyGridMap2D::cellType of_all_scans = 0;  ///< their value, if is_new
+  };
+
+  /// A beam that ended on a straight obstacle or crossed it.
+  struct Evidence {
+    double since_m = 0;  ///< path of the robot up to the first sighting of the obstacle
+    /// Upper triangle of n nᵀ of the obstacle's normal n, negative for a beam that crossed it. In the end,
+    /// the sum over all evidence up to this.
+    double xx = 0;
+    double xy = 0;
+    double yy = 0;
+  };
+
+  /// What becomes of an obstacle of the map.
+  enum class Fate : std::uint8_t {
+    kStays,
+    kConfirmed,  ///< seen free before, and occupied afterwards by two passes
+    kGone,       ///< seen free afterwards
+    kDoubtful,   ///< seen free before, and occupied afterwards, but not by two passes
   };
 
   static constexpr double kLargeSurface_m = 1.5;  ///< length of a surface that may be a wall
@@ -94,6 +136,10 @@ class MovingThings {
 
   void list_obstacles(const mrpt::maps::COccupancyGridMap2D& grid);
   void find_normal(Sightings& cell) const;
+  void follow_path(const mrpt::math::TPoint2D& robot);
+  bool is_second_pass(const PathMark& since) const;
+  void add_evidence(const Sightings* obstacle, double sign);
+  void sum_evidence();
   void mark_hits(const Fan& fan, const CellBox& map);
   void mark_hit(const mrpt::math::TPoint2D& end, bool of_surface);
   void mark_passes(const Fan& fan, const CellBox& map);
@@ -104,10 +150,17 @@ class MovingThings {
   void see_occupied(Sightings& cell, bool is_new_visit);
   void see_free(Sightings& cell);
   void see_crossed(Sightings& cell) const;
-  static double refuted(const Sightings& cell);
-  bool is_moving(const Sightings& cell) const;
-  void keep_large_surfaces(std::vector<bool>& is_moving) const;
-  void add_rims(std::vector<bool>& is_moving) const;
+  bool agrees_with_obstacles_before(double path_m) const;
+  static double refuted(const Sightings& cell, float free);
+  static double gone(const Sightings& cell);
+  template <class Refuted>
+  bool is_refuted(const Sightings& cell, const Refuted& refuted) const;
+  static bool vanishes(Fate fate) { return fate == Fate::kGone || fate == Fate::kDoubtful; }
+  std::vector<Fate> fates() const;
+  void keep_confirmed(std::vector<Fate>& fates) const;
+  bool is_changed_surface(const std::vector<std::size_t>& part) const;
+  void keep_large_surfaces(std::vector<Fate>& fates) const;
+  void add_rims(std::vector<Fate>& fates) const;
 
   /// Calls `visit` with the index in cells_ of each obstacle at most `reach` columns and rows from (x, y).
   template <class Visit>
@@ -129,6 +182,8 @@ class MovingThings {
   std::uint32_t interval_ = 0;       ///< number of this interval; 0 before the first frame
   TimeUs interval_start_us_ = 0;
   mrpt::math::TPoint2D interval_start_;  ///< position of the robot at the start of the interval
+  PathMark here_;                        ///< the robot in this interval
+  std::vector<Evidence> evidence_;       ///< about the poses of this interval
 };
 
 template <class Visit>

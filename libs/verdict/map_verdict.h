@@ -20,6 +20,7 @@
 #include "verdict/checked_path.h"
 #include "verdict/open_directions.h"
 #include "verdict/pass_checks.h"
+#include "verdict/scene_changes.h"
 
 namespace psi_slam {
 
@@ -113,6 +114,8 @@ struct MapVerdict {
   /// Stretches of VerdictOptions::unconfirmed_m and more whose scans leave a direction open, in the order of
   /// the log. Those without odometry are hot spots.
   std::vector<OpenStretch> open_stretches;
+  /// Places where the building changed between passes, the place of most comparisons first.
+  std::vector<SceneChange> changes;
 
   /// Figure by which maps can be ranked, metres.
   double doubt_m() const { return error_m + predicted_m; }

@@ -31,11 +31,15 @@ bool is_alignment_judged(const ScanComparison& scans, const PassCheckOptions& op
   return scans.compared_if_moved >= options.min_points;
 }
 
+/// Displacement by the alignment, with its turn at the lever.
+double moved_m(const ScanComparison& scans, const PassCheckOptions& options) {
+  return portable::hypot(scans.displacement_m, options.lever_m * scans.turn_rad);
+}
+
 double estimated_error_m(const ScanComparison& scans, const PassCheckOptions& options) {
   const bool judged = is_alignment_judged(scans, options);
   const double same = judged ? scans.same_if_moved : 1 - scans.seen_through_share();
-  const double moved_m = portable::hypot(scans.displacement_m, options.lever_m * scans.turn_rad);
-  if (same >= kFits) return judged ? std::min(moved_m, options.unknown_m) : 0;
+  if (same >= kFits) return judged ? std::min(moved_m(scans, options), options.unknown_m) : 0;
   // Doors and furniture that moved lower the shares of true pairs, so the error grows with the misfit.
   return options.unknown_m * std::clamp((kFits - same) / (kFits - 0.5), 0.0, 1.0);
 }
@@ -89,10 +93,13 @@ std::vector<PassCheck> check_passes(const std::vector<MapView>& views, const Pas
   std::vector<PassCheck> checks;
   const auto compare = [&](std::size_t view, std::size_t other, bool same_pass) {
     PassCheck check{view, other, same_pass, compare_scans(views[view], views[other], options.scans),
-                    0,    false};
+                    0,    false, false};
     if (check.scans.same + check.scans.seen_through < options.min_points) return;
     check.error_m = estimated_error_m(check.scans, options);
     check.fits_if_moved = is_alignment_judged(check.scans, options) && check.scans.same_if_moved >= kFits;
+    check.scene_changed = check.error_m > 0 && !check.fits_if_moved && check.scans.is_held &&
+                          moved_m(check.scans, options) <= options.scans.margin_m;
+    if (check.scene_changed) check.error_m = 0;
     checks.push_back(check);
   };
   for (std::size_t view = 0; view < views.size(); ++view) {

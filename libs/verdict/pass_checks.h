@@ -33,6 +33,9 @@ struct PassCheck {
   /// Whether the scans fit after the alignment, so that the displacement was measured. False if the views see
   /// different scenes: the displacement is too large, or the scene changed.
   bool fits_if_moved = false;
+  /// Whether the scene changed between both views rather than the pose: no motion makes the scans fit, and in
+  /// every direction most points confirm the poses of the map. Then error_m is 0.
+  bool scene_changed = false;
 };
 
 /// Compares the views. At one place, the first eight views with similar headings serve for comparison with

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -138,6 +139,16 @@ class Comparison {
   const ScanComparisonOptions& options_;
 };
 
+/// Returns whether more points see the same wall than not, in each direction that they face. A direction that
+/// hardly any point faces is open, and a displacement along it changes nothing.
+bool is_held(const Comparison& comparison, const std::vector<Sighting>& seen) {
+  Eigen::Matrix2d balance = Eigen::Matrix2d::Zero();
+  for (const Sighting& one : seen)
+    balance += (comparison.is_same(one) ? 1 : -1) * one.normal * one.normal.transpose();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(balance, Eigen::EigenvaluesOnly).eigenvalues().x() >
+         kPriorPoints;
+}
+
 /// Returns a point in the middle of the seen-through or doubled walls, in the frame of the other laser.
 std::optional<Eigen::Vector2d> middle_of_faults(const Comparison& comparison,
                                                 const std::vector<Sighting>& seen) {
@@ -175,6 +186,7 @@ ScanComparison compare_scans(const MapView& view, const MapView& other,
     std::nth_element(offsets_m.begin(), middle, offsets_m.end());
     result.offset_m = *middle;
   }
+  result.is_held = is_held(comparison, seen);
   const Eigen::Vector2d at = middle_of_faults(comparison, seen).value_or(Eigen::Vector2d(start.x, start.y));
   const TPose2D placed = compose(other.map_T_laser(), TPose2D(at.x(), at.y(), 0));
   result.at = {placed.x, placed.y};

@@ -38,7 +38,10 @@ struct ScanComparison {
   double turn_rad = 0;                ///< rotation of the alignment
   std::size_t compared_if_moved = 0;  ///< same + seen_through after the alignment
   double same_if_moved = 0;           ///< share of same / (same + seen_through) after the alignment
-  mrpt::math::TPoint2D at;            ///< a point on a wall that is seen through or doubled, in the map
+  /// Whether, of the points that face any one direction, more see the same wall than not. If the scan were
+  /// displaced, those that face the displacement would not.
+  bool is_held = false;
+  mrpt::math::TPoint2D at;  ///< a point on a wall that is seen through or doubled, in the map
 
   /// Share of the compared points that the other scan saw through, in [0, 1].
   double seen_through_share() const {

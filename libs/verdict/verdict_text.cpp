@@ -133,7 +133,8 @@ std::string text_of(const Suspect& suspect) {
 }
 
 std::string verdict_sentence(const MapVerdict& verdict) {
-  return judgement(verdict) + open_text(verdict.open_stretches);
+  const std::string changes = text_of(verdict.changes);
+  return judgement(verdict) + open_text(verdict.open_stretches) + (changes.empty() ? "" : "; " + changes);
 }
 
 std::string error_text(const HotSpot& spot) {

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "verdict/scene_changes.h"
+
+#include <gmock/gmock.h>
+
+#include "changing_room.h"
+#include "frames/pose_operations.h"
+#include "verdict/map_verdict.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// The map of a room at true poses, with a node for each scan.
+MappingResult map_of(const ChangingRoom& room) {
+  MappingResult result;
+  for (std::size_t i = 0; i < room.log.size(); ++i) {
+    FrameRecord record;
+    record.time_us = room.log[i].time_us;
+    record.odom_T_robot = record.map_T_robot = room.poses[i];
+    record.match = i == 0 ? ScanMatch::kNoMap : ScanMatch::kMatched;
+    record.node = result.graph.add_node(room.poses[i]);
+    if (i > 0)
+      result.graph.add_constraint({i - 1,
+                                   i,
+                                   between(room.poses[i - 1], room.poses[i]),
+                                   Eigen::Matrix3d::Identity() * 1e8,
+                                   Constraint::Kind::kLocalMap,
+                                   {}});
+    result.node_frames.push_back(i);
+    result.frames.push_back(record);
+    result.log.push_back(room.log[i]);
+  }
+  result.local_maps = {{0, 0, result.node_frames.size() - 1}};
+  return result;
+}
+
+class SceneChanges : public testing::Test {
+ protected:
+  void drive(int rounds, const RoomWalls& things) {
+    for (int i = 0; i < rounds; ++i) room_.drive_round(things);
+  }
+  ChangingRoom room_;
+};
+
+TEST_F(SceneChanges, are_no_fault_of_the_poses) {
+  drive(3, kWall + kShelf);
+  const std::size_t change = room_.log.size();
+  drive(3, kMovedWall + kDoor + kPallet);
+  const MapVerdict verdict = judge_map(map_of(room_));
+  EXPECT_EQ(verdict.state, MapState::kGood) << verdict_sentence(verdict);
+  EXPECT_TRUE(verdict.hot_spots.empty());
+  ASSERT_FALSE(verdict.changes.empty());
+  const double change_s = 0.3 * static_cast<double>(change);
+  EXPECT_LE(verdict.changes.front().before_s, change_s);
+  EXPECT_GE(verdict.changes.front().after_s, change_s - 0.3);
+  EXPECT_THAT(verdict_sentence(verdict), HasSubstr("; the building changed at ("));
+}
+
+TEST_F(SceneChanges, are_not_found_in_a_room_that_stays) {
+  drive(4, kWall + kShelf);
+  EXPECT_TRUE(judge_map(map_of(room_)).changes.empty());
+}
+
+TEST_F(SceneChanges, do_not_excuse_poses_that_are_wrong) {
+  drive(4, kWall + kShelf);
+  for (const mrpt::math::TPose2D& off :
+       {mrpt::math::TPose2D(0.4, 0, 0), mrpt::math::TPose2D(0, 0.4, 0), mrpt::math::TPose2D(0.3, 0.3, 0.05),
+        mrpt::math::TPose2D(1.5, 0, 0), mrpt::math::TPose2D(0, 1.5, 0), mrpt::math::TPose2D(0, 0, 0.3)}) {
+    ChangingRoom wrong = room_;
+    for (std::size_t i = wrong.poses.size() / 2; i < wrong.poses.size(); ++i)
+      wrong.poses[i] = compose(off, wrong.poses[i]);
+    const MapVerdict verdict = judge_map(map_of(wrong));
+    EXPECT_NE(verdict.state, MapState::kGood) << off << verdict_sentence(verdict);
+    EXPECT_TRUE(verdict.changes.empty()) << off;
+  }
+}
+
+}  // namespace
+}  // namespace psi_slam

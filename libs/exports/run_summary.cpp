@@ -239,10 +239,17 @@ Json verdict_json(const MapVerdict& verdict) {
                      {"length_m", number(spot.length_m, 3)},
                      {"suspect", suspect_json(spot)},
                      {"advice", advice_text(spot)},
-                     {"edit", spot.edit ? Json(edit_line(spot)) : Json(nullptr)}});
+                     {"edit", spot.edit ? Json(edit_line(spot)) : Json(nullptr)},
+                     {"moved_m", spot.effect ? number(spot.effect->moved_m, 3) : Json(nullptr)}});
   Json unchecked = Json::array();
   for (const UncheckedStretch& stretch : verdict.unchecked_stretches)
     unchecked.push_back(unchecked_json(stretch));
+  Json changes = Json::array();
+  for (const SceneChange& change : verdict.changes)
+    changes.push_back({{"x_m", number(change.at.x, 3)},
+                       {"y_m", number(change.at.y, 3)},
+                       {"before_s", number(change.before_s, 3)},
+                       {"after_s", number(change.after_s, 3)}});
   Json open = Json::array();
   for (const OpenStretch& stretch : verdict.open_stretches) open.push_back(open_json(stretch));
   return {{"state", text_of(verdict.state)},
@@ -253,6 +260,7 @@ Json verdict_json(const MapVerdict& verdict) {
           {"wall_thickness_m", number(verdict.wall_thickness_m, 4)},
           {"checked_share", number(verdict.checked_share, 4)},
           {"held_share", number(verdict.held_share, 4)},
+          {"changes", changes},
           {"unchecked_stretches", std::move(unchecked)},
           {"open_stretches", std::move(open)},
           {"hot_spots", std::move(spots)},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the obstacles of a map that were not there at other times: people, carts and doors that moved.
+// Finds the newest confirmed state of each place of a map: removes people, carts and doors that moved, and
+// keeps what came and stays.
 //
 // The scans are divided into intervals: the robot moves 0.08 m, or a second passes. In each interval, an
 // occupied cell of the map is seen occupied if any beam ended within 0.12 m or 1.5 cells of it. Otherwise it
@@ -23,8 +24,15 @@
 // vanish. A cell in which beams ended also vanishes if at least 35 % of all obstacles within 0.25 m do and
 // were hit as long as it.
 //
+// A cell that this refutes is gone if what was seen after its last hit refutes it, or if two passes saw it
+// free since then. Otherwise it was free only before, and stays if two passes saw enough of the obstacles
+// around it: the robot drove 8 m or more, and half a minute later saw them again from where it had seen them
+// first. Else it is doubtful, and unknown.
+//
 // Obstacles longer than 1.5 m stay if the beams hit them as one surface: a wall in two places after an
-// error of the poses, or a barrier that beams hit only from some directions.
+// error of the poses, or a barrier that beams hit only from some directions. They are gone if two passes saw
+// most of them free, in intervals whose poses are right: of the obstacles that were known before, beams met
+// more than they crossed, in each direction that the obstacles face.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>

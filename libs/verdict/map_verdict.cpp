@@ -6,9 +6,11 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "pose_graph/aligned_uncertainty.h"
+#include "verdict/edit_advice.h"
 #include "verdict/interruption_checks.h"
 #include "verdict/loop_residuals.h"
 #include "verdict/path_suspects.h"
@@ -75,21 +77,25 @@ class Judge {
       verdict.more_hot_spots = verdict.hot_spots.size() - options_.most_hot_spots;
       verdict.hot_spots.resize(options_.most_hot_spots);
     }
+    add_edits(verdict.hot_spots);
     return verdict;
   }
 
  private:
-  /// Whether hot spot a comes before b. What scans show comes before what is predicted.
+  /// Whether hot spot a comes before b: what scans show before what is predicted, then by the error, then by
+  /// the length of the path.
   static bool is_worse(const HotSpot& a, const HotSpot& b) {
-    const auto weight = [](const HotSpot& spot) {
-      return spot.error_m.value_or(std::numeric_limits<double>::infinity()) * (1 + spot.length_m);
+    const auto rank = [](const HotSpot& spot) {
+      return std::make_tuple(!is_predicted(spot.kind),
+                             spot.error_m.value_or(std::numeric_limits<double>::infinity()), spot.length_m);
     };
-    const auto is_predicted = [](const HotSpot& spot) {
-      return spot.kind == HotSpot::Kind::kUncertain || spot.kind == HotSpot::Kind::kOpenDirection;
-    };
-    const bool a_is_predicted = is_predicted(a);
-    const bool b_is_predicted = is_predicted(b);
-    return a_is_predicted != b_is_predicted ? b_is_predicted : weight(a) > weight(b);
+    return rank(a) > rank(b);
+  }
+
+  void add_edits(std::vector<HotSpot>& spots) const {
+    if (spots.empty()) return;
+    EditAdvice advice(result_, views_, checks_, options_);
+    for (HotSpot& spot : spots) advice.add_to(spot);
   }
 
   TPoint2D place_of(std::size_t frame) const {
@@ -97,15 +103,27 @@ class Judge {
     return {pose.x, pose.y};
   }
 
+  double time_s(std::size_t frame) const {
+    return seconds(result_.frames[frame].time_us - result_.frames.front().time_us);
+  }
+
   Suspect stretch(Suspect::Kind kind, std::size_t first_frame, std::size_t last_frame) const {
-    return {kind, 0, 0, first_frame, last_frame, place_of((first_frame + last_frame) / 2), searched_loops_};
+    return {kind,
+            0,
+            0,
+            first_frame,
+            last_frame,
+            place_of((first_frame + last_frame) / 2),
+            searched_loops_,
+            time_s(first_frame),
+            time_s(last_frame)};
   }
 
   Suspect suspect_of(const LoopResidual& residual) const {
     const LoopRecord& loop = result_.loops[residual.loop];
-    return {
-        Suspect::Kind::kLoop, residual.loop, loop.local_map, result_.node_frames[loop.reference], loop.frame,
-        place_of(loop.frame), true};
+    const std::size_t reference = result_.node_frames[loop.reference];
+    return {Suspect::Kind::kLoop, residual.loop, loop.local_map,    reference,         loop.frame,
+            place_of(loop.frame), true,          time_s(reference), time_s(loop.frame)};
   }
 
   Suspect suspect_of(const PathSuspect& suspect) const {
@@ -254,65 +272,9 @@ class Judge {
             length_m(series),
             cause,
             1,
-            edit_against(cause, series.first, series.last)};
-  }
-
-  std::optional<LoopEdit> edit_against(const Suspect& suspect) const {
-    return edit_against(suspect, 0, views_.size());
-  }
-
-  /// Edit against a suspect that the checks of the views from first_view to last_view show.
-  std::optional<LoopEdit> edit_against(const Suspect& suspect, std::size_t first_view,
-                                       std::size_t last_view) const {
-    if (suspect.kind == Suspect::Kind::kLoop)
-      return LoopEdit{LoopEdit::Kind::kDelete, suspect.last_frame, suspect.local_map};
-    if (!searched_loops_) return std::nullopt;
-    const auto switched_off =
-        std::find_if(result_.loops.begin(), result_.loops.end(), [&](const LoopRecord& loop) {
-          return loop.by_hand && loop.verdict == LoopVerdict::kSwitchedOff &&
-                 loop.frame >= suspect.last_frame &&
-                 result_.node_frames[loop.reference] <= suspect.first_frame;
-        });
-    if (switched_off != result_.loops.end())
-      return LoopEdit{LoopEdit::Kind::kForce, switched_off->frame, switched_off->local_map};
-    return match_across(suspect, first_view, last_view);
-  }
-
-  /// Match of a scan after the suspect with a local map before it. Prefers scans that fit after a small
-  /// motion, and among them the most displaced.
-  std::optional<LoopEdit> match_across(const Suspect& suspect, std::size_t first_view,
-                                       std::size_t last_view) const {
-    std::optional<LoopEdit> match;
-    const PassCheck* best = nullptr;
-    for (const PassCheck& check : checks_) {
-      if (check.view < first_view || check.view > last_view) continue;
-      const auto [first, last] = std::minmax(check.view, check.other);
-      if (views_[first].frame > suspect.first_frame || views_[last].frame < suspect.last_frame) continue;
-      if (best != nullptr &&
-          std::pair(check.fits_if_moved, check.error_m) <= std::pair(best->fits_if_moved, best->error_m))
-        continue;
-      const std::optional<std::size_t> local_map = local_map_around(first, suspect.first_frame);
-      if (!local_map) continue;
-      best = &check;
-      match = LoopEdit{LoopEdit::Kind::kMatch, views_[last].frame, *local_map};
-    }
-    return match;
-  }
-
-  /// The local map with a view nearest to its middle, among those without scans after last_frame.
-  std::optional<std::size_t> local_map_around(std::size_t view, std::size_t last_frame) const {
-    const std::size_t node = views_[view].node;
-    const auto off_middle = [&](const LocalMapRecord& map) {
-      return std::max(node - map.first_node, map.last_node - node);
-    };
-    std::optional<std::size_t> nearest;
-    for (std::size_t i = 0; i < result_.local_maps.size(); ++i) {
-      const LocalMapRecord& map = result_.local_maps[i];
-      if (map.first_node > node || map.last_node < node || result_.node_frames[map.last_node] > last_frame)
-        continue;
-      if (!nearest || off_middle(map) < off_middle(result_.local_maps[*nearest])) nearest = i;
-    }
-    return nearest;
+            {},
+            {},
+            {views_[series.first].frame, views_[series.last].frame + 1}};
   }
 
   /// Makes one hot spot of each series of displaced views.
@@ -336,8 +298,7 @@ class Judge {
     if (worst == residuals_.end()) return;
     const Suspect suspect = suspect_of(*worst);
     spots.push_back({HotSpot::Kind::kLoopConflict, suspect.at,
-                     std::min(worst->residual_m, options_.passes.unknown_m), 0, suspect, 1,
-                     edit_against(suspect)});
+                     std::min(worst->residual_m, options_.passes.unknown_m), 0, suspect});
   }
 
   /// Finds up to where checks that fit reach, for is_confirmed().
@@ -377,8 +338,8 @@ class Judge {
         spots.push_back({HotSpot::Kind::kUnplacedRun, cause.at, std::nullopt, 0, cause});
       if (suspect.kind == PathSuspect::Kind::kUnmatched && suspect.doubt_m >= options_.unconfirmed_m &&
           !is_confirmed(suspect))
-        spots.push_back({HotSpot::Kind::kUnmatched, cause.at, options_.unmatched_error * suspect.doubt_m, 0,
-                         cause, 1, edit_against(cause)});
+        spots.push_back(
+            {HotSpot::Kind::kUnmatched, cause.at, options_.unmatched_error * suspect.doubt_m, 0, cause});
     }
   }
 
@@ -393,7 +354,7 @@ class Judge {
       const Suspect cause = suspect_of(check.suspect);
       const bool is_gap = check.suspect.kind == PathSuspect::Kind::kGap;
       spots.push_back({is_gap ? HotSpot::Kind::kGapDisagrees : HotSpot::Kind::kRunsDisagree, cause.at,
-                       share * options_.passes.unknown_m, 0, cause, 1, edit_against(cause)});
+                       share * options_.passes.unknown_m, 0, cause});
     }
   }
 

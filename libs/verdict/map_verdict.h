@@ -18,6 +18,7 @@
 #include "psi_slam/loop_record.h"
 #include "psi_slam/mapping_result.h"
 #include "verdict/checked_path.h"
+#include "verdict/edit_effect.h"
 #include "verdict/open_directions.h"
 #include "verdict/pass_checks.h"
 #include "verdict/scene_changes.h"
@@ -44,6 +45,9 @@ struct Suspect {
   mrpt::math::TPoint2D at;      ///< place in the map: the loop's node, or the middle of the stretch
   /// Whether any scan of the map searched for loops. False with loop_closure.enabled=false.
   bool searched_loops = true;
+  /// Times of first_frame and last_frame since the first scan of the map, seconds. Empty: not stated.
+  std::optional<double> first_s{};
+  std::optional<double> last_s{};
 };
 
 /// Returns whether two suspects are the same loop or stretch.
@@ -73,11 +77,17 @@ struct HotSpot {
   double length_m = 0;  ///< path along which the fault is seen
   Suspect suspect;
   std::size_t places_of_suspect = 1;  ///< number of hot spots with this suspect, this one included
-  /// Edit of a loop that would help: deletes the suspect, matches a scan after it with a local map before it,
-  /// or forces such a match by hand that was switched off. Empty if no scans on both sides of the suspect see
-  /// the same walls, or if no scan of the map searched for loops, because edits then have no effect.
+  /// Edit of a loop that helps: deletes the suspect, matches a scan after it with a local map before it, or
+  /// forces such a match by hand that was switched off. It was tried on the graph: the disagreement at the
+  /// place falls to half, and no other place becomes worse. Empty if no such edit was found, or if no scan of
+  /// the map searched for loops, because edits then have no effect.
   std::optional<LoopEdit> edit{};
+  std::optional<EditEffect> effect{};  ///< what the edit changes
+  FrameSpan seen_by{};                 ///< frames whose scans show the fault; empty if the path alone does
 };
+
+/// Returns whether the error of a kind is predicted, not shown by scans.
+bool is_predicted(HotSpot::Kind kind);
 
 /// Returns the kind in the words of summary.json: "doubled wall", "wall seen through", ...
 std::string text_of(HotSpot::Kind kind);
@@ -100,10 +110,11 @@ struct MapVerdict {
   /// Mean standard deviation of the positions that the graph predicts, metres, without unplaced runs; see
   /// aligned_sigmas_m(). It grows where no loop holds the path, whether or not the scans show an error.
   double predicted_m = 0;
-  double wall_thickness_m = 0;     ///< 90th percentile of the distances between the walls of two passes
-  double checked_share = 0;        ///< share of the path that another pass confirms or contradicts, in [0, 1]
-  double held_share = 0;           ///< share of the path between places where passes fit, see held_share()
-  std::vector<HotSpot> hot_spots;  ///< the worst first, at most VerdictOptions::most_hot_spots
+  double wall_thickness_m = 0;  ///< 90th percentile of the distances between the walls of two passes
+  double checked_share = 0;     ///< share of the path that another pass confirms or contradicts, in [0, 1]
+  double held_share = 0;        ///< share of the path between places where passes fit, see held_share()
+  std::vector<HotSpot>
+      hot_spots;  ///< at most VerdictOptions::most_hot_spots; those that scans show first, by their error
   std::size_t more_hot_spots = 0;  ///< hot spots beyond those, which are left out of the list
   /// Stretches of unmatched scans, in the order of the log, across which other scans fit and which are the
   /// suspect of no hot spot.
@@ -149,7 +160,7 @@ struct VerdictOptions {
 /// Judges a map. Deterministic. A map without scans or without overlapping passes has no displaced walls.
 MapVerdict judge_map(const MappingResult& result, const VerdictOptions& options = {});
 
-/// Returns the suspect as a clause: "the loop of scan 812 with local map 14".
+/// Returns the suspect as a clause: "the loop of scan 812 with local map 14 at (3.1, -2.0) m, 2:42".
 std::string text_of(const Suspect& suspect);
 
 /// Returns the verdict as a sentence without full stop: "the map is good: ...".

@@ -85,6 +85,26 @@ std::vector<std::size_t> views_of_other_passes(std::size_t view, const std::vect
 
 }  // namespace
 
+bool fits_after_alignment(const ScanComparison& scans, const PassCheckOptions& options) {
+  return is_alignment_judged(scans, options) && scans.same_if_moved >= kFits;
+}
+
+std::optional<PassCheck> compare_views(const std::vector<MapView>& views, std::size_t view, std::size_t other,
+                                       bool same_pass, const PassCheckOptions& options) {
+  PassCheck check;
+  check.view = view;
+  check.other = other;
+  check.same_pass = same_pass;
+  check.scans = compare_scans(views[view], views[other], options.scans);
+  if (check.scans.same + check.scans.seen_through < options.min_points) return std::nullopt;
+  check.error_m = estimated_error_m(check.scans, options);
+  check.fits_if_moved = fits_after_alignment(check.scans, options);
+  check.scene_changed = check.error_m > 0 && !check.fits_if_moved && check.scans.is_held &&
+                        moved_m(check.scans, options) <= options.scans.margin_m;
+  if (check.scene_changed) check.error_m = 0;
+  return check;
+}
+
 std::vector<PassCheck> check_passes(const std::vector<MapView>& views, const PassCheckOptions& options) {
   const std::vector<std::size_t> candidates = views_to_compare(views);
   std::vector<mrpt::math::TPoint2Df> at;
@@ -92,15 +112,7 @@ std::vector<PassCheck> check_passes(const std::vector<MapView>& views, const Pas
   const PointGrid positions(std::move(at), options.reach_m);
   std::vector<PassCheck> checks;
   const auto compare = [&](std::size_t view, std::size_t other, bool same_pass) {
-    PassCheck check{view, other, same_pass, compare_scans(views[view], views[other], options.scans),
-                    0,    false, false};
-    if (check.scans.same + check.scans.seen_through < options.min_points) return;
-    check.error_m = estimated_error_m(check.scans, options);
-    check.fits_if_moved = is_alignment_judged(check.scans, options) && check.scans.same_if_moved >= kFits;
-    check.scene_changed = check.error_m > 0 && !check.fits_if_moved && check.scans.is_held &&
-                          moved_m(check.scans, options) <= options.scans.margin_m;
-    if (check.scene_changed) check.error_m = 0;
-    checks.push_back(check);
+    if (auto check = compare_views(views, view, other, same_pass, options)) checks.push_back(*check);
   };
   for (std::size_t view = 0; view < views.size(); ++view) {
     for (const std::size_t other : views_of_other_passes(view, views, candidates, positions, options))

@@ -38,6 +38,13 @@ struct PassCheck {
   bool scene_changed = false;
 };
 
+/// Whether the scans fit after the alignment, and see enough common points to judge it.
+bool fits_after_alignment(const ScanComparison& scans, const PassCheckOptions& options);
+
+/// Compares two views; empty if they see too few common points.
+std::optional<PassCheck> compare_views(const std::vector<MapView>& views, std::size_t view, std::size_t other,
+                                       bool same_pass, const PassCheckOptions& options);
+
 /// Compares the views. At one place, the first eight views with similar headings serve for comparison with
 /// all views, so that the work grows linearly with the path. The checks are ordered by PassCheck::view.
 std::vector<PassCheck> check_passes(const std::vector<MapView>& views, const PassCheckOptions& options = {});

@@ -194,6 +194,7 @@ ScanComparison compare_scans(const MapView& view, const MapView& other,
   TPose2D moved = start;
   for (const double kernel_m : kKernels_m) moved = comparison.step(moved, kernel_m, start);
   result.displacement_m = distance_m(start, moved);
+  result.map_T_moved = compose(other.map_T_laser(), moved);
   result.turn_rad = std::abs(mrpt::math::wrapToPi(moved.phi - start.phi));
   std::size_t same = 0;
   std::size_t through = 0;

@@ -36,6 +36,7 @@ struct ScanComparison {
   /// and counts as zero.
   double displacement_m = 0;
   double turn_rad = 0;                ///< rotation of the alignment
+  mrpt::math::TPose2D map_T_moved;    ///< pose of the robot at the scan after the alignment
   std::size_t compared_if_moved = 0;  ///< same + seen_through after the alignment
   double same_if_moved = 0;           ///< share of same / (same + seen_through) after the alignment
   /// Whether, of the points that face any one direction, more see the same wall than not. If the scan were

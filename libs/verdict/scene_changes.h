@@ -15,7 +15,8 @@ namespace psi_slam {
 struct SceneChange {
   mrpt::math::TPoint2D at;  ///< place in the map, metres
   double before_s = 0;      ///< time of the last scan that saw the scene before, since the first scan
-  double after_s = 0;       ///< time of the first scan that saw the scene after the change
+  /// Time of the first scan that saw the scene after the change; before before_s if it changed repeatedly.
+  double after_s = 0;
 };
 
 /// Returns the places of the checks that found a changed scene, the place of most checks first. Changes

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "base/number_text.h"
@@ -22,14 +23,36 @@ std::string scans_text(const Stretch& stretch) {
              : "scans " + first + " to " + std::to_string(stretch.last_frame);
 }
 
+std::string time_text(double since_start_s) {
+  return minutes_text(std::floor(since_start_s));
+}
+
+/// Returns where and when the suspect is: " at (3.1, -2.0) m, 2:42 to 2:45".
+std::string whereabouts(const Suspect& suspect) {
+  std::string text = " at " + place_text(suspect.at);
+  if (!suspect.last_s) return text;
+  const std::string last = time_text(*suspect.last_s);
+  const bool is_one =
+      suspect.kind == Suspect::Kind::kLoop || !suspect.first_s || time_text(*suspect.first_s) == last;
+  return text + ", " + (is_one ? last : time_text(*suspect.first_s) + " to " + last);
+}
+
+/// Returns which scan the edit names and what it changes; empty if that is unknown.
+std::string effect_text(const HotSpot& spot) {
+  if (!spot.effect) return {};
+  const EditEffect& effect = *spot.effect;
+  return " of the scan at " + place_text(effect.scan_at) + ", " + time_text(effect.scan_s) +
+         (spot.edit->kind == LoopEdit::Kind::kMatch ? ": if it holds, it moves the map by "
+                                                    : ": it moves the map by ") +
+         fixed_text(effect.moved_m, 2) + " m at " + place_text(effect.at);
+}
+
 const double kLargestError_m = PassCheckOptions().unknown_m;
 
 /// Only errors that scans show have an upper bound, not those that are predicted.
 bool is_too_large_to_measure(const HotSpot& spot) {
-  const bool is_predicted = spot.kind == HotSpot::Kind::kUncertain ||
-                            spot.kind == HotSpot::Kind::kUnmatched ||
-                            spot.kind == HotSpot::Kind::kOpenDirection;
-  return !is_predicted && spot.error_m && *spot.error_m >= kLargestError_m;
+  return !is_predicted(spot.kind) && spot.kind != HotSpot::Kind::kUnmatched && spot.error_m &&
+         *spot.error_m >= kLargestError_m;
 }
 
 std::string unchecked_text(const MapVerdict& verdict) {
@@ -68,7 +91,8 @@ std::string open_text(const std::vector<OpenStretch>& stretches) {
                         [](const OpenStretch& a, const OpenStretch& b) { return a.length_m < b.length_m; });
   return "; along bare walls, " + std::string(source) + " alone gives the length of " +
          fixed_text(length_m, 1) + " m of the path (" + counted(scans, "scan") +
-         (stretches.size() == 1 ? ", " : ", the longest part: ") + scans_text(longest) + ")";
+         (stretches.size() == 1 ? ", " : ", the longest part: ") + scans_text(longest) + " at " +
+         place_text(longest.at) + ")";
 }
 
 /// The judgement, without the stretches with an open direction.
@@ -82,9 +106,13 @@ std::string judgement(const MapVerdict& verdict) {
   if (worst.kind == HotSpot::Kind::kUnplacedRun)
     return "the map is broken: a run was never placed; suspect: " + text_of(worst.suspect);
   const std::string text = hot_spot_text(worst);
+  const bool is_worst = std::none_of(
+      verdict.hot_spots.begin(), verdict.hot_spots.end(),
+      [&](const HotSpot& spot) { return spot.error_m && worst.error_m && *spot.error_m > *worst.error_m; });
+  const std::string the_worst = is_worst ? "the worst: " : "the worst that scans show: ";
   if (verdict.state == MapState::kBroken)
-    return "the map is broken: the estimated mean error is " + fixed_text(verdict.error_m, 2) +
-           " m, the worst: " + text;
+    return "the map is broken: the estimated mean error is " + fixed_text(verdict.error_m, 2) + " m, " +
+           the_worst + text;
   const std::string thick = verdict.wall_thickness_m <= ScanComparisonOptions().margin_m
                                 ? ""
                                 : "the map is not good: walls of different passes differ by " +
@@ -92,10 +120,14 @@ std::string judgement(const MapVerdict& verdict) {
                                       " m or more at 10 % of the places; ";
   const std::size_t places = verdict.hot_spots.size() + verdict.more_hot_spots;
   if (places == 1) return thick + "check this place: " + text;
-  return thick + "check " + counted(places, "place") + " of the map, the worst: " + text;
+  return thick + "check " + counted(places, "place") + " of the map, " + the_worst + text;
 }
 
 }  // namespace
+
+bool is_predicted(HotSpot::Kind kind) {
+  return kind == HotSpot::Kind::kUncertain || kind == HotSpot::Kind::kOpenDirection;
+}
 
 std::string text_of(HotSpot::Kind kind) {
   constexpr std::array<const char*, 10> kTexts{
@@ -113,23 +145,26 @@ std::string text_of(const Suspect& suspect) {
   switch (suspect.kind) {
     case Suspect::Kind::kLoop:
       return "the loop of scan " + std::to_string(suspect.last_frame) + " with local map " +
-             std::to_string(suspect.local_map);
+             std::to_string(suspect.local_map) + whereabouts(suspect);
     case Suspect::Kind::kUnmatched:
-      return scans_text(suspect) + ", which matched no local map";
+      return scans_text(suspect) + whereabouts(suspect) + ", which matched no local map";
     case Suspect::Kind::kLost:
-      return scans_text(suspect) + ", where the place of the robot was lost";
+      return scans_text(suspect) + whereabouts(suspect) + ", where the place of the robot was lost";
     case Suspect::Kind::kUnplaced:
-      return scans_text(suspect) + ", where the place of the robot was lost and was never found again";
+      return scans_text(suspect) + whereabouts(suspect) +
+             ", where the place of the robot was lost and was never found again";
     case Suspect::Kind::kGap:
-      return scans_text(suspect) + ", before which the log has a gap";
+      return scans_text(suspect) + whereabouts(suspect) + ", before which the log has a gap";
     case Suspect::Kind::kDrift:
-      return scans_text(suspect) + ", where loops hold the map too weakly";
+      return scans_text(suspect) + whereabouts(suspect) + ", where loops hold the map too weakly";
     case Suspect::Kind::kOpen:
-      return scans_text(suspect) + ", which saw only walls along one direction and have no odometry";
+      return scans_text(suspect) + whereabouts(suspect) +
+             ", which saw only walls along one direction and have no odometry";
     case Suspect::Kind::kStretch:
       break;
   }
-  return scans_text(suspect) + ", where the map of the second pass departs from the first";
+  return scans_text(suspect) + whereabouts(suspect) +
+         ", where the map of the second pass departs from the first";
 }
 
 std::string verdict_sentence(const MapVerdict& verdict) {
@@ -162,18 +197,13 @@ std::string advice_text(const HotSpot& spot) {
   const Suspect& suspect = spot.suspect;
   if (suspect.kind == Suspect::Kind::kOpen)
     return "record odometry, or put objects along the walls and map again";
-  const bool is_apart = suspect.kind == Suspect::Kind::kLost || suspect.kind == Suspect::Kind::kUnplaced;
-  std::string edit = "match a scan after scan " + std::to_string(suspect.last_frame) +
-                     (is_apart ? " with a local map of the rest of the map"
-                               : " with a local map before scan " + std::to_string(suspect.first_frame)) +
-                     " by hand";
-  if (spot.edit) edit = "make the edit \"" + edit_line(spot) + '"';
-  std::string setting;
-  if (suspect.kind == Suspect::Kind::kUnmatched) setting = "raise front_end.max_wide_window_m, or ";
-  if (!suspect.searched_loops) return setting + "set loop_closure.enabled=true";
-  if (suspect.kind == Suspect::Kind::kDrift || suspect.kind == Suspect::Kind::kStretch)
-    setting = "raise loop_closure.wide_searches, or ";
-  return setting + edit;
+  if (spot.edit) return "make the edit \"" + edit_line(spot) + '"' + effect_text(spot);
+  if (!suspect.searched_loops) return "set loop_closure.enabled=true";
+  const std::string place = "record the path near " + place_text(suspect.at) + " again, " +
+                            (suspect.kind == Suspect::Kind::kUnmatched || suspect.kind == Suspect::Kind::kGap
+                                 ? "slowly and without a gap"
+                                 : "and from there to a place seen before");
+  return place + "; no edit of one loop was found that mends the map";
 }
 
 }  // namespace psi_slam

@@ -150,7 +150,7 @@ TEST(SummaryJson, has_the_verdict_about_the_map) {
   EXPECT_EQ(
       verdict["sentence"],
       "check this place: doubled wall at (1.5, -0.5) m, error about 0.31 m; suspect: the loop of scan 45 "
-      "with local map 3");
+      "with local map 3 at (2.0, 1.0) m");
   EXPECT_EQ(verdict["error_m"], 0.06);
   EXPECT_EQ(verdict["doubt_m"], 0.06);
   ASSERT_EQ(verdict["hot_spots"].size(), 1U);

@@ -72,6 +72,8 @@ void constrain_to_path(const FrontEndStep& step, const PathNoise& noise, Keyfram
   NodeScan& here = keyframes.nodes[node];
   here.segment = node;
   PathCovariance covariance = std::exchange(keyframes.in_segment, PathCovariance());
+  const std::size_t last_matched = keyframes.last_matched_node;
+  if (step.matched || step.memberships.empty()) keyframes.last_matched_node = node;
   if (step.memberships.empty()) return;
 
   const NodeScan& before = keyframes.nodes.at(node - 1);
@@ -91,6 +93,10 @@ void constrain_to_path(const FrontEndStep& step, const PathNoise& noise, Keyfram
   };
   extend(covariance.drift, of_step.drift);
   extend(covariance.unmatched, of_step.unmatched);
+  if (step.matched && step.memberships.front().anchor <= last_matched) {
+    covariance.drift += noise.stated_share * noise.stated_share * covariance.unmatched;
+    covariance.unmatched.setZero();
+  }
 
   const bool begins = here.travelled_m - first.travelled_m >= kSegment_m;
   Constraint constraint;

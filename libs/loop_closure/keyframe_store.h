@@ -49,7 +49,8 @@ struct KeyframeStore {
   std::shared_ptr<LocalMapCache> cache;    ///< holds the same local maps; null: no local map is ever packed
   /// Runs whose place in the map is unknown, in ascending order. The last one may still grow.
   std::vector<UnplacedRun> unplaced;
-  PathCovariance in_segment;  ///< of the newest node relative to the first node of its segment
+  PathCovariance in_segment;          ///< of the newest node relative to the first node of its segment
+  std::size_t last_matched_node = 0;  ///< newest node that matched, or that began a run
 };
 
 /// A turn of 1 rad counts as this much travel: by default, after both of them the front end adds about
@@ -75,7 +76,8 @@ void remember_node(const FrontEndStep& step, std::size_t frame, KeyframeStore& k
 /// Errors of the path that the front end measures: a random walk.
 struct PathNoise {
   /// Share of the standard deviations that the front end states for a step. The next scan is matched with the
-  /// same local map and takes most of the error of a step back. Steps without a match have all of it.
+  /// same local map and takes most of the error of a step back. Steps without a match have all of it, until
+  /// a scan matches a local map that is older than they are.
   double stated_share = 0.2;
   /// Drift that successive scans share, as standard deviations.
   double sigma_m_per_sqrt_m = 0.002;  ///< of the position, after one metre

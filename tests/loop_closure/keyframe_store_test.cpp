@@ -89,7 +89,8 @@ class DrivenPath {
 
   KeyframeStore keyframes;
   PoseGraph graph;
-  bool matched = true;  // whether the scans of later nodes match
+  bool matched = true;     // whether the scans of later nodes match
+  std::size_t anchor = 0;  // first node of the older local map of later nodes
 
  private:
   void add(const TPose2D& motion, bool in_local_map,
@@ -101,7 +102,7 @@ class DrivenPath {
     step.node = graph.add_node({0, 0, 0});  // poses of the graph do not matter
     step.covariance_since_node = covariance;
     step.matched = matched;
-    if (in_local_map) step.memberships.push_back({0, 0, {}, {}});
+    if (in_local_map) step.memberships.push_back({0, anchor, {}, {}});
     remember_node(step, *step.node, keyframes);
     constrain_to_path(step, kPathNoise, keyframes, graph);
   }
@@ -199,6 +200,23 @@ TEST(ConstrainToPath, keeps_the_error_of_odometry_where_no_scan_matches) {
   const double more = kPathDoubt * kPathDoubt - 1;
   EXPECT_TRUE(matched.doubt(0).isApprox(more * matched.covariance(0), 1e-6));
   EXPECT_TRUE(unmatched.doubt(0).isApprox(more * none.covariance(0), 1e-6));
+}
+
+TEST(ConstrainToPath, a_match_with_an_older_local_map_takes_the_error_of_odometry_back) {
+  const Eigen::Matrix3d stated = Eigen::Vector3d(4e-2, 9e-2, 1e-2).asDiagonal();
+  DrivenPath always({0, 0, 0});
+  DrivenPath same_map({0, 0, 0});
+  DrivenPath new_map({0, 0, 0});
+  for (DrivenPath* one : {&always, &same_map, &new_map}) {
+    one->matched = one == &always;
+    one->move({0.3, 0, 0}, stated);
+    one->matched = true;
+    one->anchor = one == &new_map ? 1 : 0;
+    one->move({0.3, 0, 0});
+  }
+  EXPECT_TRUE(same_map.covariance(1).isApprox(always.covariance(1), 1e-6));
+  EXPECT_TRUE(same_map.doubt(1).isApprox(always.doubt(1), 1e-6));
+  EXPECT_GT(new_map.covariance(1)(0, 0), stated(0, 0));
 }
 
 TEST(ConstrainToPath, does_not_depend_on_the_frame_of_the_front_end) {

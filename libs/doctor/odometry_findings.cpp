@@ -286,7 +286,7 @@ class OdometryJudge : public FindingList {
       const std::string remedy =
           "log.laser_x_m = " + x + ", log.laser_y_m = " + y + ", log.laser_yaw_deg = " + yaw;
       if (diagnosis_.laser_is_turned)
-        warn("laser_mount", sentence, remedy);
+        warn("laser_heading", sentence, remedy);
       else
         note("laser_mount", sentence, remedy);
     }

@@ -24,8 +24,8 @@ using mrpt::DEG2RAD;
 using mrpt::math::TPose2D;
 using mrpt::math::wrapToPi;
 
-constexpr std::size_t kRemembered = 64;  // readings of a laser; drivers repeat what is in their buffers
-constexpr std::size_t kFewestSeen = 5;   // different readings; otherwise, they may not depend on the place
+constexpr std::size_t kRemembered = 8;  // readings of a laser; drivers repeat what is in their buffers
+constexpr std::size_t kFewestSeen = 5;  // different readings; otherwise, they may not depend on the place
 constexpr std::size_t kFewestSteps = 10;
 // A robot that moves farther in a second does not stand: odometry of a standing robot, and the heading by its
 // gyroscope, drift less.

@@ -180,8 +180,10 @@ TEST_F(InputDoctorTest, detects_a_wrong_laser_heading) {
   run.robot_T_laser = {0.1, 0, M_PI / 2};
   const LogDiagnosis diagnosis = diagnose_run(run);
   EXPECT_THAT(warnings_of(diagnosis), testing::Contains("laser_heading"));
-  EXPECT_THAT(finding_of(diagnosis, "laser_heading").remedy,
-              testing::AnyOf("log.laser_yaw_deg = 90", "log.laser_yaw_deg = 89", "log.laser_yaw_deg = 91"));
+  EXPECT_THAT(
+      finding_of(diagnosis, "laser_heading").remedy,
+      testing::MatchesRegex("log.laser_x_m = .*, log.laser_y_m = .*, log.laser_yaw_deg = (89|90)\\..*"));
+  EXPECT_NEAR(diagnosis.mount->robot_T_laser.x, 0.1, 4 * diagnosis.mount->deviation_m);
 }
 
 TEST_F(InputDoctorTest, measures_the_mount_of_the_laser) {

@@ -42,7 +42,7 @@ SimulatedRun without_noise(SimulatedRun run) {
 
 TEST(RepeatedScans, finds_an_older_scan_with_new_stamps) {
   std::vector<Frame> frames = frames_of(simulated_run({{0.08, 1.0, 60}}));
-  for (const std::size_t stalled : {40U, 41U, 42U}) frames[stalled].scan.ranges_m = frames[30].scan.ranges_m;
+  for (const std::size_t stalled : {40U, 41U, 42U}) frames[stalled].scan.ranges_m = frames[35].scan.ranges_m;
   RepeatedScans finder;
   EXPECT_EQ(finder.sentence(), "");
   for (const Frame& frame : frames) finder.repeats(frame);
@@ -55,7 +55,7 @@ TEST(RepeatedScans, finds_an_older_scan_with_new_stamps) {
 
 TEST(RepeatedScans, judges_each_laser_by_itself) {
   std::vector<Frame> frames = frames_of(simulated_run({{0.08, 1.0, 60}}));
-  for (const std::size_t stalled : {40U, 41U, 42U}) frames[stalled].scan.ranges_m = frames[30].scan.ranges_m;
+  for (const std::size_t stalled : {40U, 41U, 42U}) frames[stalled].scan.ranges_m = frames[35].scan.ranges_m;
   frames[41].scan.laser = 1;
   EXPECT_THAT(repeats_in(frames), testing::ElementsAre(40, 42));
 }

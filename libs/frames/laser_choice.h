@@ -71,8 +71,8 @@ struct StatedMount {
 /// Parses `LogOptions::laser_mounts`. Throws UserError that says what was expected.
 std::vector<StatedMount> stated_mounts(const LogOptions& options);
 
-/// Largest delay of scans, and largest amount of a negative delay. Clocks that were not synchronised differ by
-/// minutes.
+/// Largest delay of scans, and largest amount of a negative delay. Clocks that were not synchronised differ
+/// by minutes.
 inline constexpr double kMostScanDelay_s = 600;
 
 /// Delay of the scans of one laser as the user states it.

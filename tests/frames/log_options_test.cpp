@@ -45,10 +45,11 @@ TEST(LogOptions, invalid_values_are_reported_by_name_and_value) {
   options = {};
   for (const char* wrong : {"-600.5", "late", "0.1, 0.2", "A 0.1, A 0.2", "A 0.1, 0.2", "A 0.1,", "A"}) {
     options.scan_delay_s = wrong;
-    EXPECT_EQ(sentence_about(options),
-              std::string("log.scan_delay_s is \"") + wrong +
-                  "\", expected auto, -600 to 600 seconds, or a laser's name and its seconds such as \"RLASER "
-                  "0.1\". Separate several lasers by commas, and name each one once");
+    EXPECT_EQ(
+        sentence_about(options),
+        std::string("log.scan_delay_s is \"") + wrong +
+            "\", expected auto, -600 to 600 seconds, or a laser's name and its seconds such as \"RLASER "
+            "0.1\". Separate several lasers by commas, and name each one once");
   }
 
   options = {};

@@ -89,9 +89,9 @@ struct LogOptions {
   std::optional<double> odometry_scale;
 
   /// Time by which the time stamps of scans are later than the measurement, compared with the stamps of
-  /// odometry, seconds, in [-600, 600]. "0.1": the delay of all lasers. "NAME SECONDS": the delay of one laser;
-  /// separate several lasers by commas. Names are those of `laser`; lasers that are not named have no delay.
-  /// "auto": 0, or with `calibrate` the estimate for each laser.
+  /// odometry, seconds, in [-600, 600]. "0.1": the delay of all lasers. "NAME SECONDS": the delay of one
+  /// laser; separate several lasers by commas. Names are those of `laser`; lasers that are not named have no
+  /// delay. "auto": 0, or with `calibrate` the estimate for each laser.
   std::string scan_delay_s = "auto";
 
   /// Estimates odometry_scale, scan_delay_s and the pose of the laser on the robot from the scans before

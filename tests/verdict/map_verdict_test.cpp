@@ -259,13 +259,14 @@ TEST(MapVerdict, advises_no_edit_that_was_made) {
 
 TEST(MapVerdict, advises_no_edit_that_moves_nothing) {
   MappingResult result = displaced_round();
-  for (std::size_t node = 1; node < result.node_frames.size(); ++node)  // so sure that no loop bends it
-    result.graph.add_constraint({node - 1,
-                                 node,
-                                 result.graph.pose(node) - result.graph.pose(node - 1),
-                                 Eigen::Matrix3d::Identity() * 1e9,
-                                 Constraint::Kind::kLocalMap,
-                                 {}});
+  Constraint step;
+  step.kind = Constraint::Kind::kLocalMap;
+  step.information = Eigen::Matrix3d::Identity() * 1e9;  // so sure that no loop bends it
+  for (step.to = 1; step.to < result.node_frames.size(); ++step.to) {
+    step.from = step.to - 1;
+    step.from_T_to = result.graph.pose(step.to) - result.graph.pose(step.from);
+    result.graph.add_constraint(step);
+  }
   const MapVerdict verdict = judge_map(result);
   ASSERT_FALSE(verdict.hot_spots.empty());
   for (const HotSpot& spot : verdict.hot_spots) EXPECT_FALSE(spot.edit) << edit_line(spot);

@@ -22,13 +22,15 @@ MappingResult map_of(const ChangingRoom& room) {
     record.odom_T_robot = record.map_T_robot = room.poses[i];
     record.match = i == 0 ? ScanMatch::kNoMap : ScanMatch::kMatched;
     record.node = result.graph.add_node(room.poses[i]);
-    if (i > 0)
-      result.graph.add_constraint({i - 1,
-                                   i,
-                                   between(room.poses[i - 1], room.poses[i]),
-                                   Eigen::Matrix3d::Identity() * 1e8,
-                                   Constraint::Kind::kLocalMap,
-                                   {}});
+    if (i > 0) {
+      Constraint step;
+      step.from = i - 1;
+      step.to = i;
+      step.from_T_to = between(room.poses[i - 1], room.poses[i]);
+      step.information = Eigen::Matrix3d::Identity() * 1e8;
+      step.kind = Constraint::Kind::kLocalMap;
+      result.graph.add_constraint(step);
+    }
     result.node_frames.push_back(i);
     result.frames.push_back(record);
     result.log.push_back(room.log[i]);

@@ -68,10 +68,11 @@ float share_of_near(double resolution_m) {
   return static_cast<float>(cells < 1 ? cells * cells : 1 / cells);
 }
 
-/// Returns the one of two obstacles that was seen first; `cell` if there is only this.
+/// Returns the one of two obstacles that has been seen in its state for longer; null if none was seen.
 template <class Cell>
 const Cell* older(const Cell* other, const Cell& cell) {
-  return other != nullptr && other->first_hit <= cell.first_hit ? other : &cell;
+  if (cell.hits == 0) return other;
+  return other != nullptr && other->occupied_since.path_m <= cell.occupied_since.path_m ? other : &cell;
 }
 
 /// Shows those cells as occupied that are farther than `near` from all obstacles of the map, and those around
@@ -202,15 +203,15 @@ bool MovingThings::is_second_pass(const PathMark& since) const {
 
 /// Notes that a beam ended on an obstacle that was known before, or crossed it.
 void MovingThings::add_evidence(const Sightings* obstacle, double sign) {
-  if (obstacle == nullptr || obstacle->hits == 0) return;
+  if (obstacle == nullptr) return;
   const auto x = static_cast<double>(obstacle->normal_x);
   const auto y = static_cast<double>(obstacle->normal_y);
   evidence_.push_back({obstacle->occupied_since.path_m, sign * x * x, sign * x * y, sign * y * y});
 }
 
 void MovingThings::sum_evidence() {
-  std::sort(evidence_.begin(), evidence_.end(),
-            [](const Evidence& a, const Evidence& b) { return a.since_m < b.since_m; });
+  std::stable_sort(evidence_.begin(), evidence_.end(),
+                   [](const Evidence& a, const Evidence& b) { return a.since_m < b.since_m; });
   for (std::size_t i = 1; i < evidence_.size(); ++i) {
     evidence_[i].xx += evidence_[i - 1].xx;
     evidence_[i].xy += evidence_[i - 1].xy;
@@ -369,7 +370,6 @@ void MovingThings::see_occupied(Sightings& cell, bool is_new_visit) {
   if (cell.hits == 0) cell.first_hit = interval_;
   if (cell.hits == 0 || returns) {
     cell.occupied_since = here_;
-    cell.visits_before = cell.visits;
     cell.stays = false;
   }
   if (is_new_visit || cell.hits == 0 || interval_ - cell.last_hit > kGapOfVisits) ++cell.visits;
@@ -381,8 +381,9 @@ void MovingThings::see_occupied(Sightings& cell, bool is_new_visit) {
   cell.hit_m = here_.path_m;
   cell.free_of_visit = 0;
   cell.free_since_hit = 0;
-  cell.agreed_since_hit = 0;
-  cell.is_gone = false;
+  cell.free_of_pass = 0;
+  cell.returned_after = std::max(cell.returned_after, cell.free_passes);
+  cell.free_passes = 0;
   ++cell.hits;
   if (cell.surface_in == interval_) ++cell.surface;
   cell.stays = cell.stays || (is_second_pass(cell.occupied_since) &&
@@ -398,10 +399,17 @@ void MovingThings::see_free(Sightings& cell) {
     if (other.passed_in == interval_) around += other.beams;
   });
   const float beams = std::max(cell.beams, share_of_near_ * around);
-  const float weight = std::min(std::min(1.0F, beams / beams_), kMostOfVisit - cell.free_of_visit);
-  if (cell.free_since_hit <= 0) cell.free_since = here_;
-  if (agrees_with_obstacles_before(cell.hit_m - kPlace_m)) cell.agreed_since_hit += weight;
-  cell.is_gone = cell.is_gone || is_second_pass(cell.free_since);
+  const float seen = std::min(1.0F, beams / beams_);
+  const float weight = std::min(seen, kMostOfVisit - cell.free_of_visit);
+  if (agrees_with_obstacles_before(cell.hit_m - kPlace_m)) {
+    if (cell.free_of_pass <= 0 || is_second_pass(cell.free_since)) {
+      cell.free_since = here_;
+      cell.free_of_pass = 0;
+    }
+    const bool is_counted = cell.free_of_pass >= 1;
+    cell.free_of_pass += seen;
+    if (!is_counted && cell.free_of_pass >= 1 && cell.free_passes < kMostCount) ++cell.free_passes;
+  }
   cell.free += weight;
   cell.free_of_visit += weight;
   cell.free_since_hit += weight;

@@ -25,14 +25,15 @@
 // were hit as long as it.
 //
 // A cell that this refutes is gone if what was seen after its last hit refutes it, or if two passes saw it
-// free since then. Otherwise it was free only before, and stays if two passes saw enough of the obstacles
-// around it: the robot drove 8 m or more, and half a minute later saw them again from where it had seen them
-// first. Else it is doubtful, and unknown.
+// free since then at poses that are right, and more than ever before it was seen occupied again. Otherwise it
+// was free only before, and stays if two passes saw enough of the obstacles around it: the robot drove 8 m or
+// more, and half a minute later saw them again from where it had seen them first. Else it is doubtful, and
+// unknown. So is a cell that only the newest scans show occupied, unless two passes saw it.
 //
 // Obstacles longer than 1.5 m stay if the beams hit them as one surface: a wall in two places after an
 // error of the poses, or a barrier that beams hit only from some directions. They are gone if two passes saw
-// most of them free, in intervals whose poses are right: of the obstacles that were known before, beams met
-// more than they crossed, in each direction that the obstacles face.
+// most of them free at poses that are right: of the obstacles that were known before, beams met more than
+// they crossed, in each direction that the obstacles face.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -88,32 +89,33 @@ class MovingThings {
     std::int32_t y = 0;
     float normal_x = 0;  ///< unit vector across a straight obstacle; 0 if the obstacle is not straight
     float normal_y = 0;
-    std::uint32_t hit_in = 0;         ///< last interval with a beam that ended in the cell
-    std::uint32_t surface_in = 0;     ///< last interval in which that beam was one of a large surface
-    std::uint32_t passed_in = 0;      ///< last interval with a beam that crossed the cell
-    float beams = 0;                  ///< weight of the beams that crossed the cell in that interval
-    std::uint32_t seen_in = 0;        ///< last interval that saw the cell
-    std::uint32_t first_hit = 0;      ///< first interval that saw the cell occupied; 0 if none did
-    std::uint32_t last_hit = 0;       ///< last interval that saw the cell occupied
-    std::uint32_t first_end = 0;      ///< first interval with a beam that ended in the cell itself; 0 if none
-    std::uint32_t last_end = 0;       ///< last such interval
-    std::uint16_t hits = 0;           ///< number of intervals that saw the cell occupied
-    std::uint16_t surface = 0;        ///< number of these in which a large surface was hit
-    std::uint16_t visits = 0;         ///< number of visits that saw the cell occupied
-    std::uint16_t returns = 0;        ///< number of times that it was seen occupied again after free
-    float free = 0;                   ///< weight of the intervals that saw the cell free, without short gaps
-    float free_of_visit = 0;          ///< part of it since the start of the visit or the last hit
-    float free_since_hit = 0;         ///< part of it since the last hit
-    float crossed_before = 0;         ///< weight of the intervals that crossed the cell before first_end
-    float crossed_after = 0;          ///< and after last_end
-    float agreed_since_hit = 0;       ///< part of free_since_hit of intervals that saw the obstacles around
-    PathMark occupied_since;          ///< first sighting of the state in which it was last seen occupied
-    double hit_m = 0;                 ///< path of the robot up to the last sighting
-    PathMark free_since;              ///< first interval that saw it free since the last hit
-    std::uint16_t visits_before = 0;  ///< visits up to occupied_since
-    bool stays = false;               ///< whether two passes saw it occupied since occupied_since
-    bool is_gone = false;             ///< whether two passes saw it free since the last hit
-    bool is_new = false;              ///< whether all scans together do not show it occupied
+    std::uint32_t hit_in = 0;      ///< last interval with a beam that ended in the cell
+    std::uint32_t surface_in = 0;  ///< last interval in which that beam was one of a large surface
+    std::uint32_t passed_in = 0;   ///< last interval with a beam that crossed the cell
+    float beams = 0;               ///< weight of the beams that crossed the cell in that interval
+    std::uint32_t seen_in = 0;     ///< last interval that saw the cell
+    std::uint32_t first_hit = 0;   ///< first interval that saw the cell occupied; 0 if none did
+    std::uint32_t last_hit = 0;    ///< last interval that saw the cell occupied
+    std::uint32_t first_end = 0;   ///< first interval with a beam that ended in the cell itself; 0 if none
+    std::uint32_t last_end = 0;    ///< last such interval
+    std::uint16_t hits = 0;        ///< number of intervals that saw the cell occupied
+    std::uint16_t surface = 0;     ///< number of these in which a large surface was hit
+    std::uint16_t visits = 0;      ///< number of visits that saw the cell occupied
+    std::uint16_t returns = 0;     ///< number of times that it was seen occupied again after free
+    float free = 0;                ///< weight of the intervals that saw the cell free, without short gaps
+    float free_of_visit = 0;       ///< part of it since the start of the visit or the last hit
+    float free_since_hit = 0;      ///< part of it since the last hit
+    float crossed_before = 0;      ///< weight of the intervals that crossed the cell before first_end
+    float crossed_after = 0;       ///< and after last_end
+    /// Weight since free_since of the intervals that saw it free at poses that agree with obstacles around.
+    float free_of_pass = 0;
+    PathMark occupied_since;           ///< first sighting of the state in which it was last seen occupied
+    double hit_m = 0;                  ///< path of the robot up to the last sighting
+    PathMark free_since;               ///< start of the last pass that saw it free, in such intervals
+    std::uint16_t free_passes = 0;     ///< passes since the last hit whose free_of_pass reached 1
+    std::uint16_t returned_after = 0;  ///< largest such number before a hit
+    bool stays = false;                ///< whether two passes saw it occupied since occupied_since
+    bool is_new = false;               ///< whether all scans together do not show it occupied
     mrpt::maps::COccupancyGridMap2D::cellType of_all_scans = 0;  ///< their value, if is_new
   };
 

@@ -14,13 +14,13 @@ namespace {
 constexpr double kLeastFree = 1;       // weight that refutes a cell of a single visit
 constexpr double kFreePerVisit = 0.7;  // and for each further visit
 constexpr double kFreePerReturn = 1;
-constexpr double kFreeOfPasses = 2 * kLeastFree;  // after the last hit, in two passes
-constexpr double kFreeOfSurface = 3;              // share by which these grow for a cell of a large surface
-constexpr double kPatch_m = 0.25;                 // reach of the cells that are judged together
-constexpr double kMostRefuted = 1.5;              // by which one cell counts in its patch
-constexpr double kLeastOfPatch = 0.4;             // mean refutation around a cell that is refuted itself
-constexpr double kRim_m = 0.15;                   // reach of the cells that vanish with a thing
-constexpr double kLeastOfRim = 0.3;               // refutation of a cell that vanishes with a thing
+constexpr double kFreePasses = 2;       // after the last hit
+constexpr double kFreeOfSurface = 3;    // share by which these grow for a cell of a large surface
+constexpr double kPatch_m = 0.25;       // reach of the cells that are judged together
+constexpr double kMostRefuted = 1.5;    // by which one cell counts in its patch
+constexpr double kLeastOfPatch = 0.4;   // mean refutation around a cell that is refuted itself
+constexpr double kRim_m = 0.15;         // reach of the cells that vanish with a thing
+constexpr double kLeastOfRim = 0.3;     // refutation of a cell that vanishes with a thing
 constexpr float kLeastCrossed = 1;      // or weight of the beams that crossed it without an end in it
 constexpr std::uint32_t kRimSlack = 3;  // intervals by which it may have been seen longer
 constexpr double kShareOfThing = 0.35;  // or share of the obstacles around that vanish and were hit as long
@@ -41,11 +41,10 @@ double MovingThings::refuted(const Sightings& cell, float free) {
   return std::min(kMostRefuted, static_cast<double>(free) / (needed * (1 + kFreeOfSurface * surface)));
 }
 
-/// Returns by how much what two passes saw after the last hit shows that a cell is free, at most
-/// kMostRefuted.
+/// Returns by how much the passes that saw a cell free after the last hit show that it is free, at most
+/// kMostRefuted. They must be more than those after which it was seen occupied again: glass and thin things.
 double MovingThings::gone(const Sightings& cell) {
-  return cell.is_gone ? std::min(kMostRefuted, static_cast<double>(cell.agreed_since_hit) / kFreeOfPasses)
-                      : 0;
+  return std::min(kMostRefuted, cell.free_passes / std::max(kFreePasses, cell.returned_after + 1.0));
 }
 
 /// Judges a cell together with the obstacles around it that were seen occupied from before its first hit
@@ -202,8 +201,10 @@ void MovingThings::update(mrpt::maps::COccupancyGridMap2D& grid) {
       value = cell_value(kPassEvidence);
     else if (fates[i] == Fate::kDoubtful)
       value = cell_value(0);
-    else if (cells_[i].is_new && fates[i] == Fate::kStays)
+    else if (cells_[i].is_new && cells_[i].hits == 0)
       value = cells_[i].of_all_scans;
+    else if (cells_[i].is_new && fates[i] == Fate::kStays && !cells_[i].stays)
+      value = cell_value(0);
   }
 }
 

@@ -14,7 +14,7 @@ namespace psi_slam {
 namespace {
 
 /// Shares of the points of some walls, 0.2 m and more from their ends, that the map draws as occupied within
-/// 0.1 m, and as free without any occupied or unknown cell within 0.1 m.
+/// 0.1 m, and as free within 0.05 m without any occupied cell within 0.1 m.
 struct Drawn {
   double occupied = 0;
   double free = 0;
@@ -30,15 +30,16 @@ Drawn drawn(const mrpt::maps::COccupancyGridMap2D& map, const RoomWalls& walls) 
       const mrpt::math::TPoint2D at = wall.a + way * (s / length_m);
       bool is_occupied = false;
       bool is_free = true;
-      for (double x = at.x - 0.1; x < at.x + 0.11; x += 0.05)
-        for (double y = at.y - 0.1; y < at.y + 0.11; y += 0.05) {
-          const float free = map.getPos(static_cast<float>(x), static_cast<float>(y));
+      for (int x = -2; x <= 2; ++x)
+        for (int y = -2; y <= 2; ++y) {
+          const float free =
+              map.getPos(static_cast<float>(at.x + 0.05 * x), static_cast<float>(at.y + 0.05 * y));
           is_occupied = is_occupied || free < 0.45F;
-          is_free = is_free && free > 0.55F;
+          is_free = is_free && (free > 0.55F || std::max(std::abs(x), std::abs(y)) == 2);
         }
       ++points;
       shares.occupied += is_occupied ? 1 : 0;
-      shares.free += is_free ? 1 : 0;
+      shares.free += is_free && !is_occupied ? 1 : 0;
     }
   }
   shares.occupied /= points;
@@ -104,6 +105,41 @@ TEST(ChangesOfARoom, a_thing_that_one_pass_saw_last_is_not_free) {
   for (int i = 0; i < 3; ++i) room.drive_round({});
   for (double x = 1.7; x < 6; x += 0.2) room.record({x, 1.5, 0}, kPallet);
   EXPECT_EQ(drawn(*draw_grid_map(room.log, room.poses), {kPallet[0]}).free, 0);
+}
+
+TEST(ChangesOfARoom, a_pallet_whose_place_was_seen_free_only_from_afar_is_not_free) {
+  const RoomWalls hall{{{0, 0}, {30, 0}}, {{30, 0}, {30, 6}}, {{30, 6}, {0, 6}}, {{0, 6}, {0, 0}}};
+  const RoomWalls pallet = box_at(25, 2.6, 0.7, 0.6);
+  ChangingRoom room(720, hall);
+  const auto drive = [&](double first_x, double last_x, const RoomWalls& things) {
+    for (double x = first_x; x < last_x; x += 0.2) room.record({x, 2.2, 0}, things);
+    for (double x = last_x; x > first_x; x -= 0.2) room.record({x, 3.8, M_PI}, things);
+  };
+  for (int i = 0; i < 8; ++i) drive(2, 10, {});
+  drive(17, 23, pallet);
+  const RoomWalls front{pallet[3]};
+  EXPECT_EQ(drawn(*draw_grid_map(room.log, room.poses), front).free, 0);
+  for (int i = 0; i < 4; ++i) drive(17, 23, pallet);
+  EXPECT_GE(drawn(*draw_grid_map(room.log, room.poses), front).occupied, 0.95);
+}
+
+TEST(ChangesOfARoom, a_pane_that_not_all_passes_see_stays) {
+  ChangingRoom room;
+  for (const int seen : {4, 2}) {
+    for (int pass = 0; pass < seen; ++pass) room.drive_round(kWall);
+    for (int pass = 0; pass < 2; ++pass) room.drive_round({});
+  }
+  EXPECT_GE(drawn(*draw_grid_map(room.log, room.poses), kWall).occupied, 0.95);
+}
+
+TEST(ChangesOfARoom, passes_at_wrong_poses_remove_no_wall) {
+  ChangingRoom room;
+  for (int i = 0; i < 3; ++i) room.drive_round(kWall);
+  const std::size_t change = room.log.size();
+  for (int i = 0; i < 2; ++i) room.drive_round({});
+  EXPECT_LE(drawn(*draw_grid_map(room.log, room.poses), kWall).occupied, 0.05);
+  for (std::size_t i = change; i < change * 3 / 2; ++i) room.poses[i].y += 0.5;
+  EXPECT_GE(drawn(*draw_grid_map(room.log, room.poses), kWall).occupied, 0.95);
 }
 
 TEST(ChangesOfARoom, a_person_who_stood_there_for_two_rounds_vanishes_afterwards) {

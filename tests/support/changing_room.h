@@ -52,8 +52,8 @@ inline const RoomWalls kPallet = box_at(2.6, 4.6, 0.7, 0.6);
 
 class ChangingRoom {
  public:
-  explicit ChangingRoom(std::size_t beams = 240)
-      : bearings_(even_bearings(-M_PI, M_PI - 2 * M_PI / double(beams), int(beams))) {}
+  explicit ChangingRoom(std::size_t beams = 240, const RoomWalls& walls = bare_room())
+      : bearings_(even_bearings(-M_PI, M_PI - 2 * M_PI / double(beams), int(beams))), walls_(walls) {}
 
   /// Drives once around the room, with a scan every 0.2 m.
   void drive_round(const RoomWalls& things) {
@@ -69,7 +69,7 @@ class ChangingRoom {
   }
 
   void record(const mrpt::math::TPose2D& pose, const RoomWalls& things) {
-    const RoomWalls walls = bare_room() + things;
+    const RoomWalls walls = walls_ + things;
     Frame frame;
     frame.index = log.size();
     frame.time_us = 1'000'000'000 + 300'000 * static_cast<TimeUs>(log.size());
@@ -106,6 +106,7 @@ class ChangingRoom {
   }
 
   BeamBearings bearings_;
+  RoomWalls walls_;
   std::mt19937 random_{1};
   std::normal_distribution<double> noise_{0, 0.01};
 };

@@ -26,7 +26,7 @@ double held_share(const std::vector<MapView>& views, const std::vector<PassCheck
     of_pair.last = std::max(of_pair.last, view);
   };
   for (const PassCheck& check : checks) {
-    if (check.same_pass || check.error_m >= spot_error_m) continue;
+    if (check.same_pass || check.scene_changed || check.error_m >= spot_error_m) continue;
     if (views[check.view].run == views[check.other].run) {
       hold(std::min(check.view, check.other), std::max(check.view, check.other));
     } else {

@@ -153,6 +153,7 @@ std::optional<double> EditTrial::error_m(const PassCheck& check, const std::vect
   if (is_same_place(apart(moved), apart(views_), kUnmoved)) return check.error_m;
   const std::optional<PassCheck> again =
       compare_views(moved, check.view, check.other, check.same_pass, options_);
+  if (again && again->scene_changed && check.scene_changed) return check.error_m;
   return again ? std::optional(again->error_m) : std::nullopt;
 }
 

@@ -152,6 +152,7 @@ class Judge {
   void sum_blame() {
     std::vector<double> change(views_.size() + 1, 0);
     for (const PassCheck& check : checks_) {
+      if (check.scene_changed) continue;
       const auto [first, last] = std::minmax(check.view, check.other);
       const double blame = std::clamp(check.error_m - options_.spot_error_m / 2, -options_.spot_error_m,
                                       options_.passes.unknown_m);
@@ -304,7 +305,7 @@ class Judge {
   /// Finds up to where checks that fit reach, for is_confirmed().
   void find_fitting_reach() {
     for (const PassCheck& check : checks_) {
-      if (check.error_m >= options_.spot_error_m) continue;
+      if (check.scene_changed || check.error_m >= options_.spot_error_m) continue;
       const auto [first, last] = std::minmax(views_[check.view].frame, views_[check.other].frame);
       fitting_reach_.emplace_back(first, last);
     }

@@ -83,6 +83,25 @@ std::vector<std::size_t> views_of_other_passes(std::size_t view, const std::vect
   return chosen;
 }
 
+/// Whether other views of both passes of a check fit at the poses of the map: then one of the passes is not
+/// at a place that merely looks like the place of the other.
+bool passes_fit(std::size_t of_check, const std::vector<MapView>& views, const std::vector<PassCheck>& checks,
+                const PassCheckOptions& options) {
+  const PassCheck& check = checks[of_check];
+  const auto is_near = [&](std::size_t a, std::size_t b) {
+    return !are_different_passes(views[a], views[b], options.pass_apart_m);
+  };
+  const auto fits = [&](const PassCheck& one) {
+    return one.same_pass == check.same_pass && one.fits_if_moved && one.error_m <= options.scans.margin_m &&
+           is_near(one.other, check.other);
+  };
+  for (std::size_t i = of_check; i-- > 0 && is_near(checks[i].view, check.view);)
+    if (fits(checks[i])) return true;
+  for (std::size_t i = of_check + 1; i < checks.size() && is_near(checks[i].view, check.view); ++i)
+    if (fits(checks[i])) return true;
+  return false;
+}
+
 }  // namespace
 
 bool fits_after_alignment(const ScanComparison& scans, const PassCheckOptions& options) {
@@ -101,7 +120,6 @@ std::optional<PassCheck> compare_views(const std::vector<MapView>& views, std::s
   check.fits_if_moved = fits_after_alignment(check.scans, options);
   check.scene_changed = check.error_m > 0 && !check.fits_if_moved && check.scans.is_held &&
                         moved_m(check.scans, options) <= options.scans.margin_m;
-  if (check.scene_changed) check.error_m = 0;
   return check;
 }
 
@@ -120,13 +138,22 @@ std::vector<PassCheck> check_passes(const std::vector<MapView>& views, const Pas
     if (view >= options.views_back && views[view - options.views_back].run == views[view].run)
       compare(view, view - options.views_back, true);
   }
+  std::vector<std::size_t> changed;
+  for (std::size_t i = 0; i < checks.size(); ++i)
+    if (checks[i].scene_changed && passes_fit(i, views, checks, options)) changed.push_back(i);
+  for (PassCheck& check : checks) check.scene_changed = false;
+  for (const std::size_t i : changed) {
+    checks[i].scene_changed = true;
+    checks[i].error_m = 0;
+  }
   return checks;
 }
 
 std::vector<std::optional<double>> errors_of_views(std::size_t views, const std::vector<PassCheck>& checks) {
   std::vector<std::optional<double>> errors(views);
   for (const PassCheck& check : checks)
-    if (!check.same_pass) errors[check.view] = std::max(errors[check.view].value_or(0), check.error_m);
+    if (!check.same_pass && !check.scene_changed)
+      errors[check.view] = std::max(errors[check.view].value_or(0), check.error_m);
   return errors;
 }
 

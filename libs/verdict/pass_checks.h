@@ -34,7 +34,9 @@ struct PassCheck {
   /// different scenes: the displacement is too large, or the scene changed.
   bool fits_if_moved = false;
   /// Whether the scene changed between both views rather than the pose: no motion makes the scans fit, and in
-  /// every direction most points confirm the poses of the map. Then error_m is 0.
+  /// every direction most points confirm the poses of the map. check_passes() also requires that other views
+  /// of both passes fit within pass_apart_m of path, and sets error_m to 0. Such a check says nothing about
+  /// the poses.
   bool scene_changed = false;
 };
 
@@ -50,7 +52,7 @@ std::optional<PassCheck> compare_views(const std::vector<MapView>& views, std::s
 std::vector<PassCheck> check_passes(const std::vector<MapView>& views, const PassCheckOptions& options = {});
 
 /// Returns for each view the largest error of its checks with other passes; empty for a view that no other
-/// pass overlaps.
+/// pass overlaps in the same scene.
 std::vector<std::optional<double>> errors_of_views(std::size_t views, const std::vector<PassCheck>& checks);
 
 }  // namespace psi_slam

@@ -57,7 +57,7 @@ std::string text_of(const std::vector<SceneChange>& changes) {
               minutes_text(std::ceil(change.after_s));
   }
   if (changes.size() > kMostNamed) text += " and at " + counted(changes.size() - kMostNamed, "further place");
-  return text + "; the map shows the newest state";
+  return text;
 }
 
 }  // namespace psi_slam

@@ -80,5 +80,22 @@ TEST_F(SceneChanges, do_not_excuse_poses_that_are_wrong) {
   }
 }
 
+TEST_F(SceneChanges, are_not_found_between_two_rooms_that_look_alike) {
+  // Boxes along the walls of two rooms of one size. A false loop has put one room onto the other.
+  const auto boxes = [](double off_m) {
+    RoomWalls all;
+    for (double x = 1.4 + off_m; x < 8.5; x += 1.6)
+      all = all + box_at(x, 0.1, 0.6, 0.6) + box_at(x, 6.3, 0.6, 0.6);
+    for (double y = 1.4 + off_m; y < 5.2; y += 1.6)
+      all = all + box_at(0.1, y, 0.6, 0.6) + box_at(9.3, y, 0.6, 0.6);
+    return all;
+  };
+  drive(2, boxes(0));
+  drive(2, boxes(0.8));
+  const MapVerdict verdict = judge_map(map_of(room_));
+  EXPECT_NE(verdict.state, MapState::kGood) << verdict_sentence(verdict);
+  EXPECT_TRUE(verdict.changes.empty());
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -22,8 +22,9 @@ namespace psi_slam {
 /// and the heading of a gyroscope. Frames without odometry stay unchanged.
 class CorrectedOdometrySource : public FrameSource {
  public:
-  /// Largest number of frames that wait for later odometry.
-  static constexpr std::size_t kMaxWaiting = 1000;
+  /// Maximum number of frames that wait for later odometry: those of the largest delay at 100 Hz. Frames
+  /// whose clock stands still would otherwise wait for the end of the log.
+  static constexpr std::size_t kMaxWaiting = 60'000;
 
   /// Returns the delay of a laser, seconds, by its number (LaserScan::laser). Called after the first scan of
   /// the laser was read.

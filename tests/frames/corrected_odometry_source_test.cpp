@@ -95,6 +95,19 @@ TEST(CorrectedOdometrySource, gives_each_scan_the_odometry_of_its_measurement) {
   }
 }
 
+TEST(CorrectedOdometrySource, waits_for_odometry_of_a_clock_that_is_minutes_ahead) {
+  std::vector<Frame> frames;  // at 40 Hz
+  for (int i = 0; i < 20'000; ++i) frames.push_back(frame_at(25'000 * i, {0.01 * i, 0, 0}));
+  for (const double delay_s : {-60.0, -300.0, 60.0}) {
+    const std::vector<Frame> result = corrected(numbered(frames), 1, delay_s);
+    ASSERT_EQ(result.size(), frames.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const double expected = std::clamp(0.01 * static_cast<double>(i) - 0.4 * delay_s, 0.0, 199.99);
+      ASSERT_NEAR(result[i].odom_T_robot.x, expected, 1e-9) << delay_s << " s, frame " << i;
+    }
+  }
+}
+
 TEST(CorrectedOdometrySource, gives_each_laser_its_own_delay) {
   const std::vector<Frame> frames = random_run(3);
   const auto delay_s = [](std::size_t laser) { return laser == 0 ? 0.4 : -0.15; };

@@ -13,7 +13,9 @@
 #include "doctor/laser_faults.h"
 #include "doctor/odometry_calibration.h"
 #include "frames/laser_choice.h"
+#include "frames/log_reader.h"
 #include "frames/pose_operations.h"
+#include "psi_slam/open_log.h"
 
 namespace psi_slam {
 namespace {
@@ -39,6 +41,10 @@ const char* const kLaserX = "log.laser_x_m";
 const char* const kLaserY = "log.laser_y_m";
 const char* const kLaserYaw = "log.laser_yaw_deg";
 const char* const kFieldOfView = "log.field_of_view_deg";
+
+bool is_of_mount(const CalibratedOption& estimate) {
+  return estimate.option == kLaserX || estimate.option == kLaserY || estimate.option == kLaserYaw;
+}
 
 const char* const kUndetermined = "not used, because the log does not determine it well enough";
 
@@ -133,6 +139,16 @@ class Calibrator {
   LogCalibration made_;
 };
 
+/// Names the laser of an estimated mount, so that the mount selects it. Of a log with several lasers, readers
+/// select differently if a mount is stated.
+void name_laser(LogCalibration& made, const std::filesystem::path& log, const LogOptions& options) {
+  if (std::none_of(made.estimates.begin(), made.estimates.end(), is_of_mount)) return;
+  const auto lasers = open_log_reader(log, options)->contents().laser_names;
+  if (lasers.empty() || lasers.front().empty() || !can_be_listed(lasers.front().front())) return;
+  for (CalibratedOption& estimate : made.estimates)
+    if (is_of_mount(estimate)) estimate.laser = lasers.front().front();
+}
+
 }  // namespace
 
 LogCalibration use_calibration(const OdometryCalibration& calibration, const LogOptions& options) {
@@ -168,9 +184,11 @@ LogCalibration use_laser_faults(const LaserFaults& faults) {
 LogCalibration calibrate_log(const std::filesystem::path& log, const LogOptions& options,
                              const ShareObserver& progress) {
   LogCalibration made = use_laser_faults(find_laser_faults(log, options));
+  name_laser(made, log, options);
   if (!options.calibrate) return made;
   const LogOptions corrected = calibrated_options(options, made);
   LogCalibration calibration = use_calibration(calibrate_odometry(log, corrected, progress), corrected);
+  name_laser(calibration, log, corrected);
   calibration.estimates.insert(calibration.estimates.begin(), made.estimates.begin(), made.estimates.end());
   calibration.sentences.insert(calibration.sentences.begin(), made.sentences.begin(), made.sentences.end());
   return calibration;
@@ -182,6 +200,7 @@ LogOptions calibrated_options(LogOptions options, const LogCalibration& calibrat
   for (const CalibratedOption& estimate : calibration.estimates) {
     if (!estimate.is_used || (!estimate.is_fault && !options.calibrate)) continue;
     if (estimate.option == kDelay) delays.push_back({estimate.laser, estimate.value});
+    if (is_of_mount(estimate) && options.laser.empty()) options.laser = estimate.laser;
     used[estimate.option] = estimate.value;
   }
   if (const auto scale = used.find(kScale); scale != used.end()) options.odometry_scale = scale->second;
@@ -195,7 +214,7 @@ LogOptions calibrated_options(LogOptions options, const LogCalibration& calibrat
 bool unuse_mount(LogCalibration& calibration) {
   bool was_used = false;
   for (CalibratedOption& estimate : calibration.estimates) {
-    if (estimate.option != kLaserX && estimate.option != kLaserY && estimate.option != kLaserYaw) continue;
+    if (!is_of_mount(estimate)) continue;
     was_used = was_used || estimate.is_used;
     estimate.is_used = false;
   }

@@ -38,7 +38,7 @@ LogCalibration calibrate_log(const std::filesystem::path& log, const LogOptions&
                              const ShareObserver& progress = {});
 
 /// Returns the options with those estimates that are used; without options.calibrate, with those only that
-/// replace wrong statements.
+/// replace wrong statements. An estimated mount selects the laser that it is for, unless log.laser does.
 LogOptions calibrated_options(LogOptions options, const LogCalibration& calibration);
 
 /// Marks the estimated mount as not used. Returns whether it was used.

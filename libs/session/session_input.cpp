@@ -204,7 +204,7 @@ SessionInput SessionInput::with_edits(EditJournal edits) const {
 void SessionInput::calibrate(const LogOptions& options, const ShareObserver& progress) {
   RecordedLog& last = logs_.back();
   if (log_.empty()) return;
-  if (keeps_calibration_ && options.calibrate) check_kept_calibration(options);
+  if (keeps_calibration_) check_kept_calibration(options);
   // The rest of a recorded log is read as its beginning was.
   if (last.calibration || ((is_examined_ || same_log_) && !options.calibrate)) return;
   is_examined_ = true;
@@ -217,7 +217,7 @@ void SessionInput::calibrate(const LogOptions& options, const ShareObserver& pro
 void SessionInput::check_kept_calibration(const LogOptions& options) {
   LogCalibration& calibration = *logs_.back().calibration;
   if (combines_lasers(log_, options) && unuse_mount(calibration))
-    calibration.sentences.push_back("log.calibrate leaves the poses of several lasers unchanged");
+    calibration.sentences.push_back("the poses of several lasers are left unchanged");
   try {
     open_log_reader(log_, calibrated_options(options, calibration));
   } catch (const UserError& error) {

@@ -88,15 +88,15 @@ void write_golden_map(const std::filesystem::path& yaml_path, const Grid& map) {
   write_file(yaml_path, yaml);
 }
 
-struct Recording {
+struct GoldenBag {
   std::string name;
   double path_m;  ///< length of the path when the golden map was made
-  friend void PrintTo(const Recording& recording, std::ostream* out) { *out << recording.name; }
+  friend void PrintTo(const GoldenBag& recording, std::ostream* out) { *out << recording.name; }
 };
 
 // In jan17_expt04, somebody carries the robot 6 m back to its start while odometry stands still. The path is
 // therefore longer than that of the odometry, 16 m.
-class GoldenMaps : public testing::TestWithParam<Recording> {};
+class GoldenMaps : public testing::TestWithParam<GoldenBag> {};
 
 TEST_P(GoldenMaps, a_recording_gives_its_golden_map) {
   const auto bag = shared_file("bags/" + GetParam().name + ".bag");
@@ -116,10 +116,10 @@ TEST_P(GoldenMaps, a_recording_gives_its_golden_map) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Real, GoldenMaps,
-                         testing::Values(Recording{"ccny_urg_demo", 4.3},
-                                         Recording{"guardian_controller_2", 21.4},
-                                         Recording{"jan17_expt04", 24.2}, Recording{"jan17_expt10", 16.9},
-                                         Recording{"jarvis_circular_path_fast", 11.2}),
+                         testing::Values(GoldenBag{"ccny_urg_demo", 4.3},
+                                         GoldenBag{"guardian_controller_2", 21.4},
+                                         GoldenBag{"jan17_expt04", 24.2}, GoldenBag{"jan17_expt10", 16.9},
+                                         GoldenBag{"jarvis_circular_path_fast", 11.2}),
                          [](const auto& recording) { return recording.param.name; });
 
 TEST(GoldenMapsComparison, tells_a_double_wall_from_a_single_one) {

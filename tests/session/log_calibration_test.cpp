@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bag_files.h"
 #include "doctor/odometry_calibration.h"
 #include "frames/laser_choice.h"
 #include "psi_slam/mapping_session.h"
@@ -132,6 +133,45 @@ TEST(LogCalibration, uses_a_delay_for_each_laser) {
       "log.calibrate estimates the delay of scans of /rear: 0.001 s (standard deviation 0.005 s), not used, "
       "because it hardly differs from 0");
   EXPECT_EQ(made.sentences[4], "log.calibrate finds no turns that show a delay of scans of /right below 1 s");
+}
+
+/// Recording of a robot whose laser is mounted backwards, but not by the transforms. The scans are on `topic`
+/// and on `topic_of_copies`, which comes first.
+Recording recording_backwards(const std::string& topic, const std::string& topic_of_copies) {
+  SimulatedRun run = round_trips(2);
+  run.robot_T_laser = {0.1, 0, M_PI};
+  Recording recording{static_mount("laser", {0.1, 0, 0, 0, 0, 0})};
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    const TimeUs time_us = 1'600'000'000'000'000 + 200'000 * static_cast<TimeUs>(i);
+    const TPose2D& pose = run.odometry[i];
+    recording.emplace_back(
+        RecordedPose{"/robot1/odom", time_us, "odom", "base_link", {pose.x, pose.y, 0, pose.phi, 0, 0}});
+    RecordedScan scan;
+    scan.topic = topic_of_copies;
+    scan.time_us = time_us;
+    scan.angle_min_rad = run.bearings_rad.front();
+    scan.angle_increment_rad = run.bearings_rad[1] - run.bearings_rad[0];
+    scan.ranges_m = run.ranges_m(i);
+    recording.emplace_back(scan);
+    scan.topic = topic;
+    recording.emplace_back(scan);
+  }
+  return recording;
+}
+
+TEST(LogCalibration, of_a_mount_selects_the_laser_that_it_is_for) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "bag";
+  for (const char* copies : {"/robot1/stable_scan", "/robot2/scan"}) {
+    write_mcap(path, recording_backwards("/robot1/scan", copies));
+    const LogCalibration made = calibrate_log(path, {});
+    const LogOptions calibrated = calibrated_options({}, made);
+    ASSERT_TRUE(calibrated.robot_T_laser) << copies;
+    const auto log = open_log(path, calibrated);
+    const auto frame = log->next();
+    ASSERT_TRUE(frame && frame->has_odometry) << copies;
+    EXPECT_NEAR(std::abs(frame->scan.robot_T_laser.phi), M_PI, 0.02) << copies;
+  }
 }
 
 /// Log of a front and a rear laser whose scans are stamped late by different times.

@@ -469,15 +469,21 @@ TEST_F(CalibratedSession, keeps_no_estimates_that_do_not_suit_the_lasers_of_the_
   const std::vector<CalibratedOption> mount{{"", "", "log.laser_x_m", 0.2, 0.001, true},
                                             {"", "", "log.laser_y_m", 0, 0.001, true},
                                             {"", "", "log.laser_yaw_deg", 0, 0.1, true}};
-  for (const char* lasers : {"", "all"}) {
-    const bool all = lasers == std::string("all");
-    settings_.log.laser = lasers;
-    SessionInput input = input_after(mount);
-    for (int twice = 0; twice < 2; ++twice) input.calibrate(log_options(settings_));
-    const LogCalibration& kept = *input.logs().back().calibration;
-    EXPECT_EQ(kept.estimates.front().is_used, !all);
-    EXPECT_EQ(kept.sentences.size(), all ? 2U : 1U);
+  for (const bool calibrates : {true, false}) {  // wrong statements are replaced without log.calibrate, too
+    std::vector<CalibratedOption> known = mount;
+    for (CalibratedOption& estimate : known) estimate.is_fault = !calibrates;
+    settings_.log.calibrate = calibrates;
+    for (const char* lasers : {"", "all"}) {
+      const bool all = lasers == std::string("all");
+      settings_.log.laser = lasers;
+      SessionInput input = input_after(known);
+      for (int twice = 0; twice < 2; ++twice) input.calibrate(log_options(settings_));
+      const LogCalibration& kept = *input.logs().back().calibration;
+      EXPECT_EQ(kept.estimates.front().is_used, !all);
+      EXPECT_EQ(kept.sentences.size(), all ? 2U : 1U);
+    }
   }
+  settings_.log.calibrate = true;
   settings_.log.laser.clear();
   SessionInput input = input_after({{"", "LEFT", "log.scan_delay_s", 0.2, 0.001, true}});
   EXPECT_THAT(

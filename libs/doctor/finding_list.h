@@ -43,7 +43,4 @@ class FindingList {
   std::vector<Finding> findings_;
 };
 
-/// Judges odometry by the scans: units, signs, clocks, jumps, delay, mount and beam angles. Part of judge().
-std::vector<Finding> judge_odometry(const LogDiagnosis& diagnosis);
-
 }  // namespace psi_slam

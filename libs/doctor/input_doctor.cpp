@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/input_doctor.h"
-#include "doctor/turned_laser.h"
 
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "doctor/turned_laser.h"
 #include "frames/laser_choice.h"
 #include "frames/log_format.h"
 #include "frames/log_reader.h"
@@ -188,6 +188,7 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
   FirstPass pass = read_once(path, diagnosis.options,
                              diagnosis.options.max_range_m.value_or(diagnosis.max_range.max_range_m));
   diagnosis.facts = pass.facts;
+  diagnosis.headings_are_quaternions = is_bag(detect_log_format(path));
   if (pass.facts.ranges.empty_scans == pass.facts.scans)
     diagnosis.scans_without_returns = count_scans_without_returns(path, options);
   diagnosis.facts.contents.several_lasers = log.are_combined;

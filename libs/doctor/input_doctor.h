@@ -48,6 +48,7 @@ struct LogDiagnosis {
   BeamAngles used_beam_angles = BeamAngles::kAuto;  ///< kAuto if the log states its angles
   std::vector<BodySector> own_body;                 ///< beams that see the robot itself
   OdometryAgreement odometry;
+  bool headings_are_quaternions = false;  ///< of odometry, which then cannot be degrees
   bool odometry_is_sound = false;  ///< units and signs are right; if not, the members up to beam_angles are
                                    ///< not set
   FieldOfViewStudy field_of_view;  ///< set only if odometry is not sound

@@ -8,6 +8,7 @@
 
 #include "doctor/clock_jumps.h"
 #include "doctor/finding_list.h"
+#include "doctor/odometry_findings.h"
 
 namespace psi_slam {
 namespace {

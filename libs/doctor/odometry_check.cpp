@@ -220,6 +220,10 @@ void compare_turns(const std::vector<Track>& tracks, OdometryAgreement& agreemen
 
 }  // namespace
 
+bool follows_its_heading(const OdometryAgreement& odometry) {
+  return odometry.odometry_slip_rad < DEG2RAD(20.0);
+}
+
 bool is_sound(const OdometryAgreement& odometry) {
   const bool length_is_right =
       odometry.length_ratio == 0 || (odometry.length_ratio > 0.6 && odometry.length_ratio < 1.6);

@@ -49,6 +49,9 @@ struct OdometryAgreement {
   std::optional<ScanDelay> clock_offset{};
 };
 
+/// Returns whether odometry moves along its own headings, forwards or backwards, as wheels do.
+bool follows_its_heading(const OdometryAgreement& odometry);
+
 /// Returns whether units and signs of odometry are right, as far as the scans tell.
 bool is_sound(const OdometryAgreement& odometry);
 

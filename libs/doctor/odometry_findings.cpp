@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/odometry_findings.h"
+
 #include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
@@ -71,8 +73,9 @@ class OdometryJudge : public FindingList {
       judge_field_of_view(diagnosis_.field_of_view);
       return;
     }
-    judge_length(odometry);
-    judge_heading(odometry);
+    const HeadingRelation heading = heading_relation(odometry);
+    judge_length(odometry, heading);
+    judge_heading(odometry, heading);
     if (odometry.length_samples == 0 || odometry.heading == HeadingRelation::kUnknown) {
       note("odometry_unchecked",
            "odometry could not be checked: too few scans could be aligned, or they fit several places, "
@@ -113,7 +116,13 @@ class OdometryJudge : public FindingList {
     return remedy + (remedy.empty() ? "" : ", or ") + "log.scan_delay_s = " + of_laser + fixed(delay_s, 3);
   }
 
-  void judge_length(const OdometryAgreement& odometry) {
+  HeadingRelation heading_relation(const OdometryAgreement& odometry) const {
+    const bool is_degrees = odometry.heading == HeadingRelation::kDegrees ||
+                            odometry.heading == HeadingRelation::kOppositeDegrees;
+    return is_degrees && diagnosis_.headings_are_quaternions ? HeadingRelation::kUnrelated : odometry.heading;
+  }
+
+  void judge_length(const OdometryAgreement& odometry, HeadingRelation heading) {
     constexpr std::array<std::pair<double, const char*>, 6> kUnits{{{1000, "millimetres"},
                                                                     {100, "centimetres"},
                                                                     {39.37, "inches"},
@@ -124,7 +133,7 @@ class OdometryJudge : public FindingList {
     if (ratio == 0 || (ratio > 0.6 && ratio < 1.6)) return;
     // Lengths of other times or of another robot have no common ratio.
     const bool is_unit = odometry.length_share >= 0.5;
-    if (!is_unit && odometry.heading == HeadingRelation::kUnrelated) return;
+    if (!is_unit && heading == HeadingRelation::kUnrelated) return;
     for (const auto& [per_metre, name] : kUnits) {
       if (!is_unit || std::abs(portable::log(ratio / per_metre)) > portable::log(1.3)) continue;
       warn("odometry_unit",
@@ -138,14 +147,10 @@ class OdometryJudge : public FindingList {
          "check that odometry and ranges are in metres");
   }
 
-  void judge_heading(const OdometryAgreement& odometry) {
-    const bool follows_its_heading = odometry.odometry_slip_rad < DEG2RAD(20.0);
-    const bool is_degrees = odometry.heading == HeadingRelation::kDegrees ||
-                            odometry.heading == HeadingRelation::kOppositeDegrees;
-    const bool are_quaternions = facts_.format.rfind("ROS", 0) == 0;
-    switch (is_degrees && are_quaternions ? HeadingRelation::kUnrelated : odometry.heading) {
+  void judge_heading(const OdometryAgreement& odometry, HeadingRelation heading) {
+    switch (heading) {
       case HeadingRelation::kOpposite:
-        if (follows_its_heading) {
+        if (follows_its_heading(odometry)) {
           warn("mirrored_scan", "the scans turn right where odometry turns left: the scan is mirrored",
                std::string("log.mirrored = ") + (diagnosis_.options.mirrored ? "false" : "true"));
         } else {
@@ -180,12 +185,14 @@ class OdometryJudge : public FindingList {
 
   void judge_direction(const OdometryAgreement& odometry) {
     const double off_rad = odometry.direction_offset_rad;
-    if (diagnosis_.laser_is_turned) return;  // see judge_mount()
+    if (diagnosis_.laser_is_turned && diagnosis_.mount) return;  // see judge_mount()
     if (odometry.direction_concentration < 0.8 || std::abs(off_rad) < DEG2RAD(15.0)) return;
     const double heading_rad = mrpt::math::wrapToPi(facts_.robot_T_laser.phi - off_rad);
     warn("laser_heading",
          "the scans move " + fixed(RAD2DEG(off_rad), 0) +
-             " degrees away from the direction of odometry: the stated heading of the laser is wrong",
+             " degrees away from the direction of odometry: the stated heading of the laser is wrong" +
+             (follows_its_heading(odometry) ? ""
+                                            : ", or those of odometry are, which moves across its headings"),
          "log.laser_yaw_deg = " + fixed(RAD2DEG(heading_rad), 0));
   }
 

@@ -2,6 +2,7 @@
 #include "doctor/quick_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "doctor/input_doctor.h"
@@ -54,6 +55,12 @@ void compare_odometry_with(const std::vector<const LaserScan*>& scans, LogDiagno
   diagnosis.revisits = check_revisits(marks, revisits, library);
 }
 
+/// Returns whether the headings may be those of quaternions. Frames do not tell the format of their log.
+bool are_within_half_a_turn(const std::vector<FrameMark>& marks) {
+  return std::all_of(marks.begin(), marks.end(),
+                     [](const FrameMark& mark) { return std::abs(mark.odom_T_robot.phi) <= M_PI + 1e-6; });
+}
+
 }  // namespace
 
 std::vector<std::string> quick_check(const std::vector<Frame>& log, std::size_t begin, std::size_t end,
@@ -74,6 +81,7 @@ std::vector<std::string> quick_check(const std::vector<Frame>& log, std::size_t 
       log.begin() + static_cast<std::ptrdiff_t>(begin), log.begin() + static_cast<std::ptrdiff_t>(end),
       [](const Frame& frame) { return frame.scan.laser != 0 || !frame.companions.empty(); });
   diagnosis.marks = collector.marks();
+  diagnosis.headings_are_quaternions = are_within_half_a_turn(diagnosis.marks);
   if (diagnosis.facts.scans_without_odometry == 0) compare_odometry_with(scans, diagnosis);
   const std::vector<StatedDelay> delays = stated_delays(options);
   const bool is_of_one_laser = !delays.empty() && !delays.front().name.empty();
@@ -82,7 +90,10 @@ std::vector<std::string> quick_check(const std::vector<Frame>& log, std::size_t 
   if (diagnosis.mount) diagnosis.mount->odometry_scale /= options.odometry_scale.value_or(1);
   if ((options.calibrate && delays.empty()) || is_of_one_laser) diagnosis.delay.reset();
   if (diagnosis.delay) diagnosis.delay->delay_s += delay_of_laser(delays, {});
-  if (auto& offset = diagnosis.odometry.clock_offset) offset->delay_s += delay_of_laser(delays, {});
+  if (auto& offset = diagnosis.odometry.clock_offset) {
+    offset->delay_s += delay_of_laser(delays, {});
+    if (is_of_one_laser) diagnosis.odometry = {};  // units and signs by other times are unknown, too
+  }
   std::vector<std::string> faults;
   for (Finding& finding : judge(diagnosis)) {
     if (finding.severity != Severity::kWarning || finding.code == "empty_scans") continue;

@@ -26,6 +26,7 @@ bool is_turned(const std::optional<LaserMountEstimate>& mount, const TPose2D& st
 /// Returns a guess of the mount; empty if the stated heading may be right.
 std::optional<TPose2D> guess_of(const OdometryAgreement& odometry, const std::vector<AlignedPair>& pairs,
                                 const TPose2D& stated_mount) {
+  if (!follows_its_heading(odometry)) return std::nullopt;  // the headings of odometry may be wrong instead
   const double off_rad = odometry.direction_offset_rad;
   if (odometry.direction_concentration > kLeastConcentration && std::abs(off_rad) > kTurned_rad)
     return TPose2D{stated_mount.x, stated_mount.y, wrapToPi(stated_mount.phi - off_rad)};

@@ -13,7 +13,8 @@ namespace psi_slam {
 
 /// Returns the mount of a laser whose heading differs from that of `stated_mount` by more than 15 degrees, by
 /// the directions of motion in `odometry` or by the pairs, which were aligned with the scans of `library`.
-/// Gives these scans that mount and aligns the pairs again. Otherwise returns nothing and changes nothing.
+/// Gives these scans that mount and aligns the pairs again. Otherwise, and if odometry moves across its own
+/// headings, which may then be wrong instead, returns nothing and changes nothing.
 std::optional<LaserMountEstimate> find_turned_mount(const OdometryAgreement& odometry,
                                                     const std::vector<FrameMark>& marks,
                                                     const mrpt::math::TPose2D& stated_mount,

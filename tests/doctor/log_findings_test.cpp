@@ -73,7 +73,7 @@ TEST(LogFindings, headings_of_bags_are_never_degrees) {
   diagnosis.odometry_is_sound = false;
   diagnosis.odometry.heading = HeadingRelation::kDegrees;
   EXPECT_THAT(finding_of(diagnosis, "odometry_degrees").sentence, HasSubstr("degrees"));
-  diagnosis.facts.format = "ROS 2 bag (SQLite)";
+  diagnosis.headings_are_quaternions = true;
   EXPECT_EQ(finding_of(diagnosis, "odometry_degrees").sentence, "");
   EXPECT_THAT(finding_of(diagnosis, "odometry_unrelated").sentence, HasSubstr("unrelated"));
 }
@@ -87,6 +87,21 @@ TEST(LogFindings, a_unit_of_length_needs_a_common_ratio) {
   EXPECT_THAT(finding_of(diagnosis, "odometry_unit").sentence, testing::Not(HasSubstr("feet")));
   diagnosis.odometry.heading = HeadingRelation::kUnrelated;
   EXPECT_EQ(finding_of(diagnosis, "odometry_unit").sentence, "");
+  diagnosis.odometry.heading = HeadingRelation::kDegrees;
+  diagnosis.headings_are_quaternions = true;
+  EXPECT_EQ(finding_of(diagnosis, "odometry_unit").sentence, "");
+}
+
+TEST(LogFindings, a_turned_laser_is_told_without_an_estimate_of_its_mount) {
+  LogDiagnosis diagnosis = sound_log();
+  diagnosis.laser_is_turned = true;
+  diagnosis.odometry.direction_offset_rad = M_PI;
+  diagnosis.odometry.direction_concentration = 1;
+  const Finding finding = finding_of(diagnosis, "laser_heading");
+  EXPECT_THAT(finding.sentence, HasSubstr("the stated heading of the laser is wrong"));
+  EXPECT_THAT(finding.sentence, testing::Not(HasSubstr("across its headings")));
+  diagnosis.odometry.odometry_slip_rad = 0.7;
+  EXPECT_THAT(finding_of(diagnosis, "laser_heading").sentence, HasSubstr("across its headings"));
 }
 
 TEST(LogFindings, an_offset_of_clocks_replaces_other_findings_about_odometry) {

@@ -2,6 +2,7 @@
 #include "doctor/quick_check.h"
 
 #include <gmock/gmock.h>
+#include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <functional>
@@ -56,6 +57,23 @@ TEST(QuickCheck, finds_wrong_units_of_odometry) {
                 frame.odom_T_robot.y *= 1000;
               }),
               ElementsAre(HasSubstr("millimetres")));
+}
+
+TEST(QuickCheck, calls_headings_degrees_that_no_quaternion_has) {
+  EXPECT_THAT(faults_after([](Frame& frame) { frame.odom_T_robot.phi *= 180 / M_PI; }),
+              ElementsAre(HasSubstr("they look like degrees")));
+  EXPECT_THAT(faults_after([](Frame& frame) {
+                frame.odom_T_robot.phi = mrpt::math::wrapToPi(frame.odom_T_robot.phi * 180 / M_PI);
+              }),
+              ElementsAre(HasSubstr("odometry's turns are unrelated to those of the scans")));
+}
+
+TEST(QuickCheck, states_no_offset_of_clocks_of_a_laser_with_a_stated_delay) {
+  std::vector<Frame> frames = frames_of(with_late_stamps(round_trips(2), 3));
+  EXPECT_THAT(quick_check(frames, 0, frames.size(), {}), ElementsAre(HasSubstr("log.scan_delay_s = ")));
+  LogOptions of_one_laser;  // which the frames do not name
+  of_one_laser.scan_delay_s = "RLASER 2";
+  EXPECT_THAT(quick_check(frames, 0, frames.size(), of_one_laser), IsEmpty());
 }
 
 TEST(QuickCheck, finds_odometry_that_measures_wrong_distances) {

@@ -14,8 +14,9 @@ using mrpt::DEG2RAD;
 using mrpt::math::TPose2D;
 
 std::optional<LaserMountEstimate> turned_mount_of(const TPose2D& true_mount, const TPose2D& stated_mount,
-                                                  unsigned seed = 7) {
-  SimulatedRun run = round_trips(1, seed);
+                                                  double odometry_turned_rad = 0) {
+  SimulatedRun run = round_trips(1);
+  for (TPose2D& pose : run.odometry) pose.phi += odometry_turned_rad;
   run.bearings_rad = make_bearings_rad(BeamAngles::kLeftOpen, 180, 2 * M_PI);
   run.robot_T_laser = true_mount;
   const TemporaryFolder folder;
@@ -55,6 +56,11 @@ TEST(TurnedLaser, has_the_true_mount_within_its_standard_deviations) {
 TEST(TurnedLaser, is_not_found_where_the_heading_is_about_right) {
   for (const double off_deg : {0.0, 3.0, -8.0})
     EXPECT_FALSE(turned_mount_of({0.25, 0, DEG2RAD(off_deg)}, {0.2, 0, 0})) << off_deg;
+}
+
+TEST(TurnedLaser, is_not_found_where_the_headings_of_odometry_may_be_wrong) {
+  for (const double off_deg : {40.0, -90.0})
+    EXPECT_FALSE(turned_mount_of({0.25, 0, 0}, {0.25, 0, 0}, DEG2RAD(off_deg))) << off_deg;
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ class EditAdviceTest : public testing::Test {
              i,
              step,
              i == half_ ? information(slip_sigma_m, slip_sigma_m) : information(kStep_m, kStep_rad),
+             Eigen::Matrix3d::Zero(),
              Constraint::Kind::kLocalMap,
              {}});
       map_.node_frames.push_back(i);
@@ -70,9 +71,13 @@ class EditAdviceTest : public testing::Test {
     loop.covariance = information(0.02, 0.01).inverse();
     loop.verdict = LoopVerdict::kAccepted;
     map_.loops.push_back(loop);
-    Constraint constraint{
-        reference,     node, loop.reference_T_node, information(0.02, 0.01), Constraint::Kind::kLoop,
-        RobustKernel{}};
+    Constraint constraint{reference,
+                          node,
+                          loop.reference_T_node,
+                          information(0.02, 0.01),
+                          Eigen::Matrix3d::Zero(),
+                          Constraint::Kind::kLoop,
+                          RobustKernel{}};
     map_.graph.add_constraint(constraint);
     settle();
   }

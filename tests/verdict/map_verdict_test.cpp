@@ -234,8 +234,13 @@ TEST(MapVerdict, advises_to_force_a_match_by_hand_that_was_switched_off) {
   MappingResult result = displaced_round();
   LoopRecord loop = loop_between(result, 10, 50);
   loop.reference_T_node = (mrpt::math::TPose2D(-0.3, 0, 0) + result.graph.pose(50)) - result.graph.pose(10);
-  const std::size_t constraint = result.graph.add_constraint(
-      {10, 50, loop.reference_T_node, Eigen::Matrix3d::Identity() * 1e4, Constraint::Kind::kLoop, {}});
+  const std::size_t constraint = result.graph.add_constraint({10,
+                                                              50,
+                                                              loop.reference_T_node,
+                                                              Eigen::Matrix3d::Identity() * 1e4,
+                                                              Eigen::Matrix3d::Zero(),
+                                                              Constraint::Kind::kLoop,
+                                                              {}});
   result.graph.set_enabled(constraint, false);
   loop.verdict = LoopVerdict::kSwitchedOff;
   result.loops = {loop};

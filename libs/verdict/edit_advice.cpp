@@ -13,6 +13,12 @@ namespace {
 constexpr std::size_t kMostMatches = 3;  // that are tried for one place
 constexpr std::size_t kMostTrials = 12;  // of different edits for one map
 
+template <class Candidate>
+bool has_loop_of(const std::vector<Candidate>& candidates, const LoopEdit& edit) {
+  return std::any_of(candidates.begin(), candidates.end(),
+                     [&](const Candidate& one) { return same_loop(one.edit, edit); });
+}
+
 }  // namespace
 
 EditAdvice::EditAdvice(const MappingResult& result, const std::vector<MapView>& views,
@@ -27,24 +33,41 @@ void EditAdvice::add_to(HotSpot& spot) {
   const Suspect& suspect = spot.suspect;
   if (suspect.kind == Suspect::Kind::kDrift || suspect.kind == Suspect::Kind::kOpen) return;
   if (suspect.kind == Suspect::Kind::kLoop) {
-    choose({{{LoopEdit::Kind::kDelete, suspect.last_frame, suspect.local_map}}}, spot);
+    choose({{{LoopEdit::Kind::kDelete, suspect.last_frame, suspect.local_map},
+             nullptr,
+             &result_.loops[suspect.loop]}},
+           spot);
     return;
   }
   if (!suspect.searched_loops) return;
-  std::vector<Candidate> forced;
-  for (const LoopRecord& loop : result_.loops)
-    if (loop.by_hand && loop.verdict == LoopVerdict::kSwitchedOff && loop.frame >= suspect.last_frame &&
-        result_.node_frames[loop.reference] <= suspect.first_frame)
-      forced.push_back({{LoopEdit::Kind::kForce, loop.frame, loop.local_map}});
-  choose(forced, spot);
+  choose(forces_across(suspect), spot);
   if (!spot.edit) choose(matches_across(spot), spot);
+}
+
+/// Returns the loops by hand across a suspect that were switched off: of each pair, the newest record, which
+/// is the one that an edit forces.
+std::vector<EditAdvice::Candidate> EditAdvice::forces_across(const Suspect& suspect) const {
+  std::vector<Candidate> newest;
+  for (auto loop = result_.loops.rbegin(); loop != result_.loops.rend(); ++loop) {
+    const LoopEdit edit{LoopEdit::Kind::kForce, loop->frame, loop->local_map};
+    if (loop->verdict == LoopVerdict::kNotFound || has_loop_of(newest, edit)) continue;
+    if (loop->frame >= suspect.last_frame && result_.node_frames[loop->reference] <= suspect.first_frame)
+      newest.push_back({edit, nullptr, &*loop});
+  }
+  newest.erase(std::remove_if(newest.begin(), newest.end(),
+                              [](const Candidate& one) {
+                                return !one.loop->by_hand || one.loop->verdict != LoopVerdict::kSwitchedOff;
+                              }),
+               newest.end());
+  return newest;
 }
 
 /// Adds the candidate that leaves the least disagreement, if any mends the place.
 void EditAdvice::choose(const std::vector<Candidate>& candidates, HotSpot& spot) {
   double least_m = std::numeric_limits<double>::infinity();
   for (const Candidate& one : candidates) {
-    const TriedEdit* const tried = this->tried(one.edit, one.check, spot.suspect);
+    const TriedEdit* const tried = this->tried(one, spot.suspect);
+    spot.edits_tried = spot.edits_tried || tried != nullptr;
     const std::optional<double> left_m = tried ? disagreement_left_m(*tried, spot) : std::nullopt;
     if (!left_m || *left_m >= least_m) continue;
     least_m = *left_m;
@@ -53,37 +76,36 @@ void EditAdvice::choose(const std::vector<Candidate>& candidates, HotSpot& spot)
   }
   if (!spot.edit) return;
   const FrameRecord& scan = result_.frames[spot.edit->frame];
-  spot.effect->scan_s = seconds(scan.time_us - result_.frames.front().time_us);
+  spot.effect->scan_s = time_in_run_s(result_, spot.edit->frame);
   spot.effect->scan_at = {scan.map_T_robot.x, scan.map_T_robot.y};
 }
 
 /// Returns the map after an edit; null if it cannot be tried.
-const TriedEdit* EditAdvice::tried(const LoopEdit& edit, const PassCheck* check, const Suspect& suspect) {
+const TriedEdit* EditAdvice::tried(const Candidate& candidate, const Suspect& suspect) {
+  const LoopEdit& edit = candidate.edit;
   const auto key = std::make_tuple(edit.kind, edit.frame, edit.local_map, suspect.first_frame);
-  const FrameSpan doubtful{suspect.first_frame, suspect.last_frame + 1};
   auto found = tried_.find(key);
   if (found == tried_.end()) {
     if (tried_.size() == kMostTrials) return nullptr;
     std::optional<TriedEdit> map;
-    const auto loop = std::find_if(result_.loops.begin(), result_.loops.end(), [&](const LoopRecord& one) {
-      return same_loop(one, edit) &&
-             (one.verdict == LoopVerdict::kAccepted) == (edit.kind == LoopEdit::Kind::kDelete);
-    });
-    if (check != nullptr) {
-      const MapView& other = views_[check->other];
-      const MapView& view = views_[check->view];
+    if (edit.kind == LoopEdit::Kind::kDelete)
+      map = trial_.without_loop(*candidate.loop);
+    else if (edit.kind == LoopEdit::Kind::kForce)
+      map = trial_.with_loop(*candidate.loop);
+    else {
+      const MapView& other = views_[candidate.check->other];
+      const MapView& view = views_[candidate.check->view];
       if (const auto pose = matched_pose(view, other, options_.passes))
-        map = trial_.with_match({other.node, view.node, between(other.map_T_robot, *pose)}, doubtful);
-    } else if (loop != result_.loops.end())
-      map = edit.kind == LoopEdit::Kind::kForce ? trial_.with_loop(*loop, doubtful)
-                                                : trial_.without_loop(*loop);
+        map = trial_.with_match({other.node, view.node, between(other.map_T_robot, *pose)},
+                                {suspect.first_frame, suspect.last_frame + 1});
+    }
     found = tried_.emplace(key, std::move(map)).first;
   }
   return found->second ? &*found->second : nullptr;
 }
 
-/// Whether a check shows the fault of a hot spot: it is displaced, and among the scans that see the fault, or
-/// else across the suspect.
+/// Whether a check is among the scans that see the fault of a hot spot, or else across the suspect. If it is
+/// displaced, it shows the fault.
 bool EditAdvice::concerns(const PassCheck& check, const HotSpot& spot) const {
   const std::size_t frame = views_[check.view].frame;
   if (spot.seen_by.end > 0) return frame >= spot.seen_by.begin && frame < spot.seen_by.end;
@@ -100,8 +122,10 @@ std::optional<double> EditAdvice::disagreement_left_m(const TriedEdit& tried, co
     const double error_m = checks_[i].error_m;
     const bool is_displaced = error_m >= options_.spot_error_m;
     const std::optional<double>& then_m = tried.errors_m[i];
-    if (!is_displaced && then_m && *then_m >= options_.spot_error_m) ++worse;
-    if (!is_displaced || !concerns(checks_[i], spot)) continue;
+    const bool concerned = concerns(checks_[i], spot);
+    const bool fitted = !is_displaced && !checks_[i].scene_changed;
+    if (!concerned && (then_m ? *then_m >= error_m + options_.spot_error_m : fitted)) ++worse;
+    if (!is_displaced || !concerned) continue;
     before_m += error_m;
     after_m += then_m.value_or(error_m);
   }
@@ -134,8 +158,10 @@ std::vector<EditAdvice::Candidate> EditAdvice::matches_across(const HotSpot& spo
     return std::pair(a.check->fits_if_moved, a.check->error_m) >
            std::pair(b.check->fits_if_moved, b.check->error_m);
   });
-  if (matches.size() > kMostMatches) matches.resize(kMostMatches);
-  return matches;
+  std::vector<Candidate> chosen;
+  for (const Candidate& one : matches)
+    if (chosen.size() < kMostMatches && !has_loop_of(chosen, one.edit)) chosen.push_back(one);
+  return chosen;
 }
 
 /// The local map with a view nearest to its middle, among those without scans after last_frame.

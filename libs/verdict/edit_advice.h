@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Chooses the edit of a loop that mends a doubtful place of a map. Each edit is tried on the pose graph
-// first. An edit mends a place if the disagreement there falls to half and no other place becomes worse.
+// first. An edit mends a place if the disagreement there falls to half and no other place becomes worse: the
+// error of no check elsewhere grows by spot_error_m, and no check that fits is lost.
 #pragma once
 
 #include <cstddef>
@@ -27,9 +28,11 @@ class EditAdvice {
   struct Candidate {
     LoopEdit edit;
     const PassCheck* check = nullptr;  ///< of a match: of its scan with a view of its local map
+    const LoopRecord* loop = nullptr;  ///< of the other edits: the loop that they switch
   };
 
-  const TriedEdit* tried(const LoopEdit& edit, const PassCheck* check, const Suspect& suspect);
+  const TriedEdit* tried(const Candidate& candidate, const Suspect& suspect);
+  std::vector<Candidate> forces_across(const Suspect& suspect) const;
   std::vector<Candidate> matches_across(const HotSpot& spot) const;
   std::optional<std::size_t> local_map_around(std::size_t view, std::size_t last_frame) const;
   bool is_made(const LoopEdit& match) const;

@@ -9,7 +9,7 @@ namespace psi_slam {
 struct EditEffect {
   double moved_m = 0;            ///< largest motion of a node
   mrpt::math::TPoint2D at;       ///< place of that node in the map, before the edit
-  double scan_s = 0;             ///< time of the scan that the edit names, since the first scan
+  double scan_s = 0;             ///< time of the scan that the edit names, since the start of its run
   mrpt::math::TPoint2D scan_at;  ///< place of that scan in the map, before the edit
 };
 

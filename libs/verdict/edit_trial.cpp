@@ -83,11 +83,13 @@ std::optional<TriedEdit> EditTrial::without_loop(const LoopRecord& loop) const {
   return with_graph(std::move(graph));
 }
 
-std::optional<TriedEdit> EditTrial::with_loop(const LoopRecord& loop, const FrameSpan& doubtful) const {
+std::optional<TriedEdit> EditTrial::with_loop(const LoopRecord& loop) const {
   const std::optional<std::size_t> index = constraint_of(loop, result_.graph);
   if (!settled_ || !index || result_.graph.enabled(*index)) return std::nullopt;
-  PoseGraph graph = loosened(doubtful);
-  graph.set_enabled(*index, true);
+  PoseGraph graph = *settled_;
+  Constraint forced = graph.constraint(*index);
+  forced.kernel = RobustKernel{};
+  graph.add_constraint(forced);
   return with_graph(std::move(graph));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tries an edit of a loop on the pose graph of a finished map, without mapping the log again: switches the
-// constraint of the loop off or on, or adds one, optimises, moves the nodes and compares the passes again. A
-// loop that is added is tried with weak path constraints across the suspect: if the suspect is the fault, the
-// map bends there and nowhere else.
+// constraint of the loop off, or adds one, optimises, moves the nodes and compares the passes again. A match
+// is tried with weak path constraints across the suspect: if the suspect is the fault, the map bends there
+// and nowhere else.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -48,8 +48,8 @@ class EditTrial {
   /// not link all nodes.
   std::optional<TriedEdit> without_loop(const LoopRecord& loop) const;
 
-  /// The map with a loop that was switched off, if the path is wrong between two frames. Empty as above.
-  std::optional<TriedEdit> with_loop(const LoopRecord& loop, const FrameSpan& doubtful) const;
+  /// The map with a forced loop that was switched off: without a robust kernel. Empty as above.
+  std::optional<TriedEdit> with_loop(const LoopRecord& loop) const;
 
   /// The map with a match that holds, if the path is wrong between two frames.
   std::optional<TriedEdit> with_match(const TriedMatch& match, const FrameSpan& doubtful) const;

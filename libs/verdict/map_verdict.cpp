@@ -73,6 +73,8 @@ class Judge {
                     : !verdict.hot_spots.empty() ? MapState::kCheck
                     : verdict.held_share > 0.5   ? MapState::kGood
                                                  : MapState::kUnchecked;
+    for (const HotSpot& spot : verdict.hot_spots)
+      verdict.largest_error_m = std::max(verdict.largest_error_m, spot.error_m.value_or(0));
     if (verdict.hot_spots.size() > options_.most_hot_spots) {
       verdict.more_hot_spots = verdict.hot_spots.size() - options_.most_hot_spots;
       verdict.hot_spots.resize(options_.most_hot_spots);
@@ -103,27 +105,29 @@ class Judge {
     return {pose.x, pose.y};
   }
 
-  double time_s(std::size_t frame) const {
-    return seconds(result_.frames[frame].time_us - result_.frames.front().time_us);
-  }
-
   Suspect stretch(Suspect::Kind kind, std::size_t first_frame, std::size_t last_frame) const {
-    return {kind,
-            0,
-            0,
-            first_frame,
-            last_frame,
-            place_of((first_frame + last_frame) / 2),
-            searched_loops_,
-            time_s(first_frame),
-            time_s(last_frame)};
+    Suspect suspect;
+    suspect.kind = kind;
+    suspect.first_frame = first_frame;
+    suspect.last_frame = last_frame;
+    suspect.at = place_of((first_frame + last_frame) / 2);
+    suspect.searched_loops = searched_loops_;
+    suspect.last_s = time_in_run_s(result_, last_frame);
+    const auto& later = result_.later_run_frames;
+    if (std::upper_bound(later.begin(), later.end(), first_frame) ==
+        std::upper_bound(later.begin(), later.end(), last_frame))
+      suspect.first_s = time_in_run_s(result_, first_frame);
+    return suspect;
   }
 
   Suspect suspect_of(const LoopResidual& residual) const {
     const LoopRecord& loop = result_.loops[residual.loop];
-    const std::size_t reference = result_.node_frames[loop.reference];
-    return {Suspect::Kind::kLoop, residual.loop, loop.local_map,    reference,         loop.frame,
-            place_of(loop.frame), true,          time_s(reference), time_s(loop.frame)};
+    Suspect suspect = stretch(Suspect::Kind::kLoop, result_.node_frames[loop.reference], loop.frame);
+    suspect.loop = residual.loop;
+    suspect.local_map = loop.local_map;
+    suspect.at = place_of(loop.frame);
+    suspect.searched_loops = true;
+    return suspect;
   }
 
   Suspect suspect_of(const PathSuspect& suspect) const {
@@ -266,16 +270,10 @@ class Judge {
 
   HotSpot spot_of(const Series& series, HotSpot::Kind kind) const {
     const PassCheck& worst = *series.worst;
-    const Suspect cause = cause_between(worst.view, worst.other);
-    return {kind,
-            worst.scans.at,
-            worst.error_m,
-            length_m(series),
-            cause,
-            1,
-            {},
-            {},
-            {views_[series.first].frame, views_[series.last].frame + 1}};
+    HotSpot spot{kind, worst.scans.at, worst.error_m, length_m(series),
+                 cause_between(worst.view, worst.other)};
+    spot.seen_by = {views_[series.first].frame, views_[series.last].frame + 1};
+    return spot;
   }
 
   /// Makes one hot spot of each series of displaced views.

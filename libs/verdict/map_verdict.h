@@ -45,7 +45,8 @@ struct Suspect {
   mrpt::math::TPoint2D at;      ///< place in the map: the loop's node, or the middle of the stretch
   /// Whether any scan of the map searched for loops. False with loop_closure.enabled=false.
   bool searched_loops = true;
-  /// Times of first_frame and last_frame since the first scan of the map, seconds. Empty: not stated.
+  /// Times of first_frame and last_frame since the start of their run, seconds. Empty: not stated, or the
+  /// first frame is in another run.
   std::optional<double> first_s{};
   std::optional<double> last_s{};
 };
@@ -84,6 +85,7 @@ struct HotSpot {
   std::optional<LoopEdit> edit{};
   std::optional<EditEffect> effect{};  ///< what the edit changes
   FrameSpan seen_by{};                 ///< frames whose scans show the fault; empty if the path alone does
+  bool edits_tried = false;            ///< whether any edit was tried on the graph for this place
 };
 
 /// Returns whether the error of a kind is predicted, not shown by scans.
@@ -116,6 +118,7 @@ struct MapVerdict {
   std::vector<HotSpot>
       hot_spots;  ///< at most VerdictOptions::most_hot_spots; those that scans show first, by their error
   std::size_t more_hot_spots = 0;  ///< hot spots beyond those, which are left out of the list
+  double largest_error_m = 0;      ///< of all hot spots, metres; 0 without any
   /// Stretches of unmatched scans, in the order of the log, across which other scans fit and which are the
   /// suspect of no hot spot.
   std::vector<FrameSpan> confirmed_stretches;

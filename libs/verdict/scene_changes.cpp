@@ -52,7 +52,7 @@ std::string text_of(const std::vector<SceneChange>& changes) {
     const SceneChange& change = changes[i];
     text +=
         (i == 0 ? "" : ", ") + ("(" + fixed_text(change.at.x, 1)) + ", " + fixed_text(change.at.y, 1) + ") m";
-    if (change.before_s < change.after_s)
+    if (change.before_s >= 0 && change.before_s < change.after_s)
       text += " between " + minutes_text(std::floor(change.before_s)) + " and " +
               minutes_text(std::ceil(change.after_s));
   }

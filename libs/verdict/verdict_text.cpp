@@ -51,8 +51,7 @@ const double kLargestError_m = PassCheckOptions().unknown_m;
 
 /// Only errors that scans show have an upper bound, not those that are predicted.
 bool is_too_large_to_measure(const HotSpot& spot) {
-  return !is_predicted(spot.kind) && spot.kind != HotSpot::Kind::kUnmatched && spot.error_m &&
-         *spot.error_m >= kLargestError_m;
+  return !is_predicted(spot.kind) && spot.error_m && *spot.error_m >= kLargestError_m;
 }
 
 std::string unchecked_text(const MapVerdict& verdict) {
@@ -106,9 +105,7 @@ std::string judgement(const MapVerdict& verdict) {
   if (worst.kind == HotSpot::Kind::kUnplacedRun)
     return "the map is broken: a run was never placed; suspect: " + text_of(worst.suspect);
   const std::string text = hot_spot_text(worst);
-  const bool is_worst = std::none_of(
-      verdict.hot_spots.begin(), verdict.hot_spots.end(),
-      [&](const HotSpot& spot) { return spot.error_m && worst.error_m && *spot.error_m > *worst.error_m; });
+  const bool is_worst = worst.error_m.value_or(0) >= verdict.largest_error_m;
   const std::string the_worst = is_worst ? "the worst: " : "the worst that scans show: ";
   if (verdict.state == MapState::kBroken)
     return "the map is broken: the estimated mean error is " + fixed_text(verdict.error_m, 2) + " m, " +
@@ -126,7 +123,8 @@ std::string judgement(const MapVerdict& verdict) {
 }  // namespace
 
 bool is_predicted(HotSpot::Kind kind) {
-  return kind == HotSpot::Kind::kUncertain || kind == HotSpot::Kind::kOpenDirection;
+  return kind == HotSpot::Kind::kUncertain || kind == HotSpot::Kind::kOpenDirection ||
+         kind == HotSpot::Kind::kUnmatched;
 }
 
 std::string text_of(HotSpot::Kind kind) {
@@ -199,11 +197,12 @@ std::string advice_text(const HotSpot& spot) {
     return "record odometry, or put objects along the walls and map again";
   if (spot.edit) return "make the edit \"" + edit_line(spot) + '"' + effect_text(spot);
   if (!suspect.searched_loops) return "set loop_closure.enabled=true";
-  const std::string place = "record the path near " + place_text(suspect.at) + " again, " +
-                            (suspect.kind == Suspect::Kind::kUnmatched || suspect.kind == Suspect::Kind::kGap
-                                 ? "slowly and without a gap"
-                                 : "and from there to a place seen before");
-  return place + "; no edit of one loop was found that mends the map";
+  const std::string again = "record the path near " + place_text(suspect.at) + " again, ";
+  const bool is_gap = suspect.kind == Suspect::Kind::kUnmatched || suspect.kind == Suspect::Kind::kGap;
+  return (suspect.kind == Suspect::Kind::kLoop ? "look at this loop in psi-slam-gui"
+          : is_gap                             ? again + "slowly and without a gap"
+                                               : again + "and from there to a place seen before") +
+         (spot.edits_tried ? "; no edit of one loop was found that mends the map" : "");
 }
 
 }  // namespace psi_slam

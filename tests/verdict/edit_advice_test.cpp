@@ -134,10 +134,39 @@ TEST_F(EditAdviceTest, matches_a_scan_after_a_slip) {
 }
 
 TEST_F(EditAdviceTest, deletes_no_loop_that_is_true) {
-  build({}, kStep_m);
+  build({0.5, 0.3, 0.1}, 0.5);
   add_loop(20, half_ + 20, {});
   add_loop(60, half_ + 60, {});
-  EXPECT_TRUE(judge_map(map_).hot_spots.empty());
+  add_loop(40, half_ + 40, {0.9, 0.6, 0});
+  const MapVerdict verdict = judge_map(map_);
+  ASSERT_FALSE(verdict.hot_spots.empty());
+  for (const HotSpot& spot : verdict.hot_spots)
+    if (spot.edit && spot.edit->kind == LoopEdit::Kind::kDelete) {
+      EXPECT_EQ(spot.edit->frame, half_ + 40) << edit_line(spot);
+    }
+}
+
+TEST_F(EditAdviceTest, forces_a_match_as_the_mapper_does) {
+  build({0.5, 0.3, 0.1}, 0.5);
+  const double before_m = worst_error_m();
+  add_loop(20, half_ + 20, {});
+  const std::size_t constraint = map_.graph.num_constraints() - 1;
+  map_.graph.set_enabled(constraint, false);
+  map_.loops.back().by_hand = true;
+  map_.loops.back().verdict = LoopVerdict::kSwitchedOff;
+  LoopRecord older = map_.loops.back();
+  older.reference_T_node = compose(older.reference_T_node, {1, 0, 0});
+  map_.loops.insert(map_.loops.begin(), older);
+  settle();
+  const MapVerdict verdict = judge_map(map_);
+  ASSERT_FALSE(verdict.hot_spots.empty());
+  const HotSpot& spot = verdict.hot_spots.front();
+  ASSERT_TRUE(spot.edit) << verdict_sentence(verdict);
+  EXPECT_EQ(spot.edit->kind, LoopEdit::Kind::kForce) << "of the newest record";
+  map_.graph.set_enabled(constraint, true);
+  settle();
+  EXPECT_LT(worst_error_m(), 0.1);
+  EXPECT_NEAR(spot.effect->moved_m, before_m, 0.1);
 }
 
 }  // namespace

@@ -87,6 +87,7 @@ TEST(MapVerdict, suspects_the_loop_that_the_map_contradicts) {
     EXPECT_EQ(spot.suspect.kind, Suspect::Kind::kLoop);
     EXPECT_EQ(spot.suspect.loop, 1U);
     EXPECT_FALSE(spot.edit) << "the graph has no such constraint, so nothing would move";
+    EXPECT_EQ(advice_text(spot), "look at this loop in psi-slam-gui") << "no edit was tried";
     EXPECT_THAT(text_of(spot.suspect), HasSubstr("the loop of scan 50 with local map 0 at ("));
   }
 }
@@ -291,6 +292,31 @@ TEST(MapVerdict, calls_only_the_largest_error_the_worst) {
   }
   EXPECT_LT(largest_m, 1);
   EXPECT_THAT(verdict_sentence(verdict), HasSubstr("the worst that scans show: "));
+}
+
+TEST(MapVerdict, compares_the_worst_with_places_beyond_the_list) {
+  MappingResult result = two_passes({0.3, 0, 0});
+  join_nodes(result, kScansPerRound, 3);
+  VerdictOptions options;
+  options.most_hot_spots = 1;
+  const MapVerdict verdict = judge_map(result, options);
+  ASSERT_EQ(verdict.hot_spots.size(), 1U);
+  EXPECT_GT(verdict.largest_error_m, *verdict.hot_spots.front().error_m);
+  EXPECT_THAT(verdict_sentence(verdict), HasSubstr("the worst that scans show: "));
+}
+
+TEST(MapVerdict, states_times_since_the_start_of_each_run) {
+  MappingResult result = two_passes({0, 0.3, 0});
+  result.later_run_frames = {kScansPerRound};
+  for (std::size_t i = kScansPerRound; i < result.frames.size(); ++i)
+    result.frames[i].time_us -= 3'600'000'000;  // recorded before the other run
+  const MapVerdict verdict = judge_map(result);
+  ASSERT_FALSE(verdict.hot_spots.empty());
+  for (const HotSpot& spot : verdict.hot_spots) {
+    EXPECT_GE(spot.suspect.first_s.value_or(0), 0);
+    EXPECT_GE(spot.suspect.last_s.value(), 0);
+    EXPECT_LE(spot.suspect.last_s.value(), 0.2 * kScansPerRound);
+  }
 }
 
 TEST(MapVerdict, advises_no_match_where_no_local_map_ends_before_the_suspect) {

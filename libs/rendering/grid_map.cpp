@@ -23,7 +23,7 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 constexpr int kMaxEvidence = 30'000;
-constexpr int kMaxNewest = 5 * kHitEvidence;  // five scans outweigh all scans before
+constexpr int kMaxNewest = 5 * kHitEvidence;  // six scans outweigh all scans before
 
 TBoundingBox bounds_of_log(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
                            const GridMapOptions& options) {

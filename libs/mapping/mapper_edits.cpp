@@ -2,6 +2,7 @@
 // Edits of loops by hand, during and after mapping.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "base/number_text.h"
@@ -12,13 +13,16 @@ namespace {
 
 using State = LoopEditOutcome::State;
 
-/// Returns the scan with its place in the map and its time since the first scan: "scan 812 at (3.1, -2.0) m,
-/// 2:42".
-std::string scan_text(std::size_t frame, const std::vector<FrameRecord>& frames) {
+/// Returns the scan with its place in the map and its time since the start of its run: "scan 812 at (3.1,
+/// -2.0) m, 2:42".
+std::string scan_text(std::size_t frame, const std::vector<FrameRecord>& frames,
+                      const std::vector<std::size_t>& later_run_frames) {
   const FrameRecord& scan = frames[frame];
+  const auto next = std::upper_bound(later_run_frames.begin(), later_run_frames.end(), frame);
+  const FrameRecord& first = frames[next == later_run_frames.begin() ? 0 : *std::prev(next)];
   return "scan " + std::to_string(frame) + " at (" + fixed_text(scan.map_T_robot.x, 1) + ", " +
          fixed_text(scan.map_T_robot.y, 1) + ") m, " +
-         minutes_text(std::floor(seconds(scan.time_us - frames.front().time_us)));
+         minutes_text(std::floor(seconds(scan.time_us - first.time_us)));
 }
 
 }  // namespace
@@ -44,7 +48,7 @@ LoopEditOutcome Mapper::Implementation::judge(const LoopEdit& edit,
   if (edit.frame >= frames.size()) return {State::kWaits, scan + " has not been mapped"};
   const std::optional<std::size_t> node = frames[edit.frame].node;
   if (!node)
-    return {State::kImpossible, scan_text(edit.frame, frames) +
+    return {State::kImpossible, scan_text(edit.frame, frames, result_.later_run_frames) +
                                     " is not a node of the graph, because the robot had hardly moved"};
   if (edit.local_map >= keyframes().local_maps.size()) return {State::kWaits, map + " is not finished"};
   const PlacedLocalMap& local_map = keyframes().local_maps[edit.local_map];
@@ -92,11 +96,12 @@ std::vector<std::string> Mapper::Implementation::unmet_edits() const {
 std::vector<std::string> Mapper::Implementation::contradicted_forces() {
   std::vector<std::string> sentences;
   for (const auto& [pair, chi] : builder_.contradicted_forces())
-    sentences.push_back("the forced loop of " +
-                        scan_text(keyframes().nodes[pair.first].frame, result_.frames) + " with local map " +
-                        std::to_string(pair.second) +
-                        " holds, but the path and the other loops contradict it by " + fixed_text(chi, 1) +
-                        " standard deviations: undo the edit if the loop is false");
+    sentences.push_back(
+        "the forced loop of " +
+        scan_text(keyframes().nodes[pair.first].frame, result_.frames, result_.later_run_frames) +
+        " with local map " + std::to_string(pair.second) +
+        " holds, but the path and the other loops contradict it by " + fixed_text(chi, 1) +
+        " standard deviations: undo the edit if the loop is false");
   return sentences;
 }
 

@@ -61,7 +61,6 @@ class Judge {
           std::count_if(verdict.hot_spots.begin(), verdict.hot_spots.end(),
                         [&](const HotSpot& other) { return is_same(spot.suspect, other.suspect); }));
     add_confirmed_stretches(verdict);
-    verdict.changes = scene_changes(result_, views_, checks_, options_.least_checks);
     verdict.unchecked_stretches = unchecked_stretches(views_, errors_, sigmas_m_, options_.least_length_m);
     verdict.error_m = mean_error_m() + unconfirmed_error_m(verdict.hot_spots);
     verdict.predicted_m = mean_prediction_m();
@@ -73,6 +72,7 @@ class Judge {
                     : !verdict.hot_spots.empty() ? MapState::kCheck
                     : verdict.held_share > 0.5   ? MapState::kGood
                                                  : MapState::kUnchecked;
+    if (!is_broken) verdict.changes = scene_changes(result_, views_, checks_, options_.least_checks);
     for (const HotSpot& spot : verdict.hot_spots)
       verdict.largest_error_m = std::max(verdict.largest_error_m, spot.error_m.value_or(0));
     if (verdict.hot_spots.size() > options_.most_hot_spots) {

@@ -128,7 +128,8 @@ struct MapVerdict {
   /// Stretches of VerdictOptions::unconfirmed_m and more whose scans leave a direction open, in the order of
   /// the log. Those without odometry are hot spots.
   std::vector<OpenStretch> open_stretches;
-  /// Places where the building changed between passes, the place of most comparisons first.
+  /// Places where the building changed between passes, the place of most comparisons first. Empty for a
+  /// broken map, whose poses may be the cause.
   std::vector<SceneChange> changes;
 
   /// Figure by which maps can be ranked, metres.

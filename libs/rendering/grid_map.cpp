@@ -94,7 +94,7 @@ class Evidence {
   }
 
   /// Returns the cells whose newest scans show an obstacle that `grid`, the map of all scans, does not show.
-  std::vector<NewObstacle> new_obstacles(COccupancyGridMap2D& grid) const {
+  std::vector<NewObstacle> new_obstacles(const COccupancyGridMap2D& grid) const {
     std::vector<NewObstacle> found;
     for (std::int64_t y = 0; y < layout_.height; ++y) {
       const auto* row = grid.getRow(static_cast<int>(y));

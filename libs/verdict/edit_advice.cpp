@@ -23,11 +23,7 @@ bool has_loop_of(const std::vector<Candidate>& candidates, const LoopEdit& edit)
 
 EditAdvice::EditAdvice(const MappingResult& result, const std::vector<MapView>& views,
                        const std::vector<PassCheck>& checks, const VerdictOptions& options)
-    : result_(result),
-      views_(views),
-      checks_(checks),
-      options_(options),
-      trial_(result, views, checks, options.passes) {}
+    : result_(result), views_(views), checks_(checks), options_(options) {}
 
 void EditAdvice::add_to(HotSpot& spot) {
   const Suspect& suspect = spot.suspect;
@@ -87,17 +83,18 @@ const TriedEdit* EditAdvice::tried(const Candidate& candidate, const Suspect& su
   auto found = tried_.find(key);
   if (found == tried_.end()) {
     if (tried_.size() == kMostTrials) return nullptr;
+    if (!trial_) trial_.emplace(result_, views_, checks_, options_.passes);
     std::optional<TriedEdit> map;
     if (edit.kind == LoopEdit::Kind::kDelete)
-      map = trial_.without_loop(*candidate.loop);
+      map = trial_->without_loop(*candidate.loop);
     else if (edit.kind == LoopEdit::Kind::kForce)
-      map = trial_.with_loop(*candidate.loop);
+      map = trial_->with_loop(*candidate.loop);
     else {
       const MapView& other = views_[candidate.check->other];
       const MapView& view = views_[candidate.check->view];
       if (const auto pose = matched_pose(view, other, options_.passes))
-        map = trial_.with_match({other.node, view.node, between(other.map_T_robot, *pose)},
-                                {suspect.first_frame, suspect.last_frame + 1});
+        map = trial_->with_match({other.node, view.node, between(other.map_T_robot, *pose)},
+                                 {suspect.first_frame, suspect.last_frame + 1});
     }
     found = tried_.emplace(key, std::move(map)).first;
   }

@@ -44,7 +44,7 @@ class EditAdvice {
   const std::vector<MapView>& views_;
   const std::vector<PassCheck>& checks_;
   const VerdictOptions& options_;
-  EditTrial trial_;
+  std::optional<EditTrial> trial_;  ///< from the first edit on
   /// Tried edits by kind, scan, local map and first frame of the suspect.
   std::map<std::tuple<LoopEdit::Kind, std::size_t, std::size_t, std::size_t>, std::optional<TriedEdit>>
       tried_;

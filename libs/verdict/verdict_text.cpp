@@ -140,29 +140,28 @@ std::string text_of(MapState state) {
 }
 
 std::string text_of(const Suspect& suspect) {
+  if (suspect.kind == Suspect::Kind::kLoop)
+    return "the loop of scan " + std::to_string(suspect.last_frame) + " with local map " +
+           std::to_string(suspect.local_map) + whereabouts(suspect);
+  const std::string scans = scans_text(suspect) + whereabouts(suspect);
   switch (suspect.kind) {
-    case Suspect::Kind::kLoop:
-      return "the loop of scan " + std::to_string(suspect.last_frame) + " with local map " +
-             std::to_string(suspect.local_map) + whereabouts(suspect);
     case Suspect::Kind::kUnmatched:
-      return scans_text(suspect) + whereabouts(suspect) + ", which matched no local map";
+      return scans + ", which matched no local map";
     case Suspect::Kind::kLost:
-      return scans_text(suspect) + whereabouts(suspect) + ", where the place of the robot was lost";
+      return scans + ", where the place of the robot was lost";
     case Suspect::Kind::kUnplaced:
-      return scans_text(suspect) + whereabouts(suspect) +
-             ", where the place of the robot was lost and was never found again";
+      return scans + ", where the place of the robot was lost and was never found again";
     case Suspect::Kind::kGap:
-      return scans_text(suspect) + whereabouts(suspect) + ", before which the log has a gap";
+      return scans + ", before which the log has a gap";
     case Suspect::Kind::kDrift:
-      return scans_text(suspect) + whereabouts(suspect) + ", where loops hold the map too weakly";
+      return scans + ", where loops hold the map too weakly";
     case Suspect::Kind::kOpen:
-      return scans_text(suspect) + whereabouts(suspect) +
-             ", which saw only walls along one direction and have no odometry";
+      return scans + ", which saw only walls along one direction and have no odometry";
+    case Suspect::Kind::kLoop:
     case Suspect::Kind::kStretch:
       break;
   }
-  return scans_text(suspect) + whereabouts(suspect) +
-         ", where the map of the second pass departs from the first";
+  return scans + ", where the map of the second pass departs from the first";
 }
 
 std::string verdict_sentence(const MapVerdict& verdict) {

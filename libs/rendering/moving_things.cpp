@@ -187,6 +187,7 @@ void MovingThings::add(const Frame& frame, const TPose2D& map_T_robot) {
   }
 }
 
+/// Moves here_ on to the robot of this interval, once it is kPathStep_m away.
 void MovingThings::follow_path(const TPoint2D& robot) {
   here_.time_us = interval_start_us_;
   const bool is_first = interval_ == 1;
@@ -209,6 +210,7 @@ void MovingThings::add_evidence(const Sightings* obstacle, double sign) {
   evidence_.push_back({obstacle->occupied_since.path_m, sign * x * x, sign * x * y, sign * y * y});
 }
 
+/// Sorts the evidence of this interval by the age of the obstacles and sums it up, the oldest first.
 void MovingThings::sum_evidence() {
   std::stable_sort(evidence_.begin(), evidence_.end(),
                    [](const Evidence& a, const Evidence& b) { return a.since_m < b.since_m; });

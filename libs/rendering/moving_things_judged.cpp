@@ -84,6 +84,7 @@ std::vector<MovingThings::Fate> MovingThings::fates() const {
   return fates;
 }
 
+/// Confirms the doubtful cells around which two passes saw enough of the other doubtful cells occupied.
 void MovingThings::keep_confirmed(std::vector<Fate>& fates) const {
   std::vector<std::size_t> confirmed;
   for (std::size_t i = 0; i < cells_.size(); ++i) {

@@ -11,8 +11,9 @@
 /// only after thousands of frames. A cell is occupied if more than a quarter of its counts are hits. The map
 /// does not depend on the number of beams. A standstill of 10 s or more counts as at most 64 frames.
 ///
-/// Obstacles that frames at other times saw through are free if GridMapOptions::keep_moving is false. What
-/// fewer beams than GridMapOptions::min_beams saw is unknown.
+/// If GridMapOptions::keep_moving is false, each place shows its newest confirmed state: obstacles that later
+/// frames saw through are free, and doubtful ones are unknown. What fewer beams than
+/// GridMapOptions::min_beams saw is unknown.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -35,11 +36,11 @@ struct GridMapOptions {
   double no_return_clears_m = 5;
   double margin_m = 0.5;  ///< width of the unknown border around all observed cells, at least two cells
   /// Largest number of cells. Larger maps get cells of twice the size, if necessary repeatedly. A cell takes
-  /// about four bytes while drawing and one byte afterwards. The limit keeps a badly distorted map from
+  /// about six bytes while drawing and one byte afterwards. The limit keeps a badly distorted map from
   /// exhausting the memory.
   std::size_t max_cells = 100'000'000;
-  /// Draws people, carts and doors that moved, too. Otherwise, obstacles that were not there at other times
-  /// are free space. Some table legs may vanish, too.
+  /// Draws people, carts and doors that moved, too. Otherwise, each place shows its newest confirmed state.
+  /// Some table legs may vanish, too.
   bool keep_moving = false;
   /// Least number of beams that must have seen an obstacle or free space, from 1 to 3. A beam counts as two
   /// where a neighbouring beam of its scan reaches as far. What fewer beams saw stays unknown.

@@ -110,10 +110,9 @@ void describe_map(OptionTable& table, GridMapOptions& map) {
               "Width of the unknown space around everything that was observed.")
       .integer("max_cells", map.max_cells, between(10'000, 1'000'000'000), "cells",
                "Largest number of cells. A larger map gets coarser cells.")
-      .flag(
-          "keep_moving", map.keep_moving,
-          "Draws people, carts and doors that moved. false: obstacles that scans at other times saw through "
-          "are free space in the finished map; some table legs may vanish, too.")
+      .flag("keep_moving", map.keep_moving,
+            "Draws people, carts and doors that moved. false: the finished map shows the newest confirmed "
+            "state of each place, and doubtful states as unknown; some table legs may vanish, too.")
       .integer(
           "min_beams", map.min_beams, between(1, 3), "beams",
           "Least number of beams that must see an obstacle or free space. A beam counts as two if a "

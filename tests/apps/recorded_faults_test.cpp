@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <iterator>
+#include <string>
 #include <utility>
 
 #include "app_run.h"
@@ -153,6 +155,81 @@ TEST(RecordedFaults, a_wrong_field_of_view_gives_the_map_of_the_right_one) {
       path_error_m(folder.path() / "wrong" / "trajectory.tum", folder.path() / "right" / "trajectory.tum"),
       0.03);
   EXPECT_THAT(map(*wrong, "stated", {"--set", "log.field_of_view_deg=90"}), Not(HasSubstr("it is used")));
+}
+
+/// A map as psi-slam writes it, of a log that begins at (1.7, 1.5) m in the simulated room.
+class MapOfRoom {
+ public:
+  explicit MapOfRoom(const fs::path& folder) {
+    std::ifstream yaml(folder / "map.yaml");
+    for (std::string word; yaml >> word;)
+      if (word == "resolution:")
+        yaml >> resolution_m_;
+      else if (word == "origin:")
+        yaml.ignore(2) >> x_min_, yaml.ignore(1) >> y_min_;
+    std::ifstream pgm(folder / "map.pgm", std::ios::binary);
+    std::string magic;
+    int most = 0;
+    pgm >> magic >> width_ >> height_ >> most;
+    pgm.ignore(1);
+    pixels_.assign(std::istreambuf_iterator<char>(pgm), {});
+  }
+
+  /// Share of the points of a line that have an obstacle within 0.1 m.
+  double drawn(double x, double y, double to_x, double to_y) const {
+    int points = 0;
+    int found = 0;
+    for (double share = 0; share <= 1; share += 0.02, ++points)
+      found += has_obstacle(x + share * (to_x - x), y + share * (to_y - y)) ? 1 : 0;
+    return static_cast<double>(found) / points;
+  }
+
+  double drawn_box(double x, double y, double width, double depth) const {
+    return (drawn(x, y, x + width, y) + drawn(x + width, y, x + width, y + depth) +
+            drawn(x + width, y + depth, x, y + depth) + drawn(x, y + depth, x, y)) /
+           4;
+  }
+
+ private:
+  bool has_obstacle(double x, double y) const {
+    const int column = static_cast<int>((x - 1.7 - x_min_) / resolution_m_);
+    const int row = height_ - 1 - static_cast<int>((y - 1.5 - y_min_) / resolution_m_);
+    for (int dx = -2; dx <= 2; ++dx)
+      for (int dy = -2; dy <= 2; ++dy)
+        if (static_cast<unsigned char>(
+                pixels_.at(static_cast<std::size_t>((row + dy) * width_ + column + dx))) < 90)
+          return true;
+    return false;
+  }
+
+  double resolution_m_ = 0;
+  double x_min_ = 0;
+  double y_min_ = 0;
+  int width_ = 0;
+  int height_ = 0;
+  std::string pixels_;
+};
+
+TEST(RecordedFaults, a_pallet_that_comes_and_stays_is_drawn) {
+  const auto log = shared_file("faults/pallet-1-4.clf.gz");
+  if (!log) GTEST_SKIP() << kNeedsData;
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_app({log->string(), "-o", (folder.path() / "map").string(), "-q"}).code, 0);
+  EXPECT_EQ(MapOfRoom(folder.path() / "map").drawn_box(2.6, 4.0, 0.7, 0.6), 1);
+}
+
+TEST(RecordedFaults, a_room_that_changed_is_drawn_as_its_newest_state) {
+  const auto log = shared_file("faults/room-3-3.clf.gz");
+  if (!log) GTEST_SKIP() << kNeedsData;
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_app({log->string(), "-o", (folder.path() / "map").string(), "-q"}).code, 0);
+  const MapOfRoom map(folder.path() / "map");
+  EXPECT_EQ(map.drawn(3.6, 3, 5.4, 3), 0) << "the old wall";
+  EXPECT_EQ(map.drawn(3.6, 3.8, 5.4, 3.8), 1) << "the wall";
+  EXPECT_EQ(map.drawn(6.15, 7, 6.85, 7), 1) << "the door";
+  EXPECT_EQ(map.drawn_box(6.2, 3.2, 0.9, 0.5), 0) << "the shelf";
+  EXPECT_GE(map.drawn_box(6.5, 3.9, 0.7, 0.6), 0.75) << "three sides of the pallet";
+  EXPECT_THAT(bytes_of(folder.path() / "map" / "summary.json"), HasSubstr("the building changed at ("));
 }
 
 TEST(RecordedFaults, a_log_packed_by_bzip2_gives_the_map_of_the_log_packed_by_gzip) {

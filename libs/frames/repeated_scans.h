@@ -38,7 +38,7 @@ class RepeatedScans {
   void travel(const Frame& frame);
   bool is_elsewhere(const Seen& seen, const Frame& frame) const;
 
-  std::map<std::size_t, std::deque<Seen>> seen_;  ///< by the laser, the newest readings last
+  std::map<std::size_t, std::deque<Seen>> seen_;  ///< by the laser, in the order in which they first came
   Frame last_;                                    ///< the frame before, without readings
   bool has_last_ = false;
   double path_m_ = 0;      ///< path by odometry so far

@@ -4,7 +4,11 @@
 #include <gmock/gmock.h>
 
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "frames/log_reader.h"
 #include "simulated_run.h"
 
 namespace psi_slam {
@@ -51,6 +55,52 @@ TEST(RepeatedScans, finds_an_older_scan_with_new_stamps) {
       "3 scans repeat the readings of an earlier scan although the robot moved (the first 8.0 s, the last "
       "8.4 s into the log), so they are left out: the laser stalled, or its driver publishes scans twice");
   EXPECT_THAT(repeats_in(frames), testing::ElementsAre(40, 41, 42));
+}
+
+TEST(RepeatedScans, remembers_the_last_eight_readings_of_a_laser_that_has_shown_five) {
+  const auto repeats_after_copying = [](std::size_t from, std::size_t to) {
+    std::vector<Frame> frames = frames_of(simulated_run({{0.08, 1.0, 60}}));
+    frames[to].scan.ranges_m = frames[from].scan.ranges_m;
+    return repeats_in(frames);
+  };
+  EXPECT_THAT(repeats_after_copying(32, 40), testing::ElementsAre(40));
+  EXPECT_THAT(repeats_after_copying(31, 40), testing::IsEmpty());
+  EXPECT_THAT(repeats_after_copying(4, 5), testing::ElementsAre(5));
+  EXPECT_THAT(repeats_after_copying(3, 4), testing::IsEmpty());
+}
+
+/// A reader of frames in memory.
+class ReaderOfFrames : public LogReader {
+ public:
+  explicit ReaderOfFrames(std::vector<Frame> frames) : frames_(std::move(frames)) {}
+  double progress() const override { return 0; }
+
+ protected:
+  std::optional<Frame> read_frame() override {
+    if (next_ == frames_.size()) return std::nullopt;
+    return frames_[next_++];
+  }
+
+ private:
+  std::vector<Frame> frames_;
+  std::size_t next_ = 0;
+};
+
+TEST(RepeatedScans, that_a_reader_leaves_out_without_a_gyroscope_end_its_heading) {
+  for (const bool knows_turn : {true, false}) {
+    std::vector<Frame> frames = frames_of(simulated_run({{0.08, 1.0, 30}}));
+    for (Frame& frame : frames) frame.imu_heading_rad = frame.odom_T_robot.phi;
+    frames[20].scan.ranges_m = frames[19].scan.ranges_m;
+    if (!knows_turn) frames[20].imu_heading_rad.reset();
+    ReaderOfFrames reader(frames);
+    for (std::size_t i = 0; i < frames.size() - 1; ++i) {
+      const auto frame = reader.next();
+      ASSERT_TRUE(frame);
+      EXPECT_EQ(frame->index, i);
+      EXPECT_EQ(frame->imu_heading_rad.has_value(), i != 20 || knows_turn) << i;
+    }
+    EXPECT_FALSE(reader.next());
+  }
 }
 
 TEST(RepeatedScans, judges_each_laser_by_itself) {

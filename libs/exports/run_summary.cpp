@@ -289,6 +289,7 @@ Json calibration_json(const std::vector<CalibratedOption>& estimates) {
                     {"standard_deviation", number(estimate.deviation, 5)},
                     {"used", estimate.is_used}});
     if (!estimate.laser.empty()) json.back()["laser"] = estimate.laser;
+    if (estimate.is_fault) json.back()["is_fault"] = true;
   }
   return json;
 }

@@ -218,6 +218,7 @@ SessionFacts MappingSession::Members::facts() const {
   RecordedLog& last = facts.logs.back();
   if (last.sha256.empty()) last.sha256 = checksum_of_log();
   last.skipped = source->skipped_lines();
+  last.assumptions = source->assumptions();
   last.broken_off = broken_off;
   last.scans_left = logs.back().scans_left || state == State::kReading;
   return facts;

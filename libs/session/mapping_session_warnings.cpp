@@ -54,6 +54,8 @@ std::vector<std::string> MappingSession::assumptions() const {
   std::vector<std::string> assumptions = m_->source->assumptions();
   for (const RecordedLog& log : m_->logs) {
     const std::string of_log = m_->logs.size() > 1 ? log.name + ": " : "";
+    if (&log != &m_->logs.back())  // those of the last log are the first
+      for (const std::string& sentence : log.assumptions) assumptions.push_back(of_log + sentence);
     if (!log.calibration) continue;
     for (const std::string& sentence : log.calibration->sentences) assumptions.push_back(of_log + sentence);
   }

@@ -73,6 +73,7 @@ Json json_of(const SessionFacts& facts) {
                     {"broken_off", log.broken_off.value_or("")},
                     {"scans_left", log.scans_left}});
     if (log.calibration) logs.back()["calibration"] = json_of(*log.calibration);
+    if (!log.assumptions.empty()) logs.back()["assumptions"] = log.assumptions;
   }
   Json runs = Json::array();
   for (const RecordedRun& run : facts.runs) {
@@ -108,6 +109,7 @@ SessionFacts facts_of(const Json& json, std::uint32_t version, const fs::path& p
                           log.at("scans").get<std::size_t>()});
     if (version >= kFactsOfEachLog) read_faults(log, version, facts.logs.back());
     if (log.contains("calibration")) facts.logs.back().calibration = calibration_of(log.at("calibration"));
+    facts.logs.back().assumptions = log.value("assumptions", std::vector<std::string>());
   }
   // Older versions have these facts only for the last log.
   if (version < kFactsOfEachLog && !facts.logs.empty()) read_faults(json, version, facts.logs.back());

@@ -88,7 +88,7 @@ class RecordedSource : public FrameSource {
     return log_ ? log_->skipped_lines() : recording_->facts.logs.back().skipped;
   }
   std::vector<std::string> assumptions() const override {
-    return log_ ? log_->assumptions() : std::vector<std::string>();
+    return log_ ? log_->assumptions() : recording_->facts.logs.back().assumptions;
   }
 
  private:

@@ -25,6 +25,7 @@ struct RecordedLog {
   std::optional<std::string> broken_off{};      ///< damage after the last frame, as a sentence
   bool scans_left = false;                      ///< whether the log is known to have more scans
   std::optional<LogCalibration> calibration{};  ///< by which the log was read; empty if nothing is replaced
+  std::vector<std::string> assumptions{};       ///< of the reader, such as scans that it left out
 };
 
 /// A merged run other than the first one; see RunStart.

@@ -291,14 +291,16 @@ class CarmenReader : public LogReader {
     return std::nullopt;
   }
 
-  /// Counts the scan if its line has a second pose. A second pose that moves with the robot is the laser's.
+  /// Counts the scan if its line has a second pose. A second pose that moves with the robot is the laser's:
+  /// by majority vote, most scans have it at one place on the robot.
   void compare_poses(const CarmenLaserMessage& message, std::size_t laser) {
     constexpr PoseTolerance kRounding{0.005, 0.005};
     if (!(message.odom_T_laser == message.odom_T_robot)) ++contents_.scans_with_two_poses;
     const mrpt::math::TPose2D robot_T_second = between(message.odom_T_robot, message.odom_T_laser);
-    const auto [first, is_new] = robot_T_second_.emplace(laser, robot_T_second);
-    if (!is_new && !is_same_place(first->second, robot_T_second, kRounding))
-      contents_.second_pose_is_mapped = true;
+    SecondPose& usual = second_poses_[laser];
+    if (usual.votes == 0) usual.robot_T_second = robot_T_second;
+    usual.votes += is_same_place(usual.robot_T_second, robot_T_second, kRounding) ? 1 : -1;
+    contents_.second_pose_is_mapped = 2 * usual.votes < ++usual.scans;
   }
 
   /// Prepares a laser for its first scan: applies the PARAM lines before it. Throws UserError if several
@@ -362,8 +364,13 @@ class CarmenReader : public LogReader {
   OdometryInterpolator interpolator_;
   // Pointers into contents_.messages, by number of the laser, to avoid a search.
   std::vector<std::size_t*> scan_counts_;
-  std::map<std::size_t, mrpt::math::TPose2D> robot_T_second_;  // second pose of the first scan, by laser
-  std::set<std::string> other_names_;  // of messages of a stream that are counted, but not read
+  struct SecondPose {
+    mrpt::math::TPose2D robot_T_second;
+    int votes = 0;  // scans with this pose, minus scans with another one
+    int scans = 0;
+  };
+  std::map<std::size_t, SecondPose> second_poses_;  // by laser
+  std::set<std::string> other_names_;               // of messages of a stream that are counted, but not read
   bool with_odometry_;
   bool ignores_odom_lines_ = false;  // because the first lines of the stream had none; none has come so far
   std::size_t lines_needed_ = 0;     // number of lines needed so far, malformed ones included

@@ -225,11 +225,12 @@ class OdometryJudge : public FindingList {
   }
 
   void judge_correction() {
-    if (facts_.contents.scans_with_two_poses > 0 && facts_.contents.second_pose_is_mapped) {
-      note("two_poses", counted(facts_.contents.scans_with_two_poses, "scan") +
-                            (facts_.contents.scans_with_two_poses == 1 ? " has" : " have") +
-                            " a second pose besides odometry, "
-                            "the result of a mapper; the odometry is used");
+    const std::size_t two_poses = facts_.contents.scans_with_two_poses;
+    const bool is_mapped = facts_.contents.second_pose_is_mapped;  // otherwise, the laser's in most scans
+    if (two_poses > 0 && (is_mapped || 2 * two_poses < facts_.scans)) {
+      note("two_poses", counted(two_poses, "scan") + (two_poses == 1 ? " has" : " have") +
+                            " a second pose besides odometry" +
+                            (is_mapped ? ", the result of a mapper" : "") + "; the odometry is used");
     }
     const RevisitAgreement& revisits = diagnosis_.revisits;
     if (revisits.agreeing < 8 || share_of(revisits.agreeing, revisits.revisits) < 0.7) return;

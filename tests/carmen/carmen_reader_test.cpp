@@ -81,6 +81,13 @@ TEST_F(CarmenReaderTest, tells_the_pose_of_the_laser_from_a_mapped_pose) {
   EXPECT_FALSE(contents_.second_pose_is_mapped);
   read(flaser("FLASER", "1 0 0", "1 0 0", "1") + flaser("FLASER", "2 0.1 1.5708", "2 0 1.5708", "2"));
   EXPECT_TRUE(contents_.second_pose_is_mapped);
+  for (int odd = 0; odd < 8; ++odd) {
+    std::string log;
+    for (int i = 0; i < 8; ++i)
+      log += flaser("FLASER", i == odd ? "0 0 0" : "1.1 0 0", "1 0 0", std::to_string(i));
+    read(log);
+    EXPECT_FALSE(contents_.second_pose_is_mapped) << "one odd scan: " << odd;
+  }
 }
 
 TEST_F(CarmenReaderTest, reads_rlaser_if_selected_or_alone) {

@@ -19,8 +19,6 @@ constexpr double kMoving_m = 0.02;  // least step of a moving robot
 constexpr double kMetresPerRadian = 0.5;
 constexpr double kMostChange = 2.0;  // of the speed of a moving robot from one step to the next
 constexpr double kStandingShare = 0.01;
-constexpr double kRegular = 0.02;  // deviation of a period, as a share; a robot's speed varies by more
-constexpr double kRegularShare = 0.8;
 
 /// Length of the motion from the frame before, with turns, metres.
 double step_m(const std::vector<FrameMark>& marks, std::size_t frame) {
@@ -38,19 +36,34 @@ bool moves_steadily(const std::vector<FrameMark>& marks, std::size_t frame) {
   return least_m >= kMoving_m && most_m <= kMostChange * least_m;
 }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Median deviation of values from their median, as a share of it.
+double spread_of(std::vector<double> values) {
+  const double middle = median(values);
+  for (double& value : values) value = std::abs(value - middle);
+  return median(values) / middle;
+}
+
 /// Returns whether scans were taken at times, not after motions: some were taken while the robot stood, or
-/// all periods are alike. A log that is thinned by distance has none at rest, so a gap may be a pause.
-bool is_sampled_in_time(const std::vector<FrameMark>& marks, double median_period_s) {
-  std::size_t standing = 0;
-  std::size_t regular = 0;
+/// the periods are more alike than the steps. A log that is thinned by distance has equal steps and no scan
+/// at rest, so a gap may be a pause.
+bool is_sampled_in_time(const std::vector<FrameMark>& marks) {
+  std::vector<double> steps_m;
+  std::vector<double> periods_s;
   for (std::size_t i = 1; i < marks.size(); ++i) {
-    if (step_m(marks, i) < kMoving_m) ++standing;
-    const double period_s = seconds(marks[i].time_us - marks[i - 1].time_us);
-    if (std::abs(period_s - median_period_s) <= kRegular * median_period_s) ++regular;
+    const double length_m = step_m(marks, i);
+    if (length_m < kMoving_m) continue;
+    steps_m.push_back(length_m);
+    periods_s.push_back(std::abs(seconds(marks[i].time_us - marks[i - 1].time_us)));
   }
   const auto steps = static_cast<double>(marks.size()) - 1;
-  return static_cast<double>(standing) >= kStandingShare * steps ||
-         static_cast<double>(regular) >= kRegularShare * steps;
+  const double standing = steps - static_cast<double>(steps_m.size());
+  return steps_m.empty() || standing >= kStandingShare * steps || spread_of(periods_s) <= spread_of(steps_m);
 }
 
 }  // namespace
@@ -59,7 +72,7 @@ std::vector<ClockJump> clock_jumps(const std::vector<FrameMark>& marks, double m
                                    bool has_odometry) {
   const double least_jump_s = std::max(kLeastJump_s, kJumpPeriods * median_period_s);
   std::vector<ClockJump> jumps;
-  const bool tells_pauses = has_odometry && is_sampled_in_time(marks, median_period_s);
+  const bool tells_pauses = has_odometry && is_sampled_in_time(marks);
   for (std::size_t i = 1; i < marks.size(); ++i) {
     const double passed_s = seconds(marks[i].time_us - marks[i - 1].time_us);
     const bool jumps_ahead = tells_pauses && passed_s > least_jump_s && moves_steadily(marks, i);

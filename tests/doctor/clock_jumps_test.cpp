@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace psi_slam {
 namespace {
 
@@ -56,6 +58,17 @@ TEST(ClockJumps, are_no_pauses_in_a_log_that_is_thinned_by_distance) {
   EXPECT_TRUE(clock_jumps(marks, 0.48, true).empty());
   for (int i = 0; i < 5; ++i) marks.insert(marks.begin(), {-500'000 * (i + 1), {0, 0, 0}});
   EXPECT_EQ(clock_jumps(marks, 0.48, true).size(), 3U) << "scans of a robot at rest";
+}
+
+TEST(ClockJumps, are_found_of_a_robot_that_never_rests_and_whose_stamps_jitter) {
+  std::vector<FrameMark> marks;
+  double x_m = 0;
+  for (int i = 0; i < 100; ++i) {
+    marks.push_back({200'000 * i + 9'000 * (i % 3), {x_m, 0, 0}});
+    x_m += 0.15 + 0.06 * std::sin(0.3 * i);  // its speed varies
+  }
+  EXPECT_TRUE(clock_jumps(marks, kPeriod_s, true).empty());
+  EXPECT_EQ(clock_jumps(with_jump(marks, 30), kPeriod_s, true).size(), 1U);
 }
 
 }  // namespace

@@ -21,11 +21,11 @@ using mrpt::math::TPose2D;
 constexpr std::size_t kFewestTurningPairs = 15;
 constexpr std::size_t kMostTurningPairs = 60;
 // The right field of view explains what the wrong one does not.
-constexpr double kLeastGain = 0.1;  // of the mean distance to walls, as a share
-constexpr double kErrors = 5;       // least difference of the distances, in standard errors
-constexpr double kMostTurns = 0.7;  // least share of the turns that agree
-constexpr double kTurnToleranceShare =
-    0.2;  // of a turn: odometry slips, and a wrong field of view shows half of it
+constexpr double kLeastGain = 0.1;           // of the mean distance to walls, as a share
+constexpr double kErrors = 5;                // least difference of the distances, in standard errors
+constexpr double kLeastAgreeingShare = 0.7;  // of the turns
+// Of a turn. Odometry slips by less, and a wrong field of view shows twice the turn or half of it.
+constexpr double kTurnToleranceShare = 0.2;
 const double kTurnTolerance_rad = DEG2RAD(1.0);
 
 /// Returns the field of view of evenly spaced bearings, as log.field_of_view_deg states it. 0 if they are not
@@ -113,9 +113,10 @@ bool fits_walls_better(const std::vector<std::vector<double>>& rows, const Field
 FieldOfViewEvidence choose_field_of_view_evidence(const std::vector<FrameMark>& marks) {
   FieldOfViewEvidence evidence;
   evidence.turning_pairs = pairs_by_turn(marks, DEG2RAD(6.0), DEG2RAD(45.0), 0.5, kMostTurningPairs);
-  for (const FramePair& pair : pairs_by_motion(marks, 0.5, DEG2RAD(6.0), 10 * kMostTurningPairs))
-    if (evidence.straight_pairs.size() < kMostTurningPairs && odometry_between(marks, pair).norm() > 0.4)
-      evidence.straight_pairs.push_back(pair);
+  std::vector<FramePair>& straight = evidence.straight_pairs;
+  for (const FramePair& pair : pairs_by_motion(marks, 0.5, DEG2RAD(6.0), marks.size()))
+    if (std::abs(odometry_between(marks, pair).phi) < DEG2RAD(6.0)) straight.push_back(pair);
+  straight = thinned(straight, kMostTurningPairs);
   return evidence;
 }
 
@@ -144,7 +145,8 @@ FieldOfViewStudy study_field_of_view(const std::vector<FrameMark>& marks, const 
     study.fits[k].mean_distance_m = mean_distance_m(straight.distances_m, k);
     if (study.fits[k].turn_share > study.fits[best].turn_share) best = k;
   }
-  if (study.fits[best].turn_share >= kMostTurns && study.fits.front().turn_share < 1 - kMostTurns &&
+  if (study.fits[best].turn_share >= kLeastAgreeingShare &&
+      study.fits.front().turn_share < 1 - kLeastAgreeingShare &&
       fits_walls_better(straight.distances_m, study, best))
     study.best = best;
   return study;

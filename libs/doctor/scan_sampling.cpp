@@ -27,14 +27,6 @@ double odometry_m(const FrameMark& a, const FrameMark& b) {
   return distance_m(a.odom_T_robot, b.odom_T_robot);
 }
 
-template <class Item>
-std::vector<Item> thinned(const std::vector<Item>& items, std::size_t most) {
-  if (items.size() <= most) return items;
-  std::vector<Item> kept;
-  for (std::size_t i = 0; i < most; ++i) kept.push_back(items[i * items.size() / most]);
-  return kept;
-}
-
 std::vector<double> ways_m(const std::vector<FrameMark>& marks) {
   std::vector<double> ways(marks.size(), 0);
   for (std::size_t i = 1; i < marks.size(); ++i) ways[i] = ways[i - 1] + odometry_m(marks[i - 1], marks[i]);

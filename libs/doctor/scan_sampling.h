@@ -26,6 +26,15 @@ struct FramePair {
   std::size_t second = 0;
 };
 
+/// Returns `most` of the items, evenly, or all if there are fewer.
+template <class Item>
+std::vector<Item> thinned(const std::vector<Item>& items, std::size_t most) {
+  if (items.size() <= most) return items;
+  std::vector<Item> kept;
+  for (std::size_t i = 0; i < most; ++i) kept.push_back(items[i * items.size() / most]);
+  return kept;
+}
+
 /// Returns the pose at `second` relative to `first`, by odometry.
 mrpt::math::TPose2D odometry_between(const std::vector<FrameMark>& marks, const FramePair& pair);
 

@@ -38,7 +38,9 @@ struct OdometryFacts {
 struct RangeFacts {
   std::size_t readings = 0;
   std::size_t returns = 0;
-  std::size_t invalid = 0;      ///< readings that are zero, negative or not a number
+  /// Readings that a reader makes no number: zero, negative, below the minimum range that the log states, and
+  /// those of masked beams.
+  std::size_t invalid = 0;
   std::size_t empty_scans = 0;  ///< scans without any return
   float max_range_m = 0;        ///< readings of at least this range are no returns
   float median_return_m = 0;

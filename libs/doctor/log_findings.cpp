@@ -125,7 +125,8 @@ class Judge : public FindingList {
     if (returns < 0.3 && 2 * ranges.invalid > ranges.readings - ranges.returns) {
       note("few_returns", "only " + percent(returns) + " of the readings are returns, and " +
                               percent(share_of(ranges.invalid, ranges.readings)) +
-                              " are zero or invalid, as some lasers write for \"no return\"");
+                              " are zero, invalid or below the minimum range, as some lasers write for "
+                              "\"no return\"");
     } else if (returns < 0.3) {
       warn("few_returns",
            "only " + percent(returns) + " of the readings are returns below the maximum of " +

@@ -102,11 +102,15 @@ void calibrate(SessionInput& input, const Settings& settings, const CommandLine&
   check(settings);
   WorkProgress progress(streams.err_is_terminal && !line.quiet ? &streams.err : nullptr);
   const std::string log = input.logs().back().name;
-  input.calibrate(log_options(settings), [&](double share) {
-    if (signals.came())
-      throw SystemFailure("interrupted before " + log + " was calibrated. Nothing was written");
-    progress.show("calibrating " + log, share, 1);
-  });
+  try {
+    input.calibrate(log_options(settings), [&](double share) {
+      if (signals.came())
+        throw SystemFailure("interrupted before " + log + " was calibrated. Nothing was written");
+      if (settings.log.calibrate) progress.show("calibrating " + log, share, 1);
+    });
+  } catch (const SystemFailure&) {
+    if (settings.log.calibrate) throw;  // otherwise, mapping tells
+  }
 }
 
 void watch(MappingSession& session, const InterruptSignals& signals, const CommandLine& line,

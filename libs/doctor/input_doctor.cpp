@@ -36,7 +36,8 @@ MaxRange study_max_range(const std::filesystem::path& path, LogOptions options) 
   return found.empty() ? MaxRange() : found.begin()->second;
 }
 
-FirstPass read_once(const std::filesystem::path& path, const LogOptions& options, double max_range_m) {
+FirstPass read_once(const std::filesystem::path& path, const LogOptions& options, double max_range_m,
+                    const ShareObserver& progress) {
   LogOptions unlimited = options;
   unlimited.max_range_m = std::numeric_limits<double>::infinity();
   unlimited.min_range_m = 0;
@@ -46,6 +47,7 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
   std::string broken_off;
   try {
     while (const auto frame = log->next()) {
+      if (progress) progress(log->progress());
       if (pass.bearings_rad.empty()) pass.bearings_rad = *frame->scan.bearings_rad;
       collector.add(*frame, static_cast<float>(max_range_m), static_cast<float>(options.min_range_m));
     }
@@ -72,7 +74,8 @@ double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {
 
 /// Aligns scans with each other and compares their motions with odometry. Sets the members of `diagnosis`
 /// that depend on odometry.
-void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& options, LogDiagnosis& diagnosis) {
+void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& options,
+                                 const ShareObserver& progress, LogDiagnosis& diagnosis) {
   const auto& lasers = pass.facts.contents.laser_names;
   const double stated_delay_s = delay_of_laser(stated_delays(diagnosis.options),
                                                lasers.empty() ? std::vector<std::string>() : lasers.front());
@@ -96,7 +99,7 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
   library.want(revisits);
   library.want(evidence.turning_pairs);
   for (const auto& turn : evidence.full_turns) library.want(turn);
-  library.fetch(diagnosis.path, diagnosis.options);
+  library.fetch(diagnosis.path, diagnosis.options, progress);
 
   std::vector<FrameMark> corrected = marks;  // for a delay without which odometry contradicts the scans
   diagnosis.odometry = check_odometry_and_delay(corrected, tracks, library);
@@ -176,7 +179,8 @@ LasersOfLog single_lasers(const std::filesystem::path& path, const LogOptions& o
   return {true, std::move(lasers)};
 }
 
-LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options) {
+LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options,
+                      const ShareObserver& progress) {
   LogDiagnosis diagnosis;
   diagnosis.path = path;
   const LasersOfLog log = single_lasers(path, options);
@@ -186,7 +190,8 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
   check_log_options(diagnosis.options);
   diagnosis.max_range = study_max_range(path, diagnosis.options);
   FirstPass pass = read_once(path, diagnosis.options,
-                             diagnosis.options.max_range_m.value_or(diagnosis.max_range.max_range_m));
+                             diagnosis.options.max_range_m.value_or(diagnosis.max_range.max_range_m),
+                             part_of(progress, 0, 0.5));
   diagnosis.facts = pass.facts;
   diagnosis.headings_are_quaternions = is_bag(detect_log_format(path));
   if (pass.facts.ranges.empty_scans == pass.facts.scans)
@@ -199,7 +204,8 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
         options.beam_angles == BeamAngles::kAuto ? usual_beam_angles(pass.facts.beams) : options.beam_angles;
   }
   diagnosis.sweep_direction = study_first_laser(path, diagnosis.options, options.sweep_time_s);
-  if (pass.facts.scans_without_odometry == 0) compare_odometry_with_scans(pass, options, diagnosis);
+  if (pass.facts.scans_without_odometry == 0)
+    compare_odometry_with_scans(pass, options, part_of(progress, 0.5, 1), diagnosis);
   diagnosis.marks = std::move(pass.marks);
   diagnosis.findings = judge(diagnosis);
   return diagnosis;

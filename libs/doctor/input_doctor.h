@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/share_observer.h"
 #include "doctor/beam_angle_study.h"
 #include "doctor/field_of_view_study.h"
 #include "doctor/log_facts.h"
@@ -65,8 +66,10 @@ struct LogDiagnosis {
 
 /// Reads the whole log and judges it as recorded: ignores `options.every_nth_scan`, and `sweep_time_s` for
 /// all but the study of the sweep direction. Judges the first of several lasers. Judges a truncated or
-/// damaged log up to the damage. Throws UserError if the first scan cannot be read.
-LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options = {});
+/// damaged log up to the damage. Reports the progress of reading. Throws UserError if the first scan cannot
+/// be read.
+LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options = {},
+                      const ShareObserver& progress = {});
 
 /// A laser of a log.
 struct SingleLaser {

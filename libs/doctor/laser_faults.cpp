@@ -6,10 +6,12 @@
 
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <utility>
 
 #include "base/portable_math.h"
 #include "doctor/input_doctor.h"
+#include "frames/laser_choice.h"
 #include "frames/log_reader.h"
 #include "frames/pose_operations.h"
 #include "frames/scan_alignment.h"
@@ -46,14 +48,20 @@ struct Comparison {
 };
 
 /// Returns whether scans and odometry move differently in most pairs of scans of the beginning of the log.
-bool contradicts_odometry(const std::filesystem::path& path, const LogOptions& options) {
-  const auto log = open_log_reader(path, options);
+bool contradicts_odometry(const std::filesystem::path& path, const LogOptions& options,
+                          const ShareObserver& progress) {
+  std::unique_ptr<FrameSource> log;
+  if (stated_delays(options).empty())
+    log = open_log_reader(path, options);
+  else
+    log = open_log(path, options);  // removes them
   Comparison straight;
   Comparison turns;
   std::optional<Frame> reference;
   for (std::size_t pairs = 0; pairs < kMostCompared && !(straight.is_enough() && turns.is_enough());) {
     std::optional<Frame> frame = log->next();
     if (!frame) break;
+    if (progress) progress(log->progress());
     if (!frame->has_odometry) return false;
     if (!reference) {
       reference = std::move(frame);
@@ -81,16 +89,19 @@ bool contradicts_odometry(const std::filesystem::path& path, const LogOptions& o
 
 }  // namespace
 
-LaserFaults find_laser_faults(const std::filesystem::path& path, const LogOptions& options) {
+LaserFaults find_laser_faults(const std::filesystem::path& path, const LogOptions& options,
+                              const ShareObserver& progress) {
   LaserFaults faults;
   const bool states_beams = options.field_of_view_rad || options.beam_angles != BeamAngles::kAuto;
   const bool states_mount = options.robot_T_laser || !options.laser_mounts.empty();
   if (states_beams && states_mount) return faults;
   try {
-    if (combines_lasers(path, options) || !contradicts_odometry(path, options)) return faults;
-    const LogDiagnosis diagnosis = diagnose(path, options);
+    if (combines_lasers(path, options) || !contradicts_odometry(path, options, part_of(progress, 0, 0.5)))
+      return faults;
+    const LogDiagnosis diagnosis = diagnose(path, options, part_of(progress, 0.5, 1));
     if (diagnosis.field_of_view.finds_fault() && !states_beams) {
       faults.stated_field_of_view_rad = diagnosis.field_of_view.fits.front().field_of_view_rad;
+      if (!diagnosis.facts.contents.states_beam_angles) faults.assumed_for_beams = diagnosis.facts.beams;
       faults.field_of_view_rad = diagnosis.field_of_view.fits[diagnosis.field_of_view.best].field_of_view_rad;
     }
     faults.stated_mount = diagnosis.facts.robot_T_laser;

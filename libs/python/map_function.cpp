@@ -29,7 +29,9 @@ py::object map_log(const std::filesystem::path& log, const py::object& settings,
   try {
     shared->use([&](std::unique_ptr<MappingSession>& session) {
       SessionInput input(log);
-      input.calibrate(log_options(bound.settings), [&](double share) { watch.show_calibration(share); });
+      input.calibrate(log_options(bound.settings), [&](double share) {
+        if (bound.settings.log.calibrate) watch.show_calibration(share);
+      });
       session = std::make_unique<MappingSession>(input, bound.settings);
       session->add_edits(journal);
       session->set_observer([&](const SessionProgress& now) { watch.show(now); });

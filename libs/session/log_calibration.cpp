@@ -165,7 +165,10 @@ LogCalibration use_laser_faults(const LaserFaults& faults) {
     add(kFieldOfView, value_deg, 0);
     made.sentences.push_back("the scans have a field of view of " + trimmed_text(value_deg, 1) +
                              " degrees, not " + trimmed_text(RAD2DEG(faults.stated_field_of_view_rad), 1) +
-                             " as the log states; it is used. State another one with " + kFieldOfView);
+                             (faults.assumed_for_beams == 0
+                                  ? " as the log states"
+                                  : " as psi-slam assumes for " + counted(faults.assumed_for_beams, "beam")) +
+                             "; it is used. State another one with " + kFieldOfView);
   }
   if (faults.mount && is_determined(*faults.mount)) {
     const LaserMountEstimate& mount = *faults.mount;
@@ -175,7 +178,7 @@ LogCalibration use_laser_faults(const LaserFaults& faults) {
     add(kLaserYaw, RAD2DEG(pose.phi), RAD2DEG(mount.deviation_rad));
     made.sentences.push_back("the laser is mounted at " + text_of(mount) + ", not at yaw " +
                              fixed_text(RAD2DEG(faults.stated_mount.phi), 2) +
-                             " degrees as the log states; this pose is used. State another one with " +
+                             " degrees as read from the log; this pose is used. State another one with " +
                              kLaserX + ", " + kLaserY + " and " + kLaserYaw);
   }
   return made;
@@ -183,7 +186,7 @@ LogCalibration use_laser_faults(const LaserFaults& faults) {
 
 LogCalibration calibrate_log(const std::filesystem::path& log, const LogOptions& options,
                              const ShareObserver& progress) {
-  LogCalibration made = use_laser_faults(find_laser_faults(log, options));
+  LogCalibration made = use_laser_faults(find_laser_faults(log, options, part_of(progress, 0, 0)));
   name_laser(made, log, options);
   if (!options.calibrate) return made;
   const LogOptions corrected = calibrated_options(options, made);

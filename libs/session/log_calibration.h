@@ -33,7 +33,8 @@ LogCalibration use_calibration(const OdometryCalibration& calibration, const Log
 LogCalibration use_laser_faults(const LaserFaults& faults);
 
 /// Finds wrong statements about the laser, and with options.calibrate calibrates the log as `options` read
-/// it. The estimates do not name the log. Throws UserError if the log is unreadable.
+/// it. The progress is 0 until it calibrates. The estimates do not name the log. Throws UserError if the log
+/// is unreadable.
 LogCalibration calibrate_log(const std::filesystem::path& log, const LogOptions& options,
                              const ShareObserver& progress = {});
 

@@ -22,6 +22,7 @@ TEST(LaserFaults, are_wrong_fields_of_view_and_turned_lasers) {
   ASSERT_TRUE(of_view.field_of_view_rad);
   EXPECT_NEAR(*of_view.field_of_view_rad, M_PI, 1e-9);
   EXPECT_FALSE(of_view.mount);
+  EXPECT_EQ(of_view.assumed_for_beams, 0U);
   const LaserFaults of_mount = find_laser_faults(*backwards, {});
   ASSERT_TRUE(of_mount.mount);
   EXPECT_FALSE(of_mount.field_of_view_rad);
@@ -51,6 +52,7 @@ TEST(LaserFaults, are_found_for_each_heading_and_field_of_view) {
     const LaserFaults faults = faults_of(run);
     ASSERT_TRUE(faults.field_of_view_rad) << true_deg;
     EXPECT_NEAR(*faults.field_of_view_rad, mrpt::DEG2RAD(true_deg), 1e-9);
+    EXPECT_EQ(faults.assumed_for_beams, 180U);
   }
 }
 

@@ -507,6 +507,36 @@ TEST_F(CalibratedSession, can_be_interrupted_while_it_calibrates) {
   EXPECT_FALSE(input.logs().back().calibration);
 }
 
+TEST_F(CalibratedSession, can_be_interrupted_while_it_looks_for_wrong_statements) {
+  settings_.log.calibrate = false;
+  SessionInput input(log("room.log", lines_));
+  const auto interrupt = [](double share) {
+    EXPECT_EQ(share, 0);
+    throw SystemFailure("interrupted");
+  };
+  EXPECT_THROW(input.calibrate(log_options(settings_), interrupt), SystemFailure);
+  input.calibrate(log_options(settings_), interrupt);  // looks once only
+  EXPECT_FALSE(input.logs().back().calibration);
+}
+
+TEST_F(CalibratedSession, keeps_what_the_reader_of_an_earlier_log_left_out) {
+  settings_.log.calibrate = false;
+  const auto half = lines_.begin() + 200;
+  const auto begin_of_poses = [](const std::string& line) {  // after 180 readings
+    std::size_t at = 0;
+    for (int words = 0; words < 182; ++words) at = line.find(' ', at) + 1;
+    return at;
+  };
+  std::string& stalled = lines_[150];
+  stalled = lines_[149].substr(0, begin_of_poses(lines_[149])) + stalled.substr(begin_of_poses(stalled));
+  saved_after(199, log("first.log", {lines_.begin(), half}));
+  MappingSession session(resumed(log("second.log", {half, lines_.end()})), settings_);
+  session.run(go_on_);
+  EXPECT_THAT(session.run_info().warnings,
+              testing::Contains(HasSubstr("first.log: 1 scan repeats the readings of an earlier scan")));
+  EXPECT_EQ(session.result().frames.size(), lines_.size() - 2);
+}
+
 TEST_F(ResumedSession, rejects_a_log_that_does_not_continue_it) {
   const auto path = log("room.log", room_log_lines(60));
   saved_after(40, path);

@@ -34,8 +34,9 @@ struct FieldOfViewStudy {
 
 /// Frames that a study compares.
 struct FieldOfViewEvidence {
-  std::vector<FramePair> turning_pairs;   ///< frames between which the robot turned by 6 to 45 degrees
-  std::vector<FramePair> straight_pairs;  ///< frames between which it moved 0.5 m and turned by less than 6 degrees
+  std::vector<FramePair> turning_pairs;  ///< between their frames, the robot turned by 6 to 45 degrees
+  /// Between their frames, the robot moved by 0.5 m and turned by less than 6 degrees.
+  std::vector<FramePair> straight_pairs;
 };
 
 /// Selects the frames for a study by odometry.

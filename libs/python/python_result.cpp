@@ -319,9 +319,15 @@ void bind_result(py::module_& module) {
       .def_property_readonly(
           "suspect", [](const HotSpot& spot) { return text_of(spot.suspect); },
           "Probable cause: a loop, or a stretch of the path.")
-      .def_property_readonly("advice", &advice_text, "The setting or edit that would help.")
+      .def_property_readonly("advice", &advice_text, "The edit or the drive that would help.")
       .def_property_readonly("edit", &edit_line,
                              "Line for a file of edits that would help; empty if no edit is advised.")
+      .def_property_readonly(
+          "moved_m",
+          [](const HotSpot& spot) {
+            return spot.effect ? std::optional<double>(spot.effect->moved_m) : std::nullopt;
+          },
+          "Largest motion of a node by that edit, metres; None without an edit.")
       .def("__repr__", [](const HotSpot& spot) { return "<psi_slam.HotSpot: " + hot_spot_text(spot) + ">"; });
 
   const auto place = [](const mrpt::math::TPoint2D& at) { return py::make_tuple(at.x, at.y); };
@@ -348,6 +354,15 @@ void bind_result(py::module_& module) {
           "Place (x, y) of its middle in the map, metres.")
       .def_readonly("has_odometry", &OpenStretch::has_odometry, "Whether odometry measured the motion.");
 
+  py::class_<SceneChange>(module, "SceneChange", "Place where the building changed between two passes.")
+      .def_property_readonly(
+          "place", [=](const SceneChange& change) { return place(change.at); },
+          "Place (x, y) in the map, metres.")
+      .def_readonly("before_s", &SceneChange::before_s,
+                    "Time of the last scan that saw it before, seconds since the first scan.")
+      .def_readonly("after_s", &SceneChange::after_s,
+                    "Time of the first scan that saw it afterwards, seconds since the first scan.");
+
   py::class_<MapVerdict>(module, "Verdict", "Judgement of a map without ground truth.")
       .def_property_readonly(
           "state", [](const MapVerdict& verdict) { return text_of(verdict.state); },
@@ -369,6 +384,8 @@ void bind_result(py::module_& module) {
                     "UncheckedStretch.")
       .def_readonly("open_stretches", &MapVerdict::open_stretches,
                     "Parts of the path along bare walls, in the order of the log: a list of OpenStretch.")
+      .def_readonly("changes", &MapVerdict::changes,
+                    "Places where the building changed between passes: a list of SceneChange.")
       .def_readonly("hot_spots", &MapVerdict::hot_spots,
                     "Doubtful places, the worst first: a list of HotSpot.")
       .def_readonly("more_hot_spots", &MapVerdict::more_hot_spots,

@@ -133,6 +133,11 @@ def test_verdict_and_summary_equal_the_file(turned):
     assert [spot.edit or None for spot in result.verdict.hot_spots] == [
         spot["edit"] for spot in summary["verdict"]["hot_spots"]
     ]
+    assert [spot.moved_m for spot in result.verdict.hot_spots] == [
+        moved_m and pytest.approx(moved_m, abs=1e-3)
+        for moved_m in (spot["moved_m"] for spot in summary["verdict"]["hot_spots"])
+    ]
+    assert len(result.verdict.changes) == len(summary["verdict"]["changes"])
     assert result.verdict.more_hot_spots == summary["verdict"]["more_hot_spots"]
     assert result.settings == summary["settings"]
     assert result.warnings == summary["warnings"]
@@ -151,6 +156,7 @@ def test_an_unchecked_map_names_the_path_to_drive_again(tmp_path):
     assert 0 < stretch.sigma_m < 1
     assert f"scans 0 to {stretch.last_scan}" in verdict.sentence
     assert verdict.open_stretches == []
+    assert verdict.changes == []
 
 
 def test_arrays_are_computed_once_and_read_only(result):

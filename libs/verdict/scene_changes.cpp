@@ -41,7 +41,8 @@ std::vector<SceneChange> scene_changes(const MappingResult& result, const std::v
                    [](const Place& a, const Place& b) { return a.checks > b.checks; });
   std::vector<SceneChange> changes;
   for (const Place& place : places)
-    if (place.checks >= least_checks) changes.push_back(place.change);
+    if (place.checks >= least_checks && place.change.before_s < place.change.after_s)
+      changes.push_back(place.change);
   return changes;
 }
 
@@ -52,7 +53,7 @@ std::string text_of(const std::vector<SceneChange>& changes) {
     const SceneChange& change = changes[i];
     text +=
         (i == 0 ? "" : ", ") + ("(" + fixed_text(change.at.x, 1)) + ", " + fixed_text(change.at.y, 1) + ") m";
-    if (change.before_s >= 0 && change.before_s < change.after_s)
+    if (change.before_s >= 0)
       text += " between " + minutes_text(std::floor(change.before_s)) + " and " +
               minutes_text(std::ceil(change.after_s));
   }

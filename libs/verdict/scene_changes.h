@@ -15,12 +15,12 @@ namespace psi_slam {
 struct SceneChange {
   mrpt::math::TPoint2D at;  ///< place in the map, metres
   double before_s = 0;      ///< time of the last scan that saw the scene before, since the first scan
-  /// Time of the first scan that saw the scene after the change; before before_s if it changed repeatedly.
-  double after_s = 0;
+  double after_s = 0;       ///< time of the first scan that saw the scene after the change
 };
 
 /// Returns the places of the checks that found a changed scene, the place of most checks first. Changes
-/// within 2 m of each other are one. Leaves out those that fewer than `least_checks` found.
+/// within 2 m of each other are one. Leaves out those that fewer than `least_checks` found,
+/// and those whose checks have no time of change in common.
 std::vector<SceneChange> scene_changes(const MappingResult& result, const std::vector<MapView>& views,
                                        const std::vector<PassCheck>& checks, std::size_t least_checks);
 

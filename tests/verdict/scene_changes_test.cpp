@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <utility>
+#include <vector>
+
 #include "changing_room.h"
 #include "frames/pose_operations.h"
 #include "verdict/map_verdict.h"
@@ -59,6 +62,29 @@ TEST_F(SceneChanges, are_no_fault_of_the_poses) {
   EXPECT_LE(verdict.changes.front().before_s, change_s);
   EXPECT_GE(verdict.changes.front().after_s, change_s - 0.3);
   EXPECT_THAT(verdict_sentence(verdict), HasSubstr("; the building changed at ("));
+}
+
+TEST_F(SceneChanges, have_a_time_that_all_comparisons_allow) {
+  drive(1, kWall);
+  const MappingResult map = map_of(room_);
+  const std::vector<MapView> views = map_views(map);
+  ASSERT_GT(views.size(), 9U);
+  const auto found = [&](const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
+    std::vector<PassCheck> checks;
+    for (const auto& [view, other] : pairs) {
+      PassCheck check;
+      check.view = view;
+      check.other = other;
+      check.scene_changed = true;
+      checks.push_back(check);
+    }
+    return scene_changes(map, views, checks, 1);
+  };
+  const std::vector<SceneChange> changes = found({{0, 5}, {9, 3}});
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_NEAR(changes.front().before_s, 0.3 * static_cast<double>(views[3].frame), 1e-6);
+  EXPECT_NEAR(changes.front().after_s, 0.3 * static_cast<double>(views[5].frame), 1e-6);
+  EXPECT_TRUE(found({{0, 5}, {6, 9}}).empty()) << "no single change explains both";
 }
 
 TEST_F(SceneChanges, are_not_found_in_a_room_that_stays) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/median.h"
 #include "base/portable_math.h"
 #include "frames/pose_operations.h"
 
@@ -34,12 +35,6 @@ bool moves_steadily(const std::vector<FrameMark>& marks, std::size_t frame) {
   const double after_m = step_m(marks, frame + 1);
   const auto [least_m, most_m] = std::minmax({before_m, across_m, after_m});
   return least_m >= kMoving_m && most_m <= kMostChange * least_m;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Median deviation of values from their median, as a share of it.

@@ -7,6 +7,7 @@
 #include "base/atomic_file.h"
 #include "base/atomic_folder.h"
 #include "base/degrees.h"
+#include "base/median.h"
 #include "base/number_text.h"
 #include "trajectory/trajectory_file.h"
 
@@ -14,13 +15,6 @@ namespace psi_slam {
 namespace {
 
 using State = LocalizationStep::State;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::string percent(std::size_t part, std::size_t whole) {
   return fixed_text(whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole), 1) + " %";

@@ -220,6 +220,12 @@ void compare_turns(const std::vector<Track>& tracks, OdometryAgreement& agreemen
 
 }  // namespace
 
+bool moves_in_another_direction(const OdometryAgreement& odometry) {
+  constexpr double kLeastConcentration = 0.8;
+  return odometry.direction_concentration >= kLeastConcentration &&
+         std::abs(odometry.direction_offset_rad) >= kOtherDirection_rad;
+}
+
 bool follows_its_heading(const OdometryAgreement& odometry) {
   return odometry.odometry_slip_rad < DEG2RAD(20.0);
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/degrees.h"
 #include "doctor/log_facts.h"
 #include "doctor/scan_delay.h"
 #include "doctor/scan_sampling.h"
@@ -51,6 +52,13 @@ struct OdometryAgreement {
 
 /// Returns whether odometry moves along its own headings, forwards or backwards, as wheels do.
 bool follows_its_heading(const OdometryAgreement& odometry);
+
+/// Least angle between the directions of motion by scans and by odometry that wheels which slip do not
+/// explain.
+inline constexpr double kOtherDirection_rad = radians_from_degrees(15.0L);
+
+/// Returns whether the scans move in another direction than odometry, the same along all tracks.
+bool moves_in_another_direction(const OdometryAgreement& odometry);
 
 /// Returns whether units and signs of odometry are right, as far as the scans tell.
 bool is_sound(const OdometryAgreement& odometry);

@@ -186,7 +186,7 @@ class OdometryJudge : public FindingList {
   void judge_direction(const OdometryAgreement& odometry) {
     const double off_rad = odometry.direction_offset_rad;
     if (diagnosis_.laser_is_turned && diagnosis_.mount) return;  // see judge_mount()
-    if (odometry.direction_concentration < 0.8 || std::abs(off_rad) < DEG2RAD(15.0)) return;
+    if (!moves_in_another_direction(odometry)) return;
     const double heading_rad = mrpt::math::wrapToPi(facts_.robot_T_laser.phi - off_rad);
     warn("laser_heading",
          "the scans move " + fixed(RAD2DEG(off_rad), 0) +

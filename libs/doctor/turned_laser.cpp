@@ -13,23 +13,21 @@ using mrpt::DEG2RAD;
 using mrpt::math::TPose2D;
 using mrpt::math::wrapToPi;
 
-constexpr double kLeastConcentration = 0.8;
-const double kTurned_rad = DEG2RAD(15.0);  // wheels that slip deviate by less
 const double kHeadingDeterminedTo_rad = DEG2RAD(0.5);
 constexpr int kRounds = 2;  // each begins with better guesses of the motions of the scans
 
 bool is_turned(const std::optional<LaserMountEstimate>& mount, const TPose2D& stated_mount) {
   return mount && mount->deviation_rad < kHeadingDeterminedTo_rad &&
-         std::abs(wrapToPi(mount->robot_T_laser.phi - stated_mount.phi)) > kTurned_rad;
+         std::abs(wrapToPi(mount->robot_T_laser.phi - stated_mount.phi)) > kOtherDirection_rad;
 }
 
 /// Returns a guess of the mount; empty if the stated heading may be right.
 std::optional<TPose2D> guess_of(const OdometryAgreement& odometry, const std::vector<AlignedPair>& pairs,
                                 const TPose2D& stated_mount) {
   if (!follows_its_heading(odometry)) return std::nullopt;  // the headings of odometry may be wrong instead
-  const double off_rad = odometry.direction_offset_rad;
-  if (odometry.direction_concentration > kLeastConcentration && std::abs(off_rad) > kTurned_rad)
-    return TPose2D{stated_mount.x, stated_mount.y, wrapToPi(stated_mount.phi - off_rad)};
+  if (moves_in_another_direction(odometry))
+    return TPose2D{stated_mount.x, stated_mount.y,
+                   wrapToPi(stated_mount.phi - odometry.direction_offset_rad)};
   const auto estimate = estimate_laser_mount(pairs, stated_mount);
   if (!is_turned(estimate, stated_mount)) return std::nullopt;
   return estimate->robot_T_laser;

@@ -2,11 +2,11 @@
 // Edits of loops by hand, during and after mapping.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "base/number_text.h"
 #include "mapping/mapper_implementation.h"
+#include "mapping/scan_place.h"
 
 namespace psi_slam {
 namespace {
@@ -17,12 +17,9 @@ using State = LoopEditOutcome::State;
 /// -2.0) m, 2:42".
 std::string scan_text(std::size_t frame, const std::vector<FrameRecord>& frames,
                       const std::vector<std::size_t>& later_run_frames) {
-  const FrameRecord& scan = frames[frame];
-  const auto next = std::upper_bound(later_run_frames.begin(), later_run_frames.end(), frame);
-  const FrameRecord& first = frames[next == later_run_frames.begin() ? 0 : *std::prev(next)];
-  return "scan " + std::to_string(frame) + " at (" + fixed_text(scan.map_T_robot.x, 1) + ", " +
-         fixed_text(scan.map_T_robot.y, 1) + ") m, " +
-         minutes_text(std::floor(seconds(scan.time_us - first.time_us)));
+  const mrpt::math::TPose2D& pose = frames[frame].map_T_robot;
+  return "scan " + std::to_string(frame) + " at " + place_text({pose.x, pose.y}) + ", " +
+         minutes_text(std::floor(time_in_run_s(frames, later_run_frames, frame)));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "frames/pose_operations.h"
+#include "mapping/scan_place.h"
 
 namespace psi_slam {
 namespace {
@@ -72,7 +73,7 @@ void EditAdvice::choose(const std::vector<Candidate>& candidates, HotSpot& spot)
   }
   if (!spot.edit) return;
   const FrameRecord& scan = result_.frames[spot.edit->frame];
-  spot.effect->scan_s = time_in_run_s(result_, spot.edit->frame);
+  spot.effect->scan_s = time_in_run_s(result_.frames, result_.later_run_frames, spot.edit->frame);
   spot.effect->scan_at = {scan.map_T_robot.x, scan.map_T_robot.y};
 }
 

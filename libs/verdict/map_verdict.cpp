@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mapping/scan_place.h"
 #include "pose_graph/aligned_uncertainty.h"
 #include "verdict/edit_advice.h"
 #include "verdict/interruption_checks.h"
@@ -112,11 +113,11 @@ class Judge {
     suspect.last_frame = last_frame;
     suspect.at = place_of((first_frame + last_frame) / 2);
     suspect.searched_loops = searched_loops_;
-    suspect.last_s = time_in_run_s(result_, last_frame);
     const auto& later = result_.later_run_frames;
+    suspect.last_s = time_in_run_s(result_.frames, later, last_frame);
     if (std::upper_bound(later.begin(), later.end(), first_frame) ==
         std::upper_bound(later.begin(), later.end(), last_frame))
-      suspect.first_s = time_in_run_s(result_, first_frame);
+      suspect.first_s = time_in_run_s(result_.frames, later, first_frame);
     return suspect;
   }
 

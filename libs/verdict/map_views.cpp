@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <utility>
 
 #include "frames/discarded_ranges.h"
@@ -90,13 +89,6 @@ std::vector<MapView> map_views(const MappingResult& result, const MapViewOptions
     views.push_back(*std::move(view));
   }
   return views;
-}
-
-double time_in_run_s(const MappingResult& result, std::size_t frame) {
-  const std::vector<std::size_t>& later = result.later_run_frames;
-  const auto next = std::upper_bound(later.begin(), later.end(), frame);
-  const std::size_t first = next == later.begin() ? 0 : *std::prev(next);
-  return seconds(result.frames[frame].time_us - result.frames[first].time_us);
 }
 
 bool are_different_passes(const MapView& a, const MapView& b, double apart_m) {

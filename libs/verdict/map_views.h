@@ -52,7 +52,4 @@ std::vector<MapView> map_views(const MappingResult& result, const MapViewOptions
 /// more than `apart_m` of path from each other.
 bool are_different_passes(const MapView& a, const MapView& b, double apart_m);
 
-/// Time of a frame since the first frame of its run, seconds.
-double time_in_run_s(const MappingResult& result, std::size_t frame);
-
 }  // namespace psi_slam

@@ -7,6 +7,7 @@
 
 #include "base/number_text.h"
 #include "frames/pose_operations.h"
+#include "mapping/scan_place.h"
 
 namespace psi_slam {
 namespace {
@@ -51,8 +52,7 @@ std::string text_of(const std::vector<SceneChange>& changes) {
   std::string text = "the building changed at ";
   for (std::size_t i = 0; i < std::min(kMostNamed, changes.size()); ++i) {
     const SceneChange& change = changes[i];
-    text +=
-        (i == 0 ? "" : ", ") + ("(" + fixed_text(change.at.x, 1)) + ", " + fixed_text(change.at.y, 1) + ") m";
+    text += (i == 0 ? "" : ", ") + place_text(change.at);
     if (change.before_s >= 0)
       text += " between " + minutes_text(std::floor(change.before_s)) + " and " +
               minutes_text(std::ceil(change.after_s));

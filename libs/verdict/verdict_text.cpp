@@ -6,14 +6,11 @@
 
 #include "base/number_text.h"
 #include "loop_closure/loop_edit_line.h"
+#include "mapping/scan_place.h"
 #include "verdict/map_verdict.h"
 
 namespace psi_slam {
 namespace {
-
-std::string place_text(const mrpt::math::TPoint2D& at) {
-  return "(" + fixed_text(at.x, 1) + ", " + fixed_text(at.y, 1) + ") m";
-}
 
 template <class Stretch>
 std::string scans_text(const Stretch& stretch) {

@@ -9,6 +9,7 @@
 #include "closing_text.h"
 #include "commands.h"
 #include "doctor/input_doctor.h"
+#include "exports/frozen_odometry.h"
 #include "exports/interruptions.h"
 #include "exports/run_summary.h"
 #include "exports/unmatched_scans.h"
@@ -158,6 +159,7 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   if (const auto coarser = coarser_cells_text(summary.map)) warn(*coarser);
   const MapVerdict* verdict = summary.verdict ? &*summary.verdict : nullptr;
   if (const auto unmatched = unmatched_scans_text(session.result(), verdict)) warn(*unmatched);
+  if (const auto frozen = frozen_odometry_text(session.result())) warn(*frozen);
   for (const std::string& interruption : interruption_texts(session.result())) warn(interruption);
   if (const auto broken = broken_map_text(summary)) warn(*broken);
   for (const std::string& warning : session.warnings_of_logs_before()) warn(warning);

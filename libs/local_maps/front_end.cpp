@@ -76,7 +76,8 @@ FrontEndStep FrontEnd::track(const Frame& frame, bool may_be_lost) {
   const double travel_m = motion.measured ? motion.length_m : std::max(motion.length_m, motion.sigma_m);
   unmatched_travel_m_ = step.matched ? 0 : unmatched_travel_m_ + travel_m;
   propagate_covariances(step, motion);
-  if (active_.empty() || moved_enough(step.local_T_robot)) step.node = next_node_++;
+  if (!last_ || !(last_->odom_T_robot == frame.odom_T_robot))
+    unchanged_odometry_local_T_robot_ = step.local_T_robot;
   last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}, frame.has_odometry};
   // A wrong prediction bends a scan about the middle of its sweep, where the match is therefore right. Speeds
   // from the poses at the beginnings of sweeps would amplify the errors of predictions.
@@ -87,6 +88,7 @@ FrontEndStep FrontEnd::track(const Frame& frame, bool may_be_lost) {
   last_predicted_motion_ = motion.predicted;
   last_local_T_robot_ = step.local_T_robot;
   misses_ = step.matched ? 0 : misses_ + 1;
+  if (becomes_node(step)) step.node = next_node_++;
   standstill_.add(frame, step.local_T_robot, step.matched);
   return step;
 }
@@ -151,7 +153,8 @@ void FrontEnd::straighten_by_match(const Frame& frame, const TPose2D& local_T_mi
 FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   Motion motion;
   if (!last_) return motion;
-  if (!frame.has_odometry || !last_->has_odometry) return constant_velocity_motion(frame);
+  if (!frame.has_odometry || !last_->has_odometry || has_frozen_odometry(frame))
+    return constant_velocity_motion(frame);
   if (was_restarted(last_->odom_T_robot, frame.odom_T_robot)) {
     motion = constant_velocity_motion(frame);
     motion.was_restarted = true;
@@ -181,6 +184,13 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
       motion.sigma_m, options_.prior_per_surprise * std::min(uneven_m, motion.disagreement_m));
   motion.after_gap = constant_velocity_.is_gap(frame.time_us);
   return motion;
+}
+
+bool FrontEnd::has_frozen_odometry(const Frame& frame) const {
+  if (!(frame.odom_T_robot == last_->odom_T_robot)) return false;
+  const TPose2D motion = between(unchanged_odometry_local_T_robot_, last_local_T_robot_);
+  return length_m(motion) > options_.window_m ||
+         std::abs(mrpt::math::wrapToPi(motion.phi)) > options_.window_rad;
 }
 
 FrontEnd::Motion FrontEnd::constant_velocity_motion(const Frame& frame) const {
@@ -231,6 +241,20 @@ bool FrontEnd::moved_enough(const TPose2D& local_T_robot) const {
          std::abs(mrpt::math::wrapToPi(motion.phi)) >= options_.node_rotation_rad;
 }
 
+// A scan that matches nothing and contradicts what the map has observed is misplaced: it would spoil the map,
+// and later scans would match it.
+bool FrontEnd::becomes_node(const FrontEndStep& step) const {
+  if (active_.empty()) return true;
+  if (!moved_enough(step.local_T_robot)) return false;
+  return step.matched || has_left_local_maps() ||
+         !contradicts(*step.points, step.local_T_robot, kLeastAgreement);
+}
+
+bool FrontEnd::has_left_local_maps() const {
+  return (unmatched_travel_m_ >= options_.max_unmatched_travel_m && misses_ > 1) ||
+         unmatched_travel_m_ >= options_.local_map_travel_m;
+}
+
 void FrontEnd::begin_local_map(std::size_t node, const TPose2D& local_T_robot) {
   PlacedLocalMap begun;
   begun.id = next_local_map_++;
@@ -267,10 +291,7 @@ void FrontEnd::draw(FrontEndStep& step, const Frame& frame) {
   for (const PlacedLocalMap& active : active_)
     step.memberships.push_back(
         {active.id, active.anchor, between(active.local_T_map, step.local_T_robot), active.covariance});
-  // A match would have set the travel to 0, so this scan is unmatched.
-  const bool strays = unmatched_travel_m_ >= options_.max_unmatched_travel_m && misses_ > 1;
-  const bool leaves = unmatched_travel_m_ >= options_.local_map_travel_m;
-  if (strays || leaves) {
+  if (has_left_local_maps()) {
     end_local_maps(step, active_.size());
     unmatched_travel_m_ = 0;
   }

@@ -214,14 +214,19 @@ class FrontEnd {
   void straighten_by_match(const Frame& frame, const mrpt::math::TPose2D& local_T_middle,
                            FrontEndStep& step) const;
   Motion motion_to(const Frame& frame) const;
+  /// Returns whether the matches show that the robot moves while odometry stays exactly the same: it moved
+  /// farther than the window of a robot at rest. Odometry then measures no motion.
+  bool has_frozen_odometry(const Frame& frame) const;
   /// Predicts the motion by the constant-velocity model and the gyroscope, for scans without odometry.
   Motion constant_velocity_motion(const Frame& frame) const;
   SearchExtent search_extent(const Motion& motion) const;
   PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const Motion& motion) const;
-  SearchExtent wide_extent(const Motion& motion) const;
+  SearchExtent wide_extent(const Motion& motion, bool has_match) const;
   void match(FrontEndStep& step, const Motion& motion);
   std::vector<mrpt::math::TPose2D> hypotheses(const Motion& motion) const;
   bool has_left_last_node(const Motion& motion) const;
+  /// Smallest share of a scan's points in observed space that fits a pose that was only predicted.
+  static constexpr double kLeastAgreement = 0.5;
   bool contradicts(const ScanPoints& scan, const mrpt::math::TPose2D& local_T_robot,
                    double least_agreement) const;
   /// `expected_response` is the value before the match of this scan.
@@ -239,6 +244,10 @@ class FrontEnd {
   void propagate_covariances(const FrontEndStep& step, const Motion& motion);
   void end_local_maps(FrontEndStep& step, std::size_t count);
   bool moved_enough(const mrpt::math::TPose2D& local_T_robot) const;
+  bool becomes_node(const FrontEndStep& step) const;
+  /// Returns whether all active local maps end because of unmatched scans, see
+  /// FrontEndOptions::max_unmatched_travel_m.
+  bool has_left_local_maps() const;
   void begin_local_map(std::size_t node, const mrpt::math::TPose2D& local_T_robot);
 
   FrontEndOptions options_;
@@ -252,7 +261,8 @@ class FrontEnd {
   ConstantVelocityModel constant_velocity_;
   Standstill standstill_;
   mrpt::math::TPose2D last_local_T_robot_;
-  mrpt::math::TPose2D last_local_T_middle_;  ///< pose in the middle of the last sweep
+  mrpt::math::TPose2D unchanged_odometry_local_T_robot_;  ///< pose of the first scan with the last odometry
+  mrpt::math::TPose2D last_local_T_middle_;               ///< pose in the middle of the last sweep
   mrpt::math::TPose2D last_motion_;
   mrpt::math::TPose2D last_predicted_motion_;  ///< motion of the last step as predicted, before the match
   DoubtfulCorrections doubtful_corrections_;

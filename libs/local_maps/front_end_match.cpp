@@ -26,10 +26,9 @@ constexpr double kCoarseFarthest_m = 30;
 constexpr double kJudgedShare = 0.2;  // smallest share of a scan in observed space that can contradict a map
 // After a gap, share of the expected response that a match needs if the robot did not move as predicted.
 constexpr double kSureShare = 0.6;
-// After an interruption, shares of the points in observed space that must fit it: at the matched pose, and at
-// a pose that was only predicted.
+// Share of the points in observed space that must fit it at a pose that odometry does not explain: after an
+// interruption, and in a wide window.
 constexpr double kLeastMatchedAgreement = 0.85;
-constexpr double kLeastAgreement = 0.5;
 constexpr int kLostMisses = 5;      // the robot may be lost after this many successive scans without a match
 constexpr double kLostAfter_s = 5;  // and this time
 
@@ -76,17 +75,17 @@ PosePrior FrontEnd::prior(const TPose2D& map_T_robot, const Motion& motion) cons
 }
 
 // Returns a window for large errors of odometry. The error can be twice the motion, for example if odometry
-// reports a reversal as forward motion.
-SearchExtent FrontEnd::wide_extent(const Motion& motion) const {
+// reports a reversal as forward motion. If the narrow window has no match, an obstacle may have turned the
+// robot by any angle while the wheels slipped.
+SearchExtent FrontEnd::wide_extent(const Motion& motion, bool has_match) const {
   const double half_m =
       std::min(options_.max_wide_window_m,
                options_.window_m + options_.wide_window_per_motion * motion.length_m + motion.disagreement_m);
   const double half_rad =
-      std::min(motion.measured ? options_.max_wide_window_rad : M_PI,
-               options_.window_rad + motion.wide_disagreement_rad +
-                   options_.wide_window_per_motion *
-                       (motion.turn_rad + options_.window_rad_per_metre * motion.length_m));
-  return {half_m, half_m, half_rad};
+      options_.window_rad + motion.wide_disagreement_rad +
+      options_.wide_window_per_motion * (motion.turn_rad + options_.window_rad_per_metre * motion.length_m);
+  const double max_rad = motion.measured ? options_.max_wide_window_rad : M_PI;
+  return {half_m, half_m, has_match ? std::min(half_rad, max_rad) : M_PI};
 }
 
 MatchResult FrontEnd::search(FrontEndStep& step, const ScanPoints& scan, const ScoreGrid& grid,
@@ -100,10 +99,11 @@ MatchResult FrontEnd::search(FrontEndStep& step, const ScanPoints& scan, const S
 }
 
 /// Searches the wide window. Stores the window in step.window if it contains a match. Returns nothing if the
-/// window is hardly wider than step.window, or if no response reaches the limit of wide_response_gain.
+/// window is hardly wider than step.window, if no response reaches the limit of wide_response_gain, or if the
+/// match contradicts what the map has observed. `poor_response` is 0 if the narrow window has no match.
 std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Motion& motion,
                                                    double poor_response) {
-  SearchExtent wide = wide_extent(motion);
+  SearchExtent wide = wide_extent(motion, poor_response > 0);
   if (wide.x_m <= kWiderBy * step.window.x_m && wide.theta_rad <= kWiderBy * step.window.theta_rad) return {};
   wide = {std::max(wide.x_m, step.window.x_m), std::max(wide.y_m, step.window.y_m),
           std::max(wide.theta_rad, step.window.theta_rad)};
@@ -117,7 +117,9 @@ std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Mot
   MatchResult match = search(step, coarse_scan(*step.points), grid, unknown, wide, needed);
   if (!match.found) return {};
   const RefinedPose refined = refine(grid, *step.points, match.map_T_robot, options_.refinement, unknown);
-  if (refined.mean_score < needed) return {};
+  if (refined.mean_score < needed ||
+      contradicts(*step.points, compose(older.local_T_map, refined.map_T_robot), kLeastMatchedAgreement))
+    return {};
   match.map_T_robot = refined.map_T_robot;
   match.refined_response = refined.mean_score;
   match.information = refined.information;

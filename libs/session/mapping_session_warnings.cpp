@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "exports/frozen_odometry.h"
 #include "exports/interruptions.h"
 #include "exports/run_summary.h"
 #include "exports/unmatched_scans.h"
@@ -91,6 +92,7 @@ std::vector<std::string> MappingSession::warnings() const {
   for (const std::string& sentence : m_->result.contradictions) warnings.push_back(sentence);
   const MapVerdict* verdict = m_->verdict ? &*m_->verdict : nullptr;
   if (const auto unmatched = unmatched_scans_text(m_->result, verdict)) warnings.push_back(*unmatched);
+  if (const auto frozen = frozen_odometry_text(m_->result)) warnings.push_back(*frozen);
   for (const std::string& interruption : interruption_texts(m_->result)) warnings.push_back(interruption);
   return warnings;
 }

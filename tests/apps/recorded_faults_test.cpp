@@ -6,10 +6,14 @@
 #include <cctype>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "app_run.h"
+#include "compression/line_reader.h"
 #include "path_error.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
@@ -71,6 +75,54 @@ INSTANTIATE_TEST_SUITE_P(
         FaultyLog{"first_scan_bad.db3.zstd", "small.tum", 0.02, "1 message of the log is unusable"}),
     [](const auto& tested) { return name_of_test(tested.param.file, tested.index); });
 
+// Odometry of a recorded robot freezes for eight seconds, and its laser sees 5.6 m far. The map with the
+// whole odometry is the truth.
+TEST(RecordedFaults, frozen_odometry_does_not_bend_the_map) {
+  const auto log = shared_file("mit-csail.clf.gz");
+  if (!log) GTEST_SKIP() << kNeedsData;
+  constexpr int kFirst = 1400;
+  constexpr int kFrozen = 1600;
+  constexpr int kLast = 1640;
+  constexpr double kRange_m = 5.6;
+  const TemporaryFolder folder;
+  std::ofstream whole(folder.path() / "whole.clf");
+  std::ofstream frozen(folder.path() / "frozen.clf");
+  LineReader lines(*log);
+  std::vector<std::string> last_poses;
+  int scan = 0;
+  for (std::string_view line; lines.next(line);) {
+    std::istringstream words{std::string(line)};
+    std::string tag;
+    std::size_t beams = 0;
+    if (!(words >> tag >> beams) || tag != "FLASER" || ++scan < kFirst || scan > kLast) continue;
+    std::ostringstream ranges;
+    double range_m = 0;
+    for (std::size_t i = 0; i < beams && words >> range_m; ++i) ranges << ' ' << std::min(range_m, kRange_m);
+    std::vector<std::string> poses(6);
+    for (std::string& value : poses) words >> value;
+    if (scan <= kFrozen) last_poses = poses;
+    std::string rest;
+    std::getline(words, rest);
+    for (auto& [out, values] : {std::pair(&whole, &poses), std::pair(&frozen, &last_poses)}) {
+      *out << "FLASER " << beams << ranges.str();
+      for (const std::string& value : *values) *out << ' ' << value;
+      *out << rest << '\n';
+    }
+  }
+  whole.close();
+  frozen.close();
+  for (const char* name : {"whole", "frozen"}) {
+    const AppRun run =
+        run_app({(folder.path() / name).string() + ".clf", "-o", (folder.path() / name).string(), "-q"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const bool is_said = run.err.find("odometry stayed exactly the same during ") != std::string::npos;
+    EXPECT_EQ(is_said, name == std::string("frozen")) << run.err;
+  }
+  EXPECT_LT(
+      path_error_m(folder.path() / "frozen" / "trajectory.tum", folder.path() / "whole" / "trajectory.tum"),
+      0.1);
+}
+
 struct JudgedLog {
   std::string file;               // in the folder faults
   std::vector<std::string> says;  // parts of what psi-slam check prints
@@ -113,6 +165,23 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& tested) { return name_of_test(tested.param.file, tested.index); });
 
 constexpr double kTruthBegins_s = 1'700'000'000;  // time stamp of the first pose in small.tum
+
+// The robot is blocked and turned by 26 degrees in each of four scans, while odometry drives straight on.
+TEST(RecordedFaults, a_collision_with_turning_wheels_does_not_turn_the_map) {
+  const auto log = shared_file("faults/collision26.log.gz");
+  if (!log) GTEST_SKIP() << kNeedsData;
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "map";
+  const AppRun run = run_app({log->string(), "-o", out.string(), "-q"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  const Trajectory path = read_trajectory(out / "trajectory.tum");
+  ASSERT_EQ(path.size(), 44U);
+  for (std::size_t i = 0; i < 22; ++i) {  // until the robot turns by itself
+    const double turns = std::clamp(static_cast<double>(i) - 11, 0.0, 4.0);
+    EXPECT_NEAR(path[i].pose.phi, -26 * M_PI / 180 * turns, 0.02) << "scan " << i;
+  }
+}
 
 TEST(RecordedFaults, the_advised_delay_removes_an_offset_of_clocks) {
   for (const auto& [file, delay_s] :

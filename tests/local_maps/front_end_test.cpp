@@ -190,6 +190,60 @@ TEST(FrontEnd, tolerates_odometry_that_stalls_and_jumps) {
   EXPECT_LT(off.largest_rad, 0.03);
 }
 
+// An obstacle turns the robot by a large angle in each of three scans, while its slipping wheels measure
+// straight motion. Then it stands, and turns on the spot by as much as odometry says.
+TEST(FrontEnd, finds_a_robot_that_an_obstacle_turned_while_its_wheels_slipped) {
+  for (const double turn_deg : {20, 35, -50}) {
+    const double turn_rad = turn_deg * M_PI / 180;
+    std::vector<TPose2D> path = path_along({{1.6, 1.6}, {4.2, 1.6}}, 0.1);
+    std::vector<TPose2D> odometry;
+    for (const TPose2D& pose : path) odometry.push_back(pose - path.front());
+    const auto move = [&](const TPose2D& motion, const TPose2D& measured) {
+      path.push_back(path.back() + motion);
+      odometry.push_back(odometry.back() + measured);
+    };
+    for (int i = 0; i < 3; ++i) move({0, 0, turn_rad}, {0.2, 0, 0});
+    for (int i = 0; i < 5; ++i) move({0, 0, 0}, {0.2, 0, 0});
+    for (int i = 0; i < 10; ++i) move({0, 0, 0.2}, {0, 0, 0.2});
+    SimulatedDrive drive = drive_along(office_floor(), path, {}, 17);
+    for (std::size_t i = 0; i < odometry.size(); ++i) drive.frames[i].odom_T_robot = odometry[i];
+    const PoseErrors off = errors_of(follow(drive), drive);
+    EXPECT_LT(off.largest_m, 0.05) << turn_deg << " degrees";
+    EXPECT_LT(off.largest_rad, 0.03) << turn_deg << " degrees";
+  }
+}
+
+// One scan shows another place, as a damaged message does. It must not become part of the local maps.
+TEST(FrontEnd, a_scan_that_contradicts_the_local_map_becomes_no_node) {
+  SimulatedDrive drive = drive_along(office_floor(), path_along({{1.6, 1.6}, {9, 1.6}}, 0.2), {}, 18);
+  SimulatedWalls closet;
+  closet.add_box(-0.6, -0.7, 0.8, 0.9);
+  const std::size_t foreign = drive.frames.size() / 2;
+  drive.frames[foreign].scan = drive_along(closet, {{0, 0, 0.3}}, {}, 19).frames.front().scan;
+  const Outcome outcome = follow(drive);
+  for (std::size_t i = 1; i < outcome.steps.size(); ++i) {
+    EXPECT_EQ(outcome.steps[i].matched, i != foreign) << "scan " << i;
+    EXPECT_EQ(outcome.steps[i].node.has_value(), i != foreign) << "scan " << i;
+  }
+  EXPECT_LT(errors_of(outcome, drive).largest_m, 0.05);
+}
+
+// Odometry stops measuring while the robot drives through a bare stretch of a corridor. The scans show the
+// motion before and after the stretch.
+TEST(FrontEnd, odometry_that_freezes_does_not_hold_a_moving_robot_back) {
+  SimulatedWalls corridor;
+  corridor.add_box(-2, -1, 40, 1);
+  for (const double x : {1.0, 2.3, 4.1, 6.0, 7.2, 13.0, 14.1, 16.0, 17.3})
+    corridor.add_box(x, 0.8, x + 0.4, 1);
+  SimulatedDrive drive = drive_along(corridor, path_along({{0, 0}, {18, 0}}, 0.2), {}, 20);
+  for (Frame& frame : drive.frames)
+    for (float& range_m : frame.scan.ranges_m)
+      if (range_m > 3) range_m = kNan;
+  for (std::size_t i = 20; i < drive.frames.size(); ++i)
+    drive.frames[i].odom_T_robot = drive.frames[19].odom_T_robot;
+  EXPECT_LT(errors_of(follow(drive), drive).largest_m, 0.5);
+}
+
 // After a reset of the wheel encoders, one increment of odometry is meaningless.
 TEST(FrontEnd, tolerates_a_jump_of_odometry) {
   SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 4);

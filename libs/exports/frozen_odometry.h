@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stretches of a log during which odometry stayed exactly the same although the robot moved, as text for
+// users. The front end predicts the motion there as without odometry.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "psi_slam/mapping_result.h"
+
+namespace psi_slam {
+
+/// Returns a sentence without full stop about the stretches of two seconds or more with the same odometry, to
+/// the last bit, along which the mapped robot moved 0.5 m or turned by 30 degrees: more than scans of a robot
+/// at rest can err. It tells how long they are and when the longest path was. Empty if there is none.
+std::optional<std::string> frozen_odometry_text(const MappingResult& result);
+
+}  // namespace psi_slam

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "frames/pose_operations.h"
@@ -40,6 +41,16 @@ std::optional<std::size_t> constraint_of(const LoopRecord& loop, const PoseGraph
       return index;
   }
   return std::nullopt;
+}
+
+/// Returns the constraint from the node that `earlier` measures, instead of the node where both begin.
+Constraint measured_from(const Constraint& earlier, Constraint one) {
+  one.from = earlier.to;
+  one.from_T_to = between(earlier.from_T_to, one.from_T_to);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = rotation_matrix(-earlier.from_T_to.phi);
+  one.information = Eigen::Matrix3d(turn * one.information * turn.transpose());
+  return one;
 }
 
 }  // namespace
@@ -93,10 +104,12 @@ std::optional<TriedEdit> EditTrial::with_loop(const LoopRecord& loop) const {
   return with_graph(std::move(graph));
 }
 
-/// Returns the settled graph with weak path constraints across the frames.
+/// Returns the settled graph with weak path constraints across the frames. Nodes after the frames keep their
+/// poses relative to each other: those that one path segment measures hang on the first of them.
 PoseGraph EditTrial::loosened(const FrameSpan& doubtful) const {
   constexpr double kWeaker = 1e-4;  // standard deviations 100 times as large
   PoseGraph graph = *settled_;
+  std::map<std::size_t, Constraint> first_after;  // of each segment, by its first node
   const std::size_t constraints = graph.num_constraints();
   for (std::size_t i = 0; i < constraints; ++i) {
     Constraint one = graph.constraint(i);
@@ -105,7 +118,13 @@ PoseGraph EditTrial::loosened(const FrameSpan& doubtful) const {
     const auto [from, to] = std::minmax(one.from, one.to);
     if (result_.node_frames[from] >= doubtful.end || result_.node_frames[to] < doubtful.begin) continue;
     graph.set_enabled(i, false);
-    one.information *= kWeaker;
+    const auto earlier = first_after.find(one.from);
+    if (earlier != first_after.end() && earlier->second.to != one.to) {
+      one = measured_from(earlier->second, one);
+    } else {
+      if (one.from < one.to && result_.node_frames[to] >= doubtful.end) first_after.emplace(one.from, one);
+      one.information *= kWeaker;
+    }
     graph.add_constraint(one);
   }
   return graph;

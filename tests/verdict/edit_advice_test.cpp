@@ -30,8 +30,9 @@ class EditAdviceTest : public testing::Test {
     half_ = room_.log.size() / 2;
   }
 
-  /// Steps are right, but the one to the second round has an error and this standard deviation.
-  void build(const mrpt::math::TPose2D& slip, double slip_sigma_m) {
+  /// Steps are right, but the one to the second round has an error and this standard deviation. The path
+  /// constraints begin at the first node of each segment of so many nodes.
+  void build(const mrpt::math::TPose2D& slip, double slip_sigma_m, std::size_t segment = 1) {
     mrpt::math::TPose2D pose = room_.poses.front();
     for (std::size_t i = 0; i < room_.log.size(); ++i) {
       mrpt::math::TPose2D step = i == 0 ? mrpt::math::TPose2D() : between(room_.poses[i - 1], room_.poses[i]);
@@ -43,15 +44,16 @@ class EditAdviceTest : public testing::Test {
       record.match = i == 0 ? ScanMatch::kNoMap : ScanMatch::kMatched;
       record.searched_loops = true;
       record.node = map_.graph.add_node(pose);
+      const std::size_t first = i == 0 ? 0 : (i - 1) / segment * segment;
       if (i > 0)
-        map_.graph.add_constraint(
-            {i - 1,
-             i,
-             step,
-             i == half_ ? information(slip_sigma_m, slip_sigma_m) : information(kStep_m, kStep_rad),
-             Eigen::Matrix3d::Zero(),
-             Constraint::Kind::kLocalMap,
-             {}});
+        map_.graph.add_constraint({first,
+                                   i,
+                                   between(map_.graph.pose(first), pose),
+                                   first < half_ && half_ <= i ? information(slip_sigma_m, slip_sigma_m)
+                                                               : information(kStep_m, kStep_rad),
+                                   Eigen::Matrix3d::Zero(),
+                                   Constraint::Kind::kLocalMap,
+                                   {}});
       map_.node_frames.push_back(i);
       map_.frames.push_back(record);
       map_.log.push_back(room_.log[i]);
@@ -131,6 +133,17 @@ TEST_F(EditAdviceTest, matches_a_scan_after_a_slip) {
   add_loop(map_.local_maps[spot.edit->local_map].first_node, spot.edit->frame, {});
   EXPECT_LT(worst_error_m(), 0.1);
   EXPECT_EQ(judge_map(map_).state, MapState::kGood);
+}
+
+// The slip is within a segment of the path. All scans of the segment after the slip move with the matched one.
+TEST_F(EditAdviceTest, a_tried_match_keeps_the_path_after_the_slip_together) {
+  build({0.5, 0.3, 0.1}, 0.5, room_.log.size());
+  const MapVerdict verdict = judge_map(map_);
+  ASSERT_FALSE(verdict.hot_spots.empty());
+  const HotSpot& spot = verdict.hot_spots.front();
+  ASSERT_TRUE(spot.edit) << verdict_sentence(verdict);
+  EXPECT_EQ(spot.edit->kind, LoopEdit::Kind::kMatch);
+  EXPECT_NEAR(spot.effect->moved_m, worst_error_m(), 0.15 * worst_error_m());
 }
 
 TEST_F(EditAdviceTest, deletes_no_loop_that_is_true) {

@@ -306,7 +306,7 @@ void FrontEnd::draw(FrontEndStep& step, const Frame& frame) {
   };
   if (active_.empty() || (active_.size() == 1 && share(active_.front()) >= 0.5))
     begin_local_map(node, step.local_T_robot);
-  const DrawingOptions drawing = {options_.scan.min_range_m, options_.local_map.max_insert_range_m,
+  const DrawingOptions drawing = {options_.local_map.max_insert_range_m,
                                   options_.local_map.smoothing_sigma_m};
   const auto insertion = [&](const PlacedLocalMap& active) {
     return [map = active.map, frame, map_T_robot = between(active.local_T_map, step.local_T_robot), drawing] {

@@ -33,7 +33,7 @@ ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
     // Also skips beams without a return, whose range is infinite or NaN.
-    if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;
+    if (!(range > 0 && range <= options.max_range_m)) continue;
     const mrpt::math::TPoint2D& direction = (*directions)[i];
     const double x = robot_T_laser.x + range * (c * direction.x - s * direction.y);
     const double y = robot_T_laser.y + range * (s * direction.x + c * direction.y);
@@ -81,7 +81,7 @@ Beams drawing_beams(const LaserScan& scan, const TPose2D& map_T_robot, const Dra
   const std::vector<bool> joined =
       ends_on_one_surface(scan, options.max_range_m, options.min_surface_spacing_m);
   const auto is_drawn = [&](float range_m) {
-    return static_cast<double>(range_m) >= options.min_range_m && std::isfinite(range_m);
+    return range_m > 0 && std::isfinite(range_m);
   };
   bool drew_last = !scan.ranges_m.empty() && is_drawn(scan.ranges_m.back());  // before the first beam
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {

@@ -13,7 +13,6 @@
 namespace psi_slam {
 
 struct ScanFilterOptions {
-  double min_range_m = 0.1;
   /// Largest range of returns that are matched. The default exceeds the range of usual 2D lidars. It only
   /// bounds memory and time if a reading is damaged.
   double max_range_m = 200.0;
@@ -28,14 +27,13 @@ ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& optio
 ScanPoints matching_points(const Frame& frame, const ScanFilterOptions& options);
 
 struct DrawingOptions {
-  double min_range_m = 0.1;    ///< beams with a shorter range are left out
   double max_range_m = 200.0;  ///< longer beams are cut at this range
   /// Surfaces between beams are drawn where the beams are at least this far apart, see ends_on_one_surface().
   /// Use the standard deviation of range noise: LocalMapOptions::smoothing_sigma_m.
   double min_surface_spacing_m = 0.03;
 };
 
-/// Converts the returns of a scan from min_range_m on to beams in the frame of a local map, metres.
+/// Converts the returns of a scan to beams in the frame of a local map, metres.
 Beams drawing_beams(const LaserScan& scan, const mrpt::math::TPose2D& map_T_robot,
                     const DrawingOptions& options);
 

@@ -35,7 +35,8 @@ void describe_log(OptionTable& table, Settings& settings) {
           "readings show, otherwise the log's value, or 50 m. State the range of the laser "
           "if far walls are missing, or if the map shows fans of free space beyond the walls.")
       .number("min_range_m", log.min_range_m, at_least(0), "m",
-              "Readings below this range are ignored. Raise it if the laser sees the robot itself.")
+              "Readings below this range are neither matched nor drawn. Raise it if the laser sees the robot "
+              "itself.")
       .flag("mirrored", log.mirrored,
             "Set this if the readings run clockwise because the laser hangs upside down.")
       .text("laser", log.laser,
@@ -281,6 +282,7 @@ void describe(OptionTable& table, Settings& settings) {
   describe_run(table, settings.run);
   table.alias("last_pass", "final_search")
       .alias("log.odometry_topic", "log.odometry")
+      .alias("front_end.min_range_m", "log.min_range_m")
       .alias("front_end.max_strain_m", "front_end.max_doubtful_correction_m")
       .alias("front_end.strain_travel_m", "front_end.doubtful_correction_travel_m")
       .alias("consensus.max_rival_share", "consensus.max_other_place_share");
@@ -310,12 +312,9 @@ void check_values(const Settings& settings) {
   const Named log_max{"log.max_range_m",
                       settings.log.max_range_m.value_or(std::numeric_limits<double>::infinity())};
   const FrontEndOptions& front_end = settings.mapper.front_end;
-  const Named matched_min{"front_end.min_range_m", front_end.scan.min_range_m};
   const Named matched_max{"front_end.max_range_m", front_end.scan.max_range_m};
   require_below(log_min, log_max);
-  require_below(matched_min, matched_max);
   require_below(log_min, matched_max);
-  require_below(matched_min, log_max);
   require_at_most({"front_end.window_m", front_end.window_m},
                   {"front_end.max_window_m", front_end.max_window_m});
   require_at_most({"front_end.window_theta_deg", front_end.window_rad, true},

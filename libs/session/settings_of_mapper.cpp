@@ -24,8 +24,6 @@ void describe_refinement(OptionTable& table, RefinementOptions& refinement) {
 
 void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
   table.section("front_end", "Matching each scan with the active local map")
-      .number("min_range_m", front_end.scan.min_range_m, at_least(0), "m",
-              "Returns nearer than this are not matched.")
       .number("max_range_m", front_end.scan.max_range_m, above(0), "m",
               "Returns farther than this are not matched. The default is no limit for usual 2D lidars.")
       .number("point_spacing_m", front_end.scan.spacing_m, at_least(0).at_most(10), "m",

@@ -25,6 +25,19 @@ TEST(LaserReadings, are_returns_no_returns_or_invalid) {
   for (const float range : ranges_m) EXPECT_TRUE(std::isnan(range)) << range;
 }
 
+TEST(LaserReadings, below_a_tenth_of_a_metre_are_invalid_unless_stated) {
+  LaserScan scan;
+  scan.ranges_m = {0.03F, 0.1F, 2.0F};
+  LaserScan stated = scan;
+  limit_ranges(scan, {}, 8);
+  EXPECT_TRUE(std::isnan(scan.ranges_m[0]));
+  EXPECT_EQ(scan.ranges_m[1], 0.1F);
+  LogOptions options;
+  options.min_range_m = 0.02;
+  limit_ranges(stated, options, 8);
+  EXPECT_EQ(stated.ranges_m[0], 0.03F);
+}
+
 TEST(LaserReadings, equal_the_maximum_if_written_alike) {
   std::vector<float> ranges_m{81.83F, 81.82F};
   mark_no_returns(ranges_m, 0, 81.83);

@@ -74,7 +74,7 @@ Beams square_room_scan(double half_side_m, const TPose2D& map_T_robot, int beams
   std::mt19937_64 random(1);
   const LaserScan scan = simulated_scan(
       room, map_T_robot, even_bearings(-M_PI, M_PI * (1 - 2.0 / beams), beams), {0, 0, 0}, 0, random);
-  return drawing_beams(scan, map_T_robot, {0.1, 40});
+  return drawing_beams(scan, map_T_robot, {40});
 }
 
 TEST(LocalMap, hits_are_occupied_beams_are_free_the_rest_is_unknown) {
@@ -398,7 +398,7 @@ TEST(LocalMap, agrees_with_MRPTs_own_drawing_of_a_square_room) {
   for (int i = 0; i < 12; ++i) {
     const TPose2D robot(0.3 * std::cos(i), 0.3 * std::sin(i), i * M_PI / 6);
     const LaserScan scan = simulated_scan(room, robot, bearings, {0, 0, 0}, 0, random);
-    ours.insert(drawing_beams(scan, robot, {0.1, 40}));
+    ours.insert(drawing_beams(scan, robot, {40}));
     mrpt::obs::CObservation2DRangeScan observation;
     observation.aperture = static_cast<float>(M_PI);
     observation.maxRange = 30;

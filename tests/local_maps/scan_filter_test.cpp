@@ -77,12 +77,11 @@ TEST(MatchingPoints, the_farthest_is_measured_from_the_robot_not_from_the_laser)
   EXPECT_NEAR(scan.farthest_m, std::hypot(0.5, 3.75), 1e-6);
 }
 
-TEST(MatchingPoints, only_returns_between_the_least_and_the_largest_range) {
+TEST(MatchingPoints, only_returns_up_to_the_largest_range) {
   ScanFilterOptions options = without_thinning();
-  options.min_range_m = 0.5;
   options.max_range_m = 10;
   const ScanPoints scan = matching_points(
-      scan_of({kNan, 0.49F, 0.5F, 5, 10, 10.01F, kInfinity, -1, 0, -kInfinity, kNan}), options);
+      scan_of({kNan, 0.5F, 5, 10, 10.01F, kInfinity, -1, 0, -kInfinity, kNan}), options);
   ASSERT_EQ(scan.points.size(), 3U);
   EXPECT_NEAR(length(scan.points[0]), 0.5, 1e-6);
   EXPECT_NEAR(length(scan.points[1]), 5, 1e-6);
@@ -209,7 +208,7 @@ TEST(MatchingPointNormals, a_line_is_not_drawn_across_a_gap) {
 
 TEST(DrawingBeams, start_at_the_laser_and_end_at_the_returns) {
   const TPose2D map_T_robot(1, 2, M_PI / 2);
-  const Beams beams = drawing_beams(scan_of({2, 3, 4}, {0.5, 0, 0}), map_T_robot, {0.1, 40});
+  const Beams beams = drawing_beams(scan_of({2, 3, 4}, {0.5, 0, 0}), map_T_robot, {40});
   EXPECT_NEAR(beams.origin.x, 1, 1e-9);
   EXPECT_NEAR(beams.origin.y, 2.5, 1e-9);
   ASSERT_EQ(beams.ends.size(), 3U);
@@ -222,8 +221,8 @@ TEST(DrawingBeams, start_at_the_laser_and_end_at_the_returns) {
   EXPECT_EQ(beams.hits, std::vector<bool>(3, true));
 }
 
-TEST(DrawingBeams, are_cut_at_the_largest_range_and_dropped_below_the_smallest) {
-  const Beams beams = drawing_beams(scan_of({0.2F, 5, 6, 7, kNan, kInfinity}), {0, 0, 0}, {0.3, 6});
+TEST(DrawingBeams, are_cut_at_the_largest_range_and_dropped_without_a_return) {
+  const Beams beams = drawing_beams(scan_of({0, 5, 6, 7, kNan, kInfinity}), {0, 0, 0}, {6});
   ASSERT_EQ(beams.ends.size(), 3U);
   EXPECT_EQ(beams.hits, (std::vector<bool>{true, true, false}));
   EXPECT_NEAR(beams.ends[2].norm(), 6, 1e-6);
@@ -235,9 +234,8 @@ TEST(DrawingBeams, join_the_ends_on_a_wall_but_not_to_a_dropped_beam) {
   scan.max_range_m = 80;
   scan.ranges_m.assign(4, 10);
   EXPECT_EQ(drawing_beams(scan, {0, 0, 0}, {}).joined, (std::vector<bool>{false, true, true, true}));
-  scan.ranges_m[0] = 9.99F;
+  scan.ranges_m[0] = kNan;
   DrawingOptions options;
-  options.min_range_m = 9.995;
   EXPECT_EQ(drawing_beams(scan, {0, 0, 0}, options).joined, (std::vector<bool>{false, true, true}));
   options.min_surface_spacing_m = 0.3;
   EXPECT_EQ(drawing_beams(scan, {0, 0, 0}, options).joined, std::vector<bool>(3, false));
@@ -249,10 +247,8 @@ TEST(DrawingBeams, join_the_ends_of_a_full_circle_but_not_to_a_dropped_beam) {
   scan.max_range_m = 80;
   scan.ranges_m.assign(120, 5);
   EXPECT_TRUE(drawing_beams(scan, {0, 0, 0}, {}).joined[0]);
-  scan.ranges_m[119] = 4.99F;
-  DrawingOptions options;
-  options.min_range_m = 4.995;
-  EXPECT_FALSE(drawing_beams(scan, {0, 0, 0}, options).joined[0]);
+  scan.ranges_m[119] = kNan;
+  EXPECT_FALSE(drawing_beams(scan, {0, 0, 0}, {}).joined[0]);
 }
 
 /// The ranges of the front laser are 2 m, those of the rear laser 3 m, with one beam without return. Between
@@ -292,7 +288,7 @@ TEST(MatchingPoints, of_a_frame_are_those_of_all_its_lasers_each_seen_from_its_o
 }
 
 TEST(DrawingBeams, of_a_frame_begin_at_each_of_its_lasers) {
-  const auto beams = drawing_beams(two_laser_frame(), {10, 20, M_PI / 2}, {0.1, 40});
+  const auto beams = drawing_beams(two_laser_frame(), {10, 20, M_PI / 2}, {40});
   ASSERT_EQ(beams.size(), 2U);
   EXPECT_NEAR(beams[0].origin.y, 20.5, 1e-9);
   EXPECT_NEAR(beams[1].origin.x, 10 + 0.5 * std::sin(0.1), 1e-9);

@@ -49,8 +49,10 @@ struct LogOptions {
   /// `kUnstatedMaxRange_m`.
   std::optional<double> max_range_m;
 
-  /// Minimum range, metres: readings below it are invalid. Use it if the laser sees the robot's own bumper.
-  double min_range_m = 0;
+  /// Minimum range, metres: readings below it are invalid. The default is below the minimum range of usual
+  /// lasers, which write small values for surfaces that are too near and for errors. Raise it if the laser
+  /// sees the robot's own bumper.
+  double min_range_m = 0.1;
 
   /// True: the readings run clockwise, because the laser is mounted upside down and the log does not say so.
   bool mirrored = false;

@@ -251,7 +251,7 @@ class Planner {
   /// Name of the robot with a laser: the namespace of its topic if those tell robots apart, otherwise the
   /// frame of the robot's base, which odometry moves. Empty if neither is known.
   std::string robot_with(const std::string& topic) const {
-    if (robots_.are_several()) return '/' + robots_.robot_of(topic);
+    if (robots_.are_several()) return robots_.has_robot(topic) ? '/' + robots_.robot_of(topic) : "";
     const auto scan = scan_frames_.find(topic);
     if (scan == scan_frames_.end()) return {};
     const Names way = plan_.transforms.way_up(scan->second);

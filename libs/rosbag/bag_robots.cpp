@@ -42,9 +42,12 @@ BagRobots::BagRobots(const std::vector<BagTopic>& topics) {
   }
 }
 
+bool BagRobots::has_robot(const std::string& topic) const {
+  return contains(names_, namespace_of(topic));
+}
+
 std::string BagRobots::robot_of(const std::string& topic) const {
-  const std::string name = namespace_of(topic);
-  return contains(names_, name) ? name : "";
+  return has_robot(topic) ? namespace_of(topic) : "";
 }
 
 bool BagRobots::may_share(const std::string& topic, const std::string& scan_topic) const {

@@ -26,6 +26,9 @@ class BagRobots {
   std::vector<std::string> of_robot(const std::vector<std::string>& topics,
                                     const std::string& scan_topic) const;
 
+  /// Returns whether a topic has the namespace of a robot.
+  bool has_robot(const std::string& topic) const;
+
   /// Name of the robot of a topic: its namespace; empty for topics that no namespace assigns to a robot.
   std::string robot_of(const std::string& topic) const;
 

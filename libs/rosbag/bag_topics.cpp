@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rosbag/bag_topics.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/text_parts.h"
@@ -79,7 +80,11 @@ class TopicChooser {
     if (choice_.scan_topics.empty() && options_.robot_T_laser)
       choice_.scan_topics = {choose("log.scan_topic", "", all, type)};
     if (choice_.scan_topics.empty()) {
-      choice_.scan_topics = robots_.of_robot(all, all.front());
+      Names ranked = all;
+      if (robots_.are_several())
+        std::stable_partition(ranked.begin(), ranked.end(),
+                              [&](const std::string& topic) { return robots_.has_robot(topic); });
+      choice_.scan_topics = robots_.of_robot(ranked, ranked.front());
       choice_.chooses_lasers = all.size() > 1;
     }
     for (const auto& [option_of_laser, name] : lasers_with_stated_values(options_))

@@ -126,6 +126,33 @@ INSTANTIATE_TEST_SUITE_P(
         TwoRobots{"transforms_connected_by_a_map", {"/a", "a_"}, {"/b", "b_"}, true, false, true}),
     [](const auto& tested) { return tested.param.name; });
 
+TEST(BagWithScansOfNoRobot, maps_a_robot_and_lists_no_other) {
+  for (const char* topic : {"/merged_scan", "/ceiling/scan"}) {
+    const TemporaryFolder folder;
+    const TwoRobots robots{"", {"/robot1", "robot1/"}, {"/robot2", "robot2/"}};
+    Recording recording;
+    record(recording, robots, robots.first, 0, 0.1);
+    record(recording, robots, robots.second, kApart_m, 0.3);
+    RecordedScan merged = std::get<RecordedScan>(recording.back());
+    merged.topic = topic;
+    merged.frame = "world";
+    recording.insert(recording.begin(), merged);
+    write_mcap(folder.path() / "bag", recording);
+    const auto log = open_log(folder.path() / "bag");
+    const auto frames = all_frames(*log);
+    ASSERT_EQ(frames.size(), 30U);
+    EXPECT_TRUE(frames[3].has_odometry);
+    EXPECT_NEAR(frames[3].odom_T_robot.y, 0, 1e-9);
+    EXPECT_THAT(log->assumptions(),
+                testing::ElementsAre("the bag recorded 2 robots: /robot1 (/robot1/scan), /robot2 "
+                                     "(/robot2/scan). /robot1 is mapped; select the scans of another one "
+                                     "with log.scan_topic",
+                                     std::string("the scans of ") + topic +
+                                         " are not used, because the mount of their laser on the robot is "
+                                         "unknown. Select topics with log.scan_topic"));
+  }
+}
+
 TEST(BagOfOneRobot, with_namespaces_of_devices_is_one_robot) {
   const TemporaryFolder folder;
   Recording recording;

@@ -10,6 +10,9 @@
 
 namespace psi_slam {
 
+/// Usual length of the beginning of a log that decides, seconds after the first scan.
+inline constexpr double kUsualLookOver_s = 5;
+
 /// Largest number of scans of a stream that wait for odometry.
 inline constexpr std::size_t kMostWaitingOfStream = 100;
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "frames/look_over.h"
 #include "live/live_control.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/log_options.h"
@@ -30,7 +31,7 @@ struct LiveInput {
   /// Seconds of the stream, by its time stamps, after its first scan. They decide what a log is looked over
   /// for: the lasers, their mounts and maximum range, whether there is odometry, and the robot's own body.
   /// Frames wait for these decisions.
-  double look_over_s = 5;
+  double look_over_s = kUsualLookOver_s;
 };
 
 /// Returns the name of the source for messages and reports: "standard input", "TCP port 5000", or the name

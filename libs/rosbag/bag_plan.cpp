@@ -16,6 +16,7 @@
 #include "frames/log_reader.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_topics.h"
+#include "rosbag/heard_odometry.h"
 #include "rosbag/ros_messages.h"
 
 namespace psi_slam {
@@ -25,16 +26,18 @@ using Names = std::vector<std::string>;
 
 class Planner {
  public:
-  Planner(std::unique_ptr<BagFile> bag, const std::filesystem::path& path, const LogOptions& options)
+  Planner(std::unique_ptr<BagFile> bag, const std::filesystem::path& path, const LogOptions& options,
+          double look_over_s)
       : path_(path.string()),
         options_(options),
         slices_clouds_(height_slice(options).has_value()),
         bag_(std::move(bag)),
         topics_(bag_->topics()),
-        robots_(topics_) {}
+        robots_(topics_),
+        chosen_(choose_topics(topics_, robots_, path_, options_)),
+        heard_(chosen_.odometry_topics, look_over_s) {}
 
   BagPlan plan() {
-    chosen_ = choose_topics(topics_, robots_, path_, options_);
     plan_.scan_topics = chosen_.scan_topics;
     plan_.transform_topics = chosen_.transform_topics;
     plan_.assumptions = chosen_.assumptions;
@@ -58,25 +61,24 @@ class Planner {
   }
 
  private:
-  /// Chooses the odometry of the first laser's robot: by namespace if the bag recorded several robots, by the
-  /// transforms, then /odom, then the first topic. Topics with messages take precedence.
+  /// Chooses the odometry of the first laser's robot: by namespace if the bag recorded several robots, topics
+  /// that are not silent, by the transforms, then /odom, then the first topic.
   void choose_odometry_topic() {
     if (chosen_.odometry_topics.empty()) return;
-    const std::string scan_topic = plan_.scan_topics.front();
     const auto rank = [&](const std::string& topic) {
-      const auto pose = odometry_.find(topic);
+      const auto pose = heard_.first().find(topic);
+      const bool is_heard = pose != heard_.first().end();
       const bool is_connected =
-          pose != odometry_.end() &&
-          are_on_one_robot(plan_.transforms, pose->second.child_frame, first_scan_frame());
-      const bool is_of_robot = robots_.robot_of(topic) == robots_.robot_of(scan_topic);
-      return std::make_tuple(pose == odometry_.end(), !(robots_.are_several() && is_of_robot), !is_connected,
-                             topic != "/odom");
+          is_heard && are_on_one_robot(plan_.transforms, pose->second.child_frame, first_scan_frame());
+      const bool is_of_robot = robots_.robot_of(topic) == robots_.robot_of(plan_.scan_topics[0]);
+      return std::make_tuple(!is_heard, !(robots_.are_several() && is_of_robot), heard_.is_silent(topic),
+                             !is_connected, topic != "/odom");
     };
     plan_.odometry_topic =
         *std::min_element(chosen_.odometry_topics.begin(), chosen_.odometry_topics.end(),
                           [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
-    const auto pose = odometry_.find(plan_.odometry_topic);
-    if (pose == odometry_.end()) return;
+    const auto pose = heard_.first().find(plan_.odometry_topic);
+    if (pose == heard_.first().end()) return;
     plan_.has_odometry = true;
     if (plan_.odom_frame.empty()) plan_.odom_frame = pose->second.header.frame;
     if (plan_.base_frame.empty()) plan_.base_frame = pose->second.child_frame;
@@ -90,6 +92,8 @@ class Planner {
     Names wanted = plan_.topics();
     wanted.insert(wanted.end(), chosen_.imu_topics.begin(), chosen_.imu_topics.end());
     wanted.insert(wanted.end(), chosen_.odometry_topics.begin(), chosen_.odometry_topics.end());
+    for (const BagTopic& topic : topics_)
+      if (has_scans(topic, slices_clouds_)) wanted.push_back(topic.name);
     bag_->want(wanted);
     for (BagMessage message; !is_complete();) {
       try {
@@ -106,12 +110,15 @@ class Planner {
   }
 
   void take(const BagMessage& message) {
+    if (has_scans(*message.topic, slices_clouds_)) heard_.add_scan(message.recorded_us);
     if (is_transforms(*message.topic)) {
       for (const RosTransform& transform : read_ros_transforms(message)) plan_.transforms.add(transform);
     } else if (message.topic->type == kRosOdometry) {
       take_odometry(message);
     } else if (message.topic->type == kRosImu) {
       take_imu(message);
+    } else if (!contains(plan_.scan_topics, message.topic->name)) {
+      return;
     } else if (message.topic->type == kRosPointCloud) {
       scan_frames_.emplace(message.topic->name, read_ros_header(message).frame);
     } else {
@@ -125,7 +132,7 @@ class Planner {
     const std::optional<RosTransform> odometry = read_ros_odometry(message);
     if (!odometry && invalid_pose_.empty())
       invalid_pose_ = bag_->place() + ": " + invalid_pose_text(message.topic->name);
-    if (odometry) odometry_.emplace(message.topic->name, *odometry);
+    if (odometry) heard_.add(message.topic->name, *odometry);
   }
 
   void take_imu(const BagMessage& message) {
@@ -160,7 +167,7 @@ class Planner {
   /// any topic of odometry may become the robot's.
   bool knows_mount(const std::string& frame) const {
     if (!plan_.base_frame.empty()) return plan_.transforms.base_T_frame(plan_.base_frame, frame).has_value();
-    return std::any_of(odometry_.begin(), odometry_.end(), [&](const auto& odometry) {
+    return std::any_of(heard_.first().begin(), heard_.first().end(), [&](const auto& odometry) {
       return plan_.transforms.base_T_frame(odometry.second.child_frame, frame).has_value();
     });
   }
@@ -173,20 +180,19 @@ class Planner {
   /// stated mount, because they show whether the laser is upside down.
   bool is_complete() const {
     const bool has_transforms = !plan_.transform_topics.empty();
-    const bool has_odometry =
-        plan_.has_odometry || (!odometry_.empty() && odometry_.size() == chosen_.odometry_topics.size());
+    const bool has_odometry = plan_.has_odometry || heard_.is_complete();
     const bool has_motion =
         has_odometry || (!chosen_.expects_odometry && seen_imus_.size() == chosen_.imu_topics.size());
     const auto has_mount = [&](const auto& sensor) { return !has_transforms || knows_mount(sensor.second); };
-    return has_motion && has_scans() && std::all_of(scan_frames_.begin(), scan_frames_.end(), has_mount) &&
+    return has_motion && knows_scans() && std::all_of(scan_frames_.begin(), scan_frames_.end(), has_mount) &&
            (has_odometry || std::all_of(gyroscope_frames_.begin(), gyroscope_frames_.end(), has_mount));
   }
 
   /// Returns whether a scan of each topic has been read.
-  bool has_scans() const { return scan_frames_.size() == plan_.scan_topics.size(); }
+  bool knows_scans() const { return scan_frames_.size() == plan_.scan_topics.size(); }
 
   /// Returns whether scans were read that can be mapped if the bag ends here.
-  bool has_enough_scans() const { return has_scans() || (chosen_.chooses_lasers && !scan_frames_.empty()); }
+  bool has_enough_scans() const { return knows_scans() || (chosen_.chooses_lasers && !scan_frames_.empty()); }
 
   /// Searches all transforms for odometry, because the topic has none, or because no transform connects it
   /// with a laser.
@@ -257,7 +263,7 @@ class Planner {
     const Names way = plan_.transforms.way_up(scan->second);
     for (std::size_t i = 1; i < way.size(); ++i)
       if (is_named_like_odometry(way[i]) && has_word(way[i - 1], "base")) return way[i - 1];
-    for (const auto& [name, odometry] : odometry_)
+    for (const auto& [name, odometry] : heard_.first())
       if (contains(way, odometry.child_frame)) return odometry.child_frame;
     return {};
   }
@@ -266,7 +272,7 @@ class Planner {
   void list_robots() {
     std::map<std::string, Names> robots;
     for (const BagTopic& topic : topics_)
-      if (is_scan(topic))
+      if (has_scans(topic, slices_clouds_))
         if (const std::string robot = robot_with(topic.name); !robot.empty())
           robots[robot].push_back(topic.name);
     if (robots.size() < 2) return;
@@ -381,12 +387,6 @@ class Planner {
     }
   }
 
-  /// Returns whether the topic has scans, or clouds if these are sliced.
-  bool is_scan(const BagTopic& topic) const {
-    return slices_clouds_ ? topic.type == kRosPointCloud
-                          : topic.type == kRosLaserScan || topic.type == kRosMultiEchoScan;
-  }
-
   bool is_cloud(const std::string& topic) const {
     return std::any_of(topics_.begin(), topics_.end(),
                        [&](const BagTopic& one) { return one.name == topic && one.type == kRosPointCloud; });
@@ -418,9 +418,9 @@ class Planner {
   std::vector<BagTopic> topics_;
   BagRobots robots_;
   BagTopics chosen_;
+  HeardOdometry heard_;
   BagPlan plan_;
   std::map<std::string, std::string> scan_frames_;  // key: topic of the scans; value: frame of the laser
-  std::map<std::string, RosTransform> odometry_;    // key: topic; value: its first valid odometry
   std::string damage_;                              // message about the first damaged message
   std::string invalid_pose_;                        // message about the first odometry with an invalid pose
   std::set<std::string> seen_imus_;                 // topics of gyroscopes with a message
@@ -442,8 +442,9 @@ std::string invalid_pose_text(const std::string& topic) {
          " is not finite, or the length of its quaternion is not 1, or it is beyond 10,000 km";
 }
 
-BagPlan plan_bag(std::unique_ptr<BagFile> bag, const std::filesystem::path& path, const LogOptions& options) {
-  return Planner(std::move(bag), path, options).plan();
+BagPlan plan_bag(std::unique_ptr<BagFile> bag, const std::filesystem::path& path, const LogOptions& options,
+                 double look_over_s) {
+  return Planner(std::move(bag), path, options, look_over_s).plan();
 }
 
 }  // namespace psi_slam

@@ -154,6 +154,11 @@ class TopicChooser {
 
 }  // namespace
 
+bool has_scans(const BagTopic& topic, bool slices_clouds) {
+  return slices_clouds ? topic.type == kRosPointCloud
+                       : topic.type == kRosLaserScan || topic.type == kRosMultiEchoScan;
+}
+
 bool is_transforms(const BagTopic& topic) {
   return (topic.type == kRosTransforms || topic.type == kRosOldTransforms) &&
          topic.encoding != BagEncoding::kOther;

@@ -28,6 +28,9 @@ struct BagTopics {
 BagTopics choose_topics(const std::vector<BagTopic>& topics, const BagRobots& robots, const std::string& path,
                         const LogOptions& options);
 
+/// Returns whether the messages of the topic are scans, or clouds if these are sliced.
+bool has_scans(const BagTopic& topic, bool slices_clouds);
+
 /// Returns whether the messages of the topic are transforms.
 bool is_transforms(const BagTopic& topic);
 

@@ -22,10 +22,7 @@ class MessageKinds {
  public:
   explicit MessageKinds(const LogOptions& options) : slices_clouds_(height_slice(options).has_value()) {}
 
-  bool is_scan(const BagTopic& topic) const {
-    return slices_clouds_ ? topic.type == kRosPointCloud
-                          : topic.type == kRosLaserScan || topic.type == kRosMultiEchoScan;
-  }
+  bool is_scan(const BagTopic& topic) const { return has_scans(topic, slices_clouds_); }
   bool is_needed(const BagTopic& topic) const {
     return is_scan(topic) || is_transforms(topic) || topic.type == kRosOdometry || topic.type == kRosImu;
   }

@@ -295,8 +295,8 @@ BagPlan with_agreeing_topics(BagPlan plan, const LogOptions& options,
 }  // namespace
 
 std::unique_ptr<LogReader> open_bag_log(const std::filesystem::path& path, const LogOptions& options) {
-  BagPlan plan =
-      with_agreeing_topics(plan_bag(open_bag(path), path, options), options, [&] { return open_bag(path); });
+  BagPlan plan = with_agreeing_topics(plan_bag(open_bag(path), path, options, kUsualLookOver_s), options,
+                                      [&] { return open_bag(path); });
   return std::make_unique<RosbagReader>(std::move(plan), open_bag(path), options, false);
 }
 
@@ -314,8 +314,8 @@ std::unique_ptr<LogReader> open_followed_bag(std::unique_ptr<BagRecording> recor
                                              const LogOptions& options, double look_over_s) {
   const auto beginning =
       std::make_shared<const BeginningOfBag>(read_beginning(*recording->bag, options, look_over_s));
-  BagPlan plan = with_agreeing_topics(plan_bag(begun_bag(beginning), recording->path, options), options,
-                                      [&] { return begun_bag(beginning); });
+  BagPlan plan = with_agreeing_topics(plan_bag(begun_bag(beginning), recording->path, options, look_over_s),
+                                      options, [&] { return begun_bag(beginning); });
   return std::make_unique<RosbagReader>(std::move(plan), begun_bag(beginning, std::move(recording->bag)),
                                         options, true);
 }

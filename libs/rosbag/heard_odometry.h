@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "frames/look_over.h"
+#include "rosbag/ros_messages.h"
+
+namespace psi_slam {
+
+/// Topics of odometry that speak at the beginning of a bag. A single topic is heard as soon as it speaks. Of
+/// several, those count that speak until LookOver has enough scans, as a bag that is still being recorded
+/// shows no more; if none does, those that speak as soon after the first.
+class HeardOdometry {
+ public:
+  HeardOdometry(std::vector<std::string> topics, double look_over_s);
+
+  /// Takes a scan of any topic, by the time at which it was recorded.
+  void add_scan(TimeUs recorded_us);
+  void add(const std::string& topic, const RosTransform& odometry);
+
+  /// Returns whether more messages change nothing.
+  bool is_complete() const { return !first_.empty() && (scans_without_.size() == 1 || heard_.is_enough()); }
+
+  /// First odometry of each topic that spoke.
+  const std::map<std::string, RosTransform>& first() const { return first_; }
+
+  /// Returns whether more than half of the scans came during one silence of a topic.
+  bool is_silent(const std::string& topic) const;
+
+ private:
+  struct Scans {
+    std::size_t since_odometry = 0;
+    std::size_t most = 0;
+  };
+
+  double look_over_s_;
+  LookOver heard_;
+  std::map<std::string, RosTransform> first_;
+  std::size_t scans_ = 0;
+  std::map<std::string, Scans> scans_without_;  // key: topic
+};
+
+}  // namespace psi_slam

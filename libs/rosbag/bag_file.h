@@ -25,6 +25,7 @@ struct BagTopic {
   std::string name;  ///< such as "/scan"
   std::string type;  ///< ROS 1 name of the type, also for ROS 2 bags: "sensor_msgs/LaserScan"
   BagEncoding encoding = BagEncoding::kOther;
+  std::int64_t number = 0;  ///< its number in the file, by which BagFile::topics() is sorted
   bool operator==(const BagTopic& other) const {
     return name == other.name && type == other.type && encoding == other.encoding;
   }

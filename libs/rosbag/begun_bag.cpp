@@ -103,6 +103,8 @@ BeginningOfBag read_beginning(BagFile& recording, const LogOptions& options, dou
       --others;
     }
   }
+  std::stable_sort(beginning.topics.begin(), beginning.topics.end(),
+                   [](const BagTopic& a, const BagTopic& b) { return a.number < b.number; });
   return beginning;
 }
 

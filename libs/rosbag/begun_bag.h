@@ -21,7 +21,7 @@ struct BeginningOfBag {
     std::string place;  ///< as BagFile::place()
   };
 
-  std::vector<BagTopic> topics;  ///< of all messages
+  std::vector<BagTopic> topics;  ///< of all messages, in the order of the complete bag
   /// Messages that a reader of scans needs, in the order of the bag: scans, odometry, transforms and readings
   /// of IMUs; point clouds only if the options select a slice of them.
   std::deque<Message> messages;

@@ -58,6 +58,7 @@ class Channels {
     BagTopic topic;
     topic.name = text(record);
     topic.encoding = encoding_named(text(record));
+    topic.number = id;
     if (schema != schemas_.end()) topic.type = schema->second;
     channels_.emplace(id, std::move(topic));
   }

@@ -62,7 +62,7 @@ std::uint8_t operation_of(const Record& record) {
 BagTopic topic_of(const Record& record) {
   const Fields fields = fields_of(record.data);
   return {std::string(text_field(record.fields, "topic")), std::string(text_field(fields, "type")),
-          BagEncoding::kRos1};
+          BagEncoding::kRos1, number_field<std::uint32_t>(record.fields, "conn")};
 }
 
 class Ros1Bag final : public RecordBag {
@@ -120,8 +120,10 @@ class Ros1Bag final : public RecordBag {
 
   bool take_record(BagMessage& message) override {
     const std::uint8_t operation = operation_of(record_);
-    if (operation == kConnection)
-      connections_.emplace(number_field<std::uint32_t>(record_.fields, "conn"), topic_of(record_));
+    if (operation == kConnection) {
+      const BagTopic topic = topic_of(record_);
+      connections_.emplace(static_cast<std::uint32_t>(topic.number), topic);
+    }
     if (operation == kBagChunk) open_chunk(text_field(record_.fields, "compression"));
     return operation == kMessageData && take_message(message);
   }

@@ -43,8 +43,8 @@ std::map<std::int64_t, BagTopic> SqliteConnection::topics() const {
   std::map<std::int64_t, BagTopic> topics;
   while (step(rows)) {
     const BagEncoding encoding = text_at(rows, 3) == "cdr" ? BagEncoding::kCdr : BagEncoding::kOther;
-    topics[sqlite3_column_int64(rows.get(), 0)] = {text_at(rows, 1), ros1_type_name(text_at(rows, 2)),
-                                                   encoding};
+    const std::int64_t number = sqlite3_column_int64(rows.get(), 0);
+    topics[number] = {text_at(rows, 1), ros1_type_name(text_at(rows, 2)), encoding, number};
   }
   return topics;
 }

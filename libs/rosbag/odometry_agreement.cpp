@@ -19,6 +19,7 @@ constexpr double kStep_rad = 5 * M_PI / 180;
 constexpr double kLever_m = 2;
 constexpr std::size_t kMostSteps = 200;
 constexpr std::size_t kLeastSteps = 10;
+constexpr double kErrors = 4;  // least difference of two medians, in standard errors
 
 std::optional<Frame> next_readable(FrameSource& scans) {
   try {
@@ -30,7 +31,11 @@ std::optional<Frame> next_readable(FrameSource& scans) {
 
 }  // namespace
 
-double disagreement_with_odometry_m(FrameSource& scans) {
+bool OdometryDisagreement::is_clearly_less_than(const OdometryDisagreement& other) const {
+  return other.median_m - median_m > kErrors * std::hypot(standard_error_m, other.standard_error_m);
+}
+
+OdometryDisagreement disagreement_with_odometry(FrameSource& scans) {
   std::vector<double> differences_m;
   std::optional<Frame> reference;
   while (differences_m.size() < kMostSteps) {
@@ -46,10 +51,12 @@ double disagreement_with_odometry_m(FrameSource& scans) {
     }
     reference = std::move(frame);
   }
-  if (differences_m.size() < kLeastSteps) return std::numeric_limits<double>::infinity();
-  const auto middle = differences_m.begin() + static_cast<std::ptrdiff_t>(differences_m.size() / 2);
-  std::nth_element(differences_m.begin(), middle, differences_m.end());
-  return *middle;
+  if (differences_m.size() < kLeastSteps) return {std::numeric_limits<double>::infinity(), 0};
+  std::sort(differences_m.begin(), differences_m.end());
+  // The rank of the true median has a standard error of half the root of the number of values.
+  const std::size_t middle = differences_m.size() / 2;
+  const auto ranks = static_cast<std::size_t>(std::sqrt(static_cast<double>(differences_m.size())) / 2);
+  return {differences_m[middle], (differences_m[middle + ranks] - differences_m[middle - ranks]) / 2};
 }
 
 }  // namespace psi_slam

@@ -5,9 +5,17 @@
 
 namespace psi_slam {
 
-/// Returns how much the motions between scans of one laser, by their alignment, differ from odometry: the
-/// median over the first 200 steps of about 0.1 m or 5 degrees, metres at 2 m from the robot. Infinity if
-/// fewer than 10 steps can be aligned. Ends at the first error of the log.
-double disagreement_with_odometry_m(FrameSource& scans);
+/// How much the motions between scans of one laser, by their alignment, differ from odometry.
+struct OdometryDisagreement {
+  double median_m = 0;          ///< metres at 2 m from the robot
+  double standard_error_m = 0;  ///< of the median
+
+  /// Returns whether it is less than another one by more than four standard errors of the difference.
+  bool is_clearly_less_than(const OdometryDisagreement& other) const;
+};
+
+/// Compares the first 200 steps of about 0.1 m or 5 degrees. The median is infinite if fewer than 10 steps
+/// can be aligned. Ends at the first error of the log.
+OdometryDisagreement disagreement_with_odometry(FrameSource& scans);
 
 }  // namespace psi_slam

@@ -267,26 +267,31 @@ class RosbagReader : public LogReader {
   bool at_end_ = false;
 };
 
-/// Selects the topic whose scans agree best with odometry from each list of BagPlan::rival_topics, or the
-/// first one if none can be compared. `open` opens the bag.
+/// Selects from each list of BagPlan::rival_topics the first topic whose scans do not clearly disagree more
+/// with odometry than those of another one. `open` opens the bag.
 BagPlan with_agreeing_topics(BagPlan plan, const LogOptions& options,
                              const std::function<std::unique_ptr<BagFile>()>& open) {
   for (const std::vector<std::string>& rivals : plan.rival_topics) {
-    std::vector<double> differences_m;
+    std::vector<OdometryDisagreement> disagreements;
     for (const std::string& topic : rivals) {
       BagPlan one = plan;
       one.scan_topics = {topic};
       RosbagReader reader(std::move(one), open(), options, false);
-      differences_m.push_back(disagreement_with_odometry_m(reader));
+      disagreements.push_back(disagreement_with_odometry(reader));
     }
-    const auto best = std::min_element(differences_m.begin(), differences_m.end());
-    const std::string& chosen = rivals.at(static_cast<std::size_t>(best - differences_m.begin()));
+    const OdometryDisagreement least =
+        *std::min_element(disagreements.begin(), disagreements.end(),
+                          [](const auto& a, const auto& b) { return a.median_m < b.median_m; });
+    const auto is_worse = [&](const auto& one) { return least.is_clearly_less_than(one); };
+    const auto best = std::find_if_not(disagreements.begin(), disagreements.end(), is_worse);
+    const bool is_clear = std::all_of(best + 1, disagreements.end(), is_worse);
+    const std::string& chosen = rivals.at(static_cast<std::size_t>(best - disagreements.begin()));
     std::replace(plan.scan_topics.begin(), plan.scan_topics.end(), rivals.front(), chosen);
     std::vector<std::string> others = rivals;
     others.erase(std::find(others.begin(), others.end(), chosen));
     plan.assumptions.push_back("the scans of " + name_list(others) + " are not used, because " + chosen +
                                " has scans of the same laser" +
-                               (std::isfinite(*best) ? ", which agree better with odometry" : "") +
+                               (is_clear ? ", which agree better with odometry" : "") +
                                ". Select topics with log.scan_topic");
   }
   return plan;

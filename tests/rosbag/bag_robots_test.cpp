@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <functional>
+#include <random>
 #include <string>
 
 #include "bag_files.h"
@@ -200,6 +201,8 @@ TEST(BagOfOneRobot, never_has_the_odometry_of_another_robot) {
 struct RivalTopic {
   std::string name;
   std::function<void(RecordedScan&, int i)> disturb;  // of the scan i of the worse topic
+  float noise_m = 0;                                  // standard deviation of the ranges of both topics
+  unsigned seed = 0;
   friend void PrintTo(const RivalTopic& rival, std::ostream* out) { *out << rival.name; }
 };
 
@@ -209,6 +212,8 @@ class TwoTopicsOfOneLaser : public testing::TestWithParam<RivalTopic> {
   static Recording drive(const std::string& good, const std::string& bad, bool bad_first, bool moves = true) {
     Recording recording{static_mount("laser", {0.1, 0, 0.2, 0, 0, 0})};
     const auto bearings = even_bearings(-2, 2, 161);
+    std::mt19937 random(GetParam().seed);
+    std::normal_distribution<float> normal;
     for (int i = 0; i < 120; ++i) {
       const TimeUs time_us = 1'600'000'000'000'000 + i * 100'000;
       const double angle_rad = moves ? 0.05 * i + 0.4 * std::sin(0.25 * i) : 0;
@@ -224,6 +229,8 @@ class TwoTopicsOfOneLaser : public testing::TestWithParam<RivalTopic> {
       scan.topic = good;
       disturbed.topic = bad;
       if (moves) GetParam().disturb(disturbed, i);
+      for (RecordedScan* noisy : {&scan, &disturbed})
+        for (float& range_m : noisy->ranges_m) range_m += GetParam().noise_m * normal(random);
       recording.emplace_back(bad_first ? disturbed : scan);
       recording.emplace_back(bad_first ? scan : disturbed);
     }
@@ -255,6 +262,25 @@ TEST_P(TwoTopicsOfOneLaser, are_chosen_by_name_if_the_robot_stands) {
         testing::ElementsAre("the scans of /base_scan are not used, because /scan has scans of the same "
                              "laser. Select topics with log.scan_topic"));
 }
+
+using NoisyTopicsOfOneLaser = TwoTopicsOfOneLaser;
+
+TEST_P(NoisyTopicsOfOneLaser, are_chosen_by_name_if_only_noise_tells_them_apart) {
+  for (const bool first : {false, true})
+    EXPECT_THAT(
+        assumptions_about(drive("/scan", "/base_scan", first)),
+        testing::ElementsAre("the scans of /base_scan are not used, because /scan has scans of the same "
+                             "laser. Select topics with log.scan_topic"));
+}
+
+RivalTopic equal_topic(unsigned seed) {
+  return {"seed_" + std::to_string(seed), [](RecordedScan&, int) {}, 0.01F, seed};
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, NoisyTopicsOfOneLaser,
+                         testing::Values(equal_topic(1), equal_topic(2), equal_topic(3), equal_topic(4),
+                                         equal_topic(5), equal_topic(6)),
+                         [](const auto& tested) { return tested.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Kinds, TwoTopicsOfOneLaser,

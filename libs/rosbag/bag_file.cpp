@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "compression/compression.h"
-#include "compression/decompressor.h"
 #include "frames/log_format.h"
 #include "psi_slam/user_error.h"
 
@@ -75,13 +73,6 @@ void check_stated_size(std::uint64_t bytes) {
   if (bytes > kMaxRecordBytes)
     throw MalformedBytes("it states a size of " + std::to_string(bytes) + " bytes, expected at most " +
                          std::to_string(kMaxRecordBytes));
-}
-
-void unpack_message(BagMessage& message, std::string& room) {
-  // CDR starts with a byte 0, so it is never taken for zstd.
-  if (message.topic->encoding != BagEncoding::kCdr || compression_of(message.bytes) != "zstd") return;
-  room = decompress_zstd_frame(message.bytes, kMaxRecordBytes);
-  message.bytes = room;
 }
 
 std::string damage_text(const BagFile& bag, const BagMessage& message, const MalformedBytes& damage) {

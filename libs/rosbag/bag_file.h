@@ -14,6 +14,7 @@
 #include "base/byte_cursor.h"
 #include "compression/byte_source.h"
 #include "psi_slam/time_stamp.h"
+#include "psi_slam/user_error.h"
 #include "rosbag/bag_recorder.h"
 
 namespace psi_slam {
@@ -37,7 +38,8 @@ std::string ros1_type_name(std::string_view type);
 /// Appends a topic unless the list contains it.
 void add_topic(std::vector<BagTopic>& topics, const BagTopic& topic);
 
-/// One message. `topic` and `bytes` are valid until the next message is read.
+/// One message. `topic` and `bytes` are valid until the next message is read. The bytes are compressed if
+/// rosbag2 compressed each message by itself (compression mode "message").
 struct BagMessage {
   const BagTopic* topic = nullptr;
   TimeUs recorded_us = 0;
@@ -51,10 +53,11 @@ constexpr std::uint64_t kMaxRecordBytes = std::uint64_t{1} << 27;
 /// Throws MalformedBytes if a bag states a size above kMaxRecordBytes.
 void check_stated_size(std::uint64_t bytes);
 
-/// Decompresses the bytes of a message if rosbag2 compressed each message by itself (compression mode
-/// "message"). `room` holds the decompressed bytes. Throws MalformedBytes if they are damaged, or more than
-/// kMaxRecordBytes.
-void unpack_message(BagMessage& message, std::string& room);
+/// Part of a bag that is damaged by itself, such as a chunk. The bag can be read further.
+class DamagedPart : public UserError {
+ public:
+  using UserError::UserError;
+};
 
 /// Reads a bag from its beginning, in the order of the file.
 class BagFile {
@@ -70,7 +73,7 @@ class BagFile {
   virtual void want(const std::vector<std::string>& topics) { wanted_ = topics; }
 
   /// Reads the next message. Returns false at the end. Throws UserError, with file and place, where the bag
-  /// is damaged or truncated.
+  /// is damaged or truncated. If it is a DamagedPart, the next call reads on after that part.
   virtual bool next(BagMessage& message) = 0;
 
   /// Fraction of the bag that has been read, in [0, 1].

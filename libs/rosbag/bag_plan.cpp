@@ -101,6 +101,8 @@ class Planner {
         take(message);
       } catch (const MalformedBytes& error) {
         if (damage_.empty()) damage_ = damage_text(*bag_, message, error);
+      } catch (const DamagedPart& error) {
+        if (damage_.empty()) damage_ = error.what();
       } catch (const UserError&) {
         if (!has_enough_scans()) throw;
         return;
@@ -435,11 +437,6 @@ Names BagPlan::topics() const {
   if (!imu_topic.empty()) all.push_back(imu_topic);
   all.insert(all.end(), transform_topics.begin(), transform_topics.end());
   return all;
-}
-
-std::string invalid_pose_text(const std::string& topic) {
-  return "the odometry on " + topic +
-         " is not finite, or the length of its quaternion is not 1, or it is beyond 10,000 km";
 }
 
 BagPlan plan_bag(std::unique_ptr<BagFile> bag, const std::filesystem::path& path, const LogOptions& options,

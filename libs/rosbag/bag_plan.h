@@ -31,9 +31,6 @@ struct BagPlan {
   std::vector<std::string> topics() const;
 };
 
-/// Error message for odometry with an invalid pose, without the place.
-std::string invalid_pose_text(const std::string& topic);
-
 /// Plans how to read a bag. Scans are laser scans, or point clouds if `options.slice_z_m` is set. Finds the
 /// topics by their types, or by the names that the user states. Then reads until all frames are known, or to
 /// the end; of several topics of odometry, those count that HeardOdometry hears within `look_over_s`. If the

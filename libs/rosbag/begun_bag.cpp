@@ -54,6 +54,7 @@ class BegunBag : public BagFile {
   }
 
   bool next(BagMessage& message) override {
+    if (beginning_ && next_damage_ < beginning_->damage.size()) throw beginning_->damage[next_damage_++];
     while (beginning_) {
       if (next_ == beginning_->messages.size()) {
         beginning_.reset();
@@ -76,9 +77,21 @@ class BegunBag : public BagFile {
  private:
   std::shared_ptr<const BeginningOfBag> beginning_;  // null after its last message
   std::size_t next_ = 0;
+  std::size_t next_damage_ = 0;
   BeginningOfBag::Message message_;
   std::unique_ptr<BagFile> rest_;
 };
+
+/// Reads the next message, and adds the damaged parts before it to a list. Returns false at the end.
+bool next_message(BagFile& recording, BagMessage& message, std::vector<DamagedPart>& damage) {
+  while (true) {
+    try {
+      return recording.next(message);
+    } catch (const DamagedPart& part) {
+      damage.push_back(part);
+    }
+  }
+}
 
 }  // namespace
 
@@ -89,7 +102,8 @@ BeginningOfBag read_beginning(BagFile& recording, const LogOptions& options, dou
   BeginningOfBag beginning;
   std::deque<BeginningOfBag::Message>& kept = beginning.messages;
   std::size_t others = 0;
-  for (BagMessage message; !scans.is_enough(!awaited.empty()) && recording.next(message);) {
+  for (BagMessage message;
+       !scans.is_enough(!awaited.empty()) && next_message(recording, message, beginning.damage);) {
     const BagTopic& topic = *message.topic;
     add_topic(beginning.topics, topic);
     if (!kinds.is_needed(topic)) continue;

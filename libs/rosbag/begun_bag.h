@@ -25,6 +25,7 @@ struct BeginningOfBag {
   /// Messages that a reader of scans needs, in the order of the bag: scans, odometry, transforms and readings
   /// of IMUs; point clouds only if the options select a slice of them.
   std::deque<Message> messages;
+  std::vector<DamagedPart> damage;  ///< damaged parts, which BagFile::next() reports before all messages
 };
 
 /// Reads the first messages of a recording until LookOver has enough scans; the times are those at which

@@ -11,7 +11,6 @@
 #include <thread>
 #include <utility>
 
-#include "base/byte_cursor.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_file.h"
 #include "rosbag/growing_database.h"
@@ -79,11 +78,6 @@ class GrowingSqliteBag : public BagFile {
     row_ = std::move(rows_.front());
     rows_.pop_front();
     message = {&topics_.at(row_.topic), row_.recorded_ns / 1000, row_.data};
-    try {
-      unpack_message(message, unpacked_message_);
-    } catch (const MalformedBytes& error) {
-      throw UserError(place() + ": the bag is damaged: " + error.what() + ". Record the bag again");
-    }
     return true;
   }
 
@@ -186,9 +180,8 @@ class GrowingSqliteBag : public BagFile {
   BagRecorder recorder_;
   GrowingDatabase database_;
   Topics topics_;
-  std::deque<Row> rows_;  // that next() returns
-  Row row_;               // that next() returned last
-  std::string unpacked_message_;
+  std::deque<Row> rows_;      // that next() returns
+  Row row_;                   // that next() returned last
   std::int64_t last_id_ = 0;  // number of the last row that was read
   bool has_notified_ = false;
 };

@@ -63,6 +63,8 @@ class Channels {
     channels_.emplace(id, std::move(topic));
   }
 
+  void add(const Channels& others) { channels_.insert(others.channels_.begin(), others.channels_.end()); }
+
   /// Returns the topic of a channel, or null for an unknown channel.
   const BagTopic* topic(std::uint16_t channel) const {
     const auto found = channels_.find(channel);
@@ -90,11 +92,7 @@ class McapBag : public RecordBag {
   }
 
   std::vector<BagTopic> topics() override {
-    try {
-      if (auto topics = topics_of_summary(); !topics.empty()) return topics;
-    } catch (const MalformedBytes&) {
-      // The summary is damaged. The records before it state the topics too.
-    }
+    if (auto topics = channels_of_summary().topics(); !topics.empty()) return topics;
     McapBag whole{BagStream(stream_.path())};
     const std::optional<UserError> failure = whole.read_to_end();
     std::vector<BagTopic> topics = whole.channels_.topics();
@@ -132,8 +130,11 @@ class McapBag : public RecordBag {
   }
 
  private:
-  bool take_message(ByteCursor cursor, BagMessage& message) const {
-    const BagTopic* topic = channels_.topic(cursor.number<std::uint16_t>());
+  bool take_message(ByteCursor cursor, BagMessage& message) {
+    const auto channel = cursor.number<std::uint16_t>();
+    if (channels_.topic(channel) == nullptr && !std::exchange(knows_summary_, true))
+      channels_.add(channels_of_summary());
+    const BagTopic* topic = channels_.topic(channel);
     if (topic == nullptr) throw MalformedBytes("a message has no channel");
     if (!is_wanted(*topic)) return false;
     cursor.number<std::uint32_t>();  // sequence number of the message
@@ -154,7 +155,8 @@ class McapBag : public RecordBag {
     begin_chunk();
   }
 
-  std::vector<BagTopic> topics_of_summary() const {
+  /// Returns the channels of the summary; none if it is missing or damaged.
+  Channels channels_of_summary() const {
     const std::string footer = tail_of_file(stream_.path(), -kFooterBytes);
     const bool is_footer =
         !footer.empty() && footer.front() == kFooter &&
@@ -164,18 +166,23 @@ class McapBag : public RecordBag {
     if (start == 0 || start > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) return {};
     const std::string summary = tail_of_file(stream_.path(), static_cast<std::int64_t>(start));
     Channels channels;
-    for (ByteCursor cursor(summary); cursor.left() > static_cast<std::size_t>(kFooterBytes);) {
-      const auto kind = cursor.number<std::uint8_t>();
-      const ByteCursor record(cursor.take(cursor.number<std::uint64_t>()));
-      if (kind == kSchema) channels.add_schema(record);
-      if (kind == kChannel) channels.add_channel(record);
+    try {
+      for (ByteCursor cursor(summary); cursor.left() > static_cast<std::size_t>(kFooterBytes);) {
+        const auto kind = cursor.number<std::uint8_t>();
+        const ByteCursor record(cursor.take(cursor.number<std::uint64_t>()));
+        if (kind == kSchema) channels.add_schema(record);
+        if (kind == kChannel) channels.add_channel(record);
+      }
+    } catch (const MalformedBytes&) {
+      return {};  // the records before the summary state the channels too
     }
-    return channels.topics();
+    return channels;
   }
 
   std::uint8_t kind_ = 0;  // kind of the current record
   std::string_view bytes_;
   Channels channels_;
+  bool knows_summary_ = false;  // channels_ contains those of the summary
   bool at_end_ = false;
 };
 

@@ -77,14 +77,18 @@ bool RecordBag::next(BagMessage& message) {
         read_record_of_chunk(*in_chunk_);
       } else {
         in_chunk_.reset();
+        has_record_ = is_chunk_ = false;
         if (!read_record_of_file()) break;
+        has_record_ = true;
       }
-      if (!take_record(message)) continue;
-      unpack_message(message, unpacked_message_);
-      return true;
+      if (take_record(message)) return true;
     }
   } catch (const MalformedBytes& error) {
-    throw UserError(place() + ": the bag is damaged: " + error.what() + ". Fetch the bag again");
+    const std::string sentence = place() + (is_chunk_ ? ": a chunk of messages is lost, because " : ": ") +
+                                 "the bag is damaged: " + error.what() + ". Fetch the bag again";
+    in_chunk_.reset();
+    if (has_record_) throw DamagedPart(sentence);
+    throw UserError(sentence);
   } catch (const EndOfRecording&) {
     return false;
   }
@@ -94,6 +98,7 @@ bool RecordBag::next(BagMessage& message) {
 
 void RecordBag::unpack_chunk(std::string_view compression, std::string_view bytes, std::uint64_t size) {
   if (in_chunk_) throw MalformedBytes("a chunk contains another chunk");
+  is_chunk_ = true;
   check_stated_size(size);
   const bool is_plain = compression.empty() || compression == "none";
   if (is_plain && bytes.size() != size)
@@ -103,12 +108,17 @@ void RecordBag::unpack_chunk(std::string_view compression, std::string_view byte
 }
 
 std::optional<UserError> RecordBag::read_to_end() {
-  try {
-    for (BagMessage message; next(message);) continue;
-  } catch (const UserError& error) {
-    return error;
+  std::optional<UserError> first;
+  while (true) {
+    try {
+      for (BagMessage message; next(message);) continue;
+      return first;
+    } catch (const DamagedPart& error) {
+      if (!first) first = error;
+    } catch (const UserError& error) {
+      return first ? first : error;
+    }
   }
-  return std::nullopt;
 }
 
 std::string RecordBag::place() const {

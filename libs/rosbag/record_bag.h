@@ -91,7 +91,7 @@ class RecordBag : public BagFile {
   void unpack_chunk(std::string_view compression, std::string_view bytes, std::uint64_t size);
   /// Makes next() continue with the records in chunk_.
   void begin_chunk() { in_chunk_.emplace(chunk_); }
-  /// Reads all records up to the end or the first error, which it returns.
+  /// Reads all records up to the end or an error. Returns the first error, also of a damaged part.
   std::optional<UserError> read_to_end();
 
   BagStream stream_;
@@ -100,7 +100,8 @@ class RecordBag : public BagFile {
 
  private:
   std::optional<ByteCursor> in_chunk_;
-  std::string unpacked_message_;
+  bool has_record_ = false;            // whether the current record of the file was read as a whole
+  bool is_chunk_ = false;              // whether that record is a chunk
   std::uint64_t offset_in_chunk_ = 0;  // byte offset of the current record in the decompressed chunk
 };
 

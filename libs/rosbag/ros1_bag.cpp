@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "psi_slam/user_error.h"
 #include "rosbag/record_bag.h"
@@ -80,22 +81,9 @@ class Ros1Bag final : public RecordBag {
 
   std::vector<BagTopic> topics() override {
     std::vector<BagTopic> topics;
-    const std::string index =
-        index_offset_ > 0 ? tail_of_file(stream_.path(), static_cast<std::int64_t>(index_offset_)) : "";
-    std::uint32_t connections = 0;
-    try {
-      for (ByteCursor cursor(index); !cursor.at_end();) {
-        const Record record = record_of(cursor);
-        if (operation_of(record) != kConnection) continue;
-        add_topic(topics, topic_of(record));
-        ++connections;
-      }
-      const bool is_whole = connections >= stated_connections_;
-      if (is_whole && !topics.empty()) return topics;
-    } catch (const MalformedBytes&) {
-      // The index is truncated or damaged. The chunks hold the connections too.
-    }
-    topics.clear();
+    if (const std::vector<BagTopic> index = connections_of_index(); index.size() >= stated_connections_)
+      for (const BagTopic& topic : index) add_topic(topics, topic);
+    if (!topics.empty()) return topics;
     Ros1Bag whole{BagStream(stream_.path())};
     const std::optional<UserError> failure = whole.read_to_end();
     for (const auto& [number, topic] : whole.connections_) add_topic(topics, topic);
@@ -120,10 +108,7 @@ class Ros1Bag final : public RecordBag {
 
   bool take_record(BagMessage& message) override {
     const std::uint8_t operation = operation_of(record_);
-    if (operation == kConnection) {
-      const BagTopic topic = topic_of(record_);
-      connections_.emplace(static_cast<std::uint32_t>(topic.number), topic);
-    }
+    if (operation == kConnection) add_connection(topic_of(record_));
     if (operation == kBagChunk) open_chunk(text_field(record_.fields, "compression"));
     return operation == kMessageData && take_message(message);
   }
@@ -163,8 +148,30 @@ class Ros1Bag final : public RecordBag {
                       "), expected a plain bag. Decrypt it with rosbag decrypt");
   }
 
-  bool take_message(BagMessage& message) const {
-    const auto connection = connections_.find(number_field<std::uint32_t>(record_.fields, "conn"));
+  /// Returns the topic of each connection in the index, up to the end or damage of the index.
+  std::vector<BagTopic> connections_of_index() const {
+    std::vector<BagTopic> connections;
+    const std::string index =
+        index_offset_ > 0 ? tail_of_file(stream_.path(), static_cast<std::int64_t>(index_offset_)) : "";
+    try {
+      for (ByteCursor cursor(index); !cursor.at_end();)
+        if (const Record record = record_of(cursor); operation_of(record) == kConnection)
+          connections.push_back(topic_of(record));
+    } catch (const MalformedBytes&) {
+      // The index is truncated or damaged. The chunks hold the connections too.
+    }
+    return connections;
+  }
+
+  void add_connection(const BagTopic& topic) {
+    connections_.emplace(static_cast<std::uint32_t>(topic.number), topic);
+  }
+
+  bool take_message(BagMessage& message) {
+    const auto number = number_field<std::uint32_t>(record_.fields, "conn");
+    if (connections_.count(number) == 0 && !std::exchange(knows_index_, true))
+      for (const BagTopic& topic : connections_of_index()) add_connection(topic);
+    const auto connection = connections_.find(number);
     if (connection == connections_.end()) throw MalformedBytes("a message has no connection");
     if (!is_wanted(connection->second)) return false;
     ByteCursor time(text_field(record_.fields, "time"));
@@ -178,6 +185,7 @@ class Ros1Bag final : public RecordBag {
   std::map<std::uint32_t, BagTopic> connections_;
   std::string header_;
   std::uint64_t index_offset_ = 0;        // stated byte offset of the index; 0 if the bag was not closed
+  bool knows_index_ = false;              // connections_ contains those of the index
   std::uint32_t stated_connections_ = 0;  // number of connections that the index should have
 };
 

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "base/byte_cursor.h"
+#include "compression/compression.h"
+#include "compression/decompressor.h"
 #include "frames/pose_operations.h"
 
 namespace psi_slam {
@@ -20,7 +22,7 @@ namespace {
 class RosFields {
  public:
   explicit RosFields(const BagMessage& message)
-      : cdr_(message.topic->encoding == BagEncoding::kCdr), cursor_(cursor_over(message, alignment_)) {}
+      : cdr_(message.topic->encoding == BagEncoding::kCdr), cursor_(cursor_over(message)) {}
 
   bool is_cdr() const { return cdr_; }
 
@@ -51,18 +53,20 @@ class RosFields {
   }
 
  private:
-  /// Returns a cursor over the fields. Skips the four bytes before CDR data, which state the encoding, and
-  /// sets `alignment` from them.
-  static ByteCursor cursor_over(const BagMessage& message, std::size_t& alignment) {
+  /// Returns a cursor over the fields. Decompresses CDR data that rosbag2 compressed. Skips the four bytes
+  /// before the data, which state the encoding, and sets alignment_ from them.
+  ByteCursor cursor_over(const BagMessage& message) {
     if (message.topic->encoding == BagEncoding::kRos1) return ByteCursor(message.bytes);
-    ByteCursor head(message.bytes);
+    const bool is_packed = compression_of(message.bytes) == "zstd";  // CDR starts with a byte 0
+    if (is_packed) unpacked_ = decompress_zstd_frame(message.bytes, kMaxRecordBytes);
+    ByteCursor head(is_packed ? unpacked_ : message.bytes);
     head.take(1);
     const auto kind = head.number<std::uint8_t>();
     head.take(2);
     const bool is_plain_cdr2 = kind == 6 || kind == 7;
     if (kind > 1 && !is_plain_cdr2)
       throw MalformedBytes("its encoding has kind " + std::to_string(kind) + ", expected plain CDR");
-    alignment = is_plain_cdr2 ? 4 : 8;
+    alignment_ = is_plain_cdr2 ? 4 : 8;
     return ByteCursor(head.rest(), kind % 2 == 1 ? ByteOrder::kLittleEndian : ByteOrder::kBigEndian);
   }
 
@@ -71,8 +75,10 @@ class RosFields {
     cursor_.take((step - cursor_.offset() % step) % step);
   }
 
-  // Largest alignment in bytes; set while cursor_ is initialised, so declared before it.
+  // Set while cursor_ is initialised, so declared before it: largest alignment in bytes, and decompressed
+  // bytes of the message.
   std::size_t alignment_ = 8;
+  std::string unpacked_;
   bool cdr_;
   ByteCursor cursor_;
 };
@@ -258,6 +264,11 @@ RosHeader read_ros_header(const BagMessage& message) {
 std::optional<RosTransform> read_ros_odometry(const BagMessage& message) {
   RosFields fields(message);
   return transform(fields, message.recorded_us);
+}
+
+std::string invalid_pose_text(const std::string& topic) {
+  return "the odometry on " + topic +
+         " is not finite, or the length of its quaternion is not 1, or it is beyond 10,000 km";
 }
 
 std::vector<RosTransform> read_ros_transforms(const BagMessage& message) {

@@ -75,6 +75,9 @@ RosHeader read_ros_header(const BagMessage& message);
 /// quaternion whose length is not 1.
 std::optional<RosTransform> read_ros_odometry(const BagMessage& message);
 
+/// Error message for odometry with an invalid pose, without the place.
+std::string invalid_pose_text(const std::string& topic);
+
 /// Returns the transforms of a message. Skips invalid transforms, because most transforms are not needed.
 std::vector<RosTransform> read_ros_transforms(const BagMessage& message);
 

@@ -6,7 +6,7 @@
 // message without a stamp has the time at which it was recorded.
 //
 // A damaged or truncated bag yields all frames before the damage, then a UserError. Messages that are invalid
-// by themselves are skipped and counted.
+// by themselves, and damaged chunks, are skipped and counted.
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -154,6 +154,9 @@ class RosbagReader : public LogReader {
           take_or_skip(message);
           continue;
         }
+      } catch (const DamagedPart& error) {
+        skip(error);
+        continue;
       } catch (const UserError&) {
         failure_ = std::current_exception();  // thrown after the scans that wait for odometry
       }
@@ -168,9 +171,13 @@ class RosbagReader : public LogReader {
     try {
       take(message);
     } catch (const UserError& error) {
-      if (invalid_.count++ == 0) invalid_.first = error.what();
-      if (contents_.skipped.count++ == 0) contents_.skipped.first = error.what();
+      skip(error);
     }
+  }
+
+  void skip(const UserError& error) {
+    if (invalid_.count++ == 0) invalid_.first = error.what();
+    if (contents_.skipped.count++ == 0) contents_.skipped.first = error.what();
   }
 
   bool uses_gyroscope() const { return !plan_.imu_topic.empty(); }

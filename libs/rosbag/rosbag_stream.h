@@ -25,7 +25,7 @@ std::unique_ptr<BagFile> follow_record_bag(std::unique_ptr<ByteSource> recording
 /// gyroscope. The function waits for these messages. If the rest of the bag does not change these decisions,
 /// the frames equal those of the complete bag, as long as odometry is at most 100 scans late.
 ///
-/// Skips damaged messages. Throws UserError as open_bag_log().
+/// Skips damaged messages and chunks. Throws UserError as open_bag_log().
 std::unique_ptr<LogReader> open_followed_bag(std::unique_ptr<BagRecording> recording,
                                              const LogOptions& options, double look_over_s);
 

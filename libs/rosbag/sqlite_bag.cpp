@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "base/byte_cursor.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_file.h"
 #include "rosbag/sqlite_connection.h"
@@ -79,11 +78,6 @@ class SqliteBag : public BagFile {
     const auto* data = static_cast<const char*>(sqlite3_column_blob(row, 3));
     const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row, 3));
     message = {&topic->second, sqlite3_column_int64(row, 2) / 1000, std::string_view(data, data ? size : 0)};
-    try {
-      unpack_message(message, unpacked_message_);
-    } catch (const MalformedBytes& error) {
-      throw UserError(place() + ": the bag is damaged: " + error.what() + ". Fetch the bag again");
-    }
     return true;
   }
 
@@ -124,7 +118,6 @@ class SqliteBag : public BagFile {
   std::optional<SqliteConnection> database_;
   SqliteStatement messages_;
   std::map<std::int64_t, BagTopic> topics_;
-  std::string unpacked_message_;
   std::int64_t id_ = 0;  // number of the last message read
   std::int64_t last_id_ = 0;
 };

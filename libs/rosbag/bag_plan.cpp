@@ -222,26 +222,12 @@ class Planner {
   /// Chooses the robot's frame if neither the user nor the odometry states it, or if odometry states a frame
   /// that no transform connects with a laser, although another frame has the name of a base.
   void settle_base_frame() {
-    const std::string by_name = base_frame_by_name();
-    const bool is_alone = options_.base_frame.empty() && !plan_.odometry_topic.empty() &&
-                          !knows_mount(first_scan_frame()) && has_word(by_name, "base");
+    const std::string by_name = base_frame_by_name(plan_.transforms, scan_frames());
+    const bool none_is_mounted = std::none_of(scan_frames_.begin(), scan_frames_.end(),
+                                              [&](const auto& scan) { return knows_mount(scan.second); });
+    const bool is_alone = options_.base_frame.empty() && !plan_.odometry_topic.empty() && none_is_mounted &&
+                          has_word(by_name, "base");
     if (plan_.base_frame.empty() || is_alone) plan_.base_frame = by_name;
-  }
-
-  /// Returns the robot's frame for a bag without odometry: the topmost frame above the first laser whose name
-  /// contains "base". Otherwise the nearest frame above all lasers, such as the frame of a single laser.
-  std::string base_frame_by_name() const {
-    const Names way = plan_.transforms.way_up(first_scan_frame());
-    const auto base = std::find_if(way.rbegin(), way.rend(),
-                                   [](const std::string& frame) { return has_word(frame, "base"); });
-    if (base != way.rend()) return *base;
-    const auto is_above_all = [&](const std::string& frame) {
-      return std::all_of(scan_frames_.begin(), scan_frames_.end(), [&](const auto& scan) {
-        return contains(plan_.transforms.way_up(scan.second), frame);
-      });
-    };
-    const auto common = std::find_if(way.begin(), way.end(), is_above_all);
-    return common == way.end() ? way.front() : *common;
   }
 
   /// First topic of scans with a message.
@@ -251,9 +237,18 @@ class Planner {
     return known == plan_.scan_topics.end() ? "" : *known;
   }
 
+  /// Frames of the lasers, in the order of their topics.
+  Names scan_frames() const {
+    Names frames;
+    for (const std::string& topic : plan_.scan_topics)
+      if (const auto scan = scan_frames_.find(topic); scan != scan_frames_.end())
+        frames.push_back(scan->second);
+    return frames;
+  }
+
   std::string first_scan_frame() const {
-    const auto known = scan_frames_.find(first_scan_topic());
-    return known == scan_frames_.end() ? "" : known->second;
+    const Names frames = scan_frames();
+    return frames.empty() ? "" : frames.front();
   }
 
   /// Name of the robot with a laser: the namespace of its topic if those tell robots apart, otherwise the
@@ -290,8 +285,8 @@ class Planner {
   /// Of several topics with scans of one laser, keeps the first by rank and names all in the plan.
   void keep_usable_lasers() {
     Names ranked = plan_.scan_topics;
-    std::stable_sort(ranked.begin(), ranked.end(), [](const std::string& a, const std::string& b) {
-      return std::make_pair(a.size(), a) < std::make_pair(b.size(), b);
+    std::stable_sort(ranked.begin(), ranked.end(), [&](const std::string& a, const std::string& b) {
+      return std::make_tuple(!states_mount(a), a.size(), a) < std::make_tuple(!states_mount(b), b.size(), b);
     });
     Names kept;
     Names left_out;

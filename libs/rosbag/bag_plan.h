@@ -16,7 +16,8 @@ namespace psi_slam {
 /// The topics and frames to read from a ROS bag.
 struct BagPlan {
   std::vector<std::string> scan_topics;  ///< index: LaserScan::laser
-  /// Topics of one laser each, of which scan_topics has the first: see agreeing_topics().
+  /// Topics of one laser each, of which scan_topics has the first: those whose mounts the user states, then
+  /// those with short names.
   std::vector<std::vector<std::string>> rival_topics;
   bool has_odometry = false;   ///< false: scans have no odometry
   std::string odometry_topic;  ///< empty: odometry is the transform from odom_frame to base_frame

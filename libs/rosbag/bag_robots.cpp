@@ -70,6 +70,22 @@ bool is_named_like_odometry(std::string frame) {
   return has_word(std::move(frame), "odom");
 }
 
+std::string base_frame_by_name(const TransformTree& transforms, const Names& laser_frames) {
+  if (laser_frames.empty()) return {};
+  for (const std::string& laser : laser_frames) {
+    const Names way = transforms.way_up(laser);
+    const auto base = std::find_if(way.rbegin(), way.rend(),
+                                   [](const std::string& frame) { return has_word(frame, "base"); });
+    if (base != way.rend()) return *base;
+  }
+  const Names way = transforms.way_up(laser_frames.front());
+  const auto common = std::find_if(way.begin(), way.end(), [&](const std::string& frame) {
+    return std::all_of(laser_frames.begin(), laser_frames.end(),
+                       [&](const std::string& laser) { return contains(transforms.way_up(laser), frame); });
+  });
+  return common == way.end() ? way.front() : *common;
+}
+
 bool are_on_one_robot(const TransformTree& transforms, const std::string& a, const std::string& b) {
   const Names above_a = transforms.way_up(a);
   const Names above_b = transforms.way_up(b);

@@ -39,6 +39,11 @@ class BagRobots {
 /// Returns whether a topic or frame is named like odometry.
 bool is_named_like_odometry(std::string frame);
 
+/// Returns the robot's frame if odometry does not state it: the topmost frame whose name contains "base"
+/// above the first of the lasers' frames that has one. Otherwise the nearest frame above all lasers, such as
+/// the frame of a single laser. Empty without a laser.
+std::string base_frame_by_name(const TransformTree& transforms, const std::vector<std::string>& laser_frames);
+
 /// Returns whether two frames are parts of one robot: transforms connect them below all frames that are named
 /// like odometry, a map or the world.
 bool are_on_one_robot(const TransformTree& transforms, const std::string& a, const std::string& b);

@@ -275,12 +275,17 @@ class RosbagReader : public LogReader {
 };
 
 /// Selects from each list of BagPlan::rival_topics the first topic whose scans do not clearly disagree more
-/// with odometry than those of another one. `open` opens the bag.
+/// with odometry than those of another one. Topics whose mounts the user states take precedence. `open` opens
+/// the bag.
 BagPlan with_agreeing_topics(BagPlan plan, const LogOptions& options,
                              const std::function<std::unique_ptr<BagFile>()>& open) {
+  const auto states_mount = [&](const std::string& topic) {
+    return options_of_topic(options, topic).robot_T_laser.has_value();
+  };
   for (const std::vector<std::string>& rivals : plan.rival_topics) {
     std::vector<OdometryDisagreement> disagreements;
     for (const std::string& topic : rivals) {
+      if (states_mount(topic) != states_mount(rivals.front())) break;
       BagPlan one = plan;
       one.scan_topics = {topic};
       RosbagReader reader(std::move(one), open(), options, false);
@@ -291,7 +296,8 @@ BagPlan with_agreeing_topics(BagPlan plan, const LogOptions& options,
                           [](const auto& a, const auto& b) { return a.median_m < b.median_m; });
     const auto is_worse = [&](const auto& one) { return least.is_clearly_less_than(one); };
     const auto best = std::find_if_not(disagreements.begin(), disagreements.end(), is_worse);
-    const bool is_clear = std::all_of(best + 1, disagreements.end(), is_worse);
+    const bool is_clear =
+        disagreements.size() == rivals.size() && std::all_of(best + 1, disagreements.end(), is_worse);
     const std::string& chosen = rivals.at(static_cast<std::size_t>(best - disagreements.begin()));
     std::replace(plan.scan_topics.begin(), plan.scan_topics.end(), rivals.front(), chosen);
     std::vector<std::string> others = rivals;

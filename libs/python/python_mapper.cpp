@@ -14,6 +14,7 @@
 
 #include "base/number_text.h"
 #include "base/scope_exit.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 #include "python/python_result.h"
 #include "python/python_scan.h"
@@ -81,9 +82,15 @@ class PythonMapper {
     return session_->use([&](std::unique_ptr<MappingSession>& session) {
       require_open();
       share_bearings(frame.scan);
-      queue_->push(std::move(frame));
-      session->step();
+      PythonPose predicted{frame.time_us, newest_.map_T_robot, false, {}};
+      std::optional<mrpt::math::TPose2D> odom_T_robot;
+      if (frame.has_odometry) odom_T_robot = frame.odom_T_robot;
+      if (odom_T_robot && odom_T_newest_)
+        predicted.map_T_robot = compose(newest_.map_T_robot, between(*odom_T_newest_, *odom_T_robot));
       ++scans_;
+      if (!queue_->push(std::move(frame))) return predicted;
+      odom_T_newest_ = odom_T_robot;
+      session->step();
       return newest_;
     });
   }
@@ -126,9 +133,10 @@ class PythonMapper {
   BoundSettings bound_;
   std::shared_ptr<ScanQueue> queue_ = std::make_shared<ScanQueue>();
   std::shared_ptr<SharedSession> session_;
-  BeamBearings bearings_rad_;  ///< of the last scan
-  PythonPose newest_;
-  std::atomic<std::size_t> scans_{0};  ///< number of scans added
+  BeamBearings bearings_rad_;                         ///< of the last scan
+  PythonPose newest_;                                 ///< of the last scan that was mapped
+  std::optional<mrpt::math::TPose2D> odom_T_newest_;  ///< odometry of that scan
+  std::atomic<std::size_t> scans_{0};                 ///< number of scans added
   bool finished_ = false;
   py::object result_;  ///< made by finish()
 };
@@ -184,7 +192,8 @@ void bind_mapper(py::module_& module) {
            py::arg("edits") = py::none(), py::arg("name") = "python", py::arg("estimate_covariance") = false)
       .def(
           "add", &PythonMapper::add, py::arg("scan"), py::arg("odometry") = py::none(),
-          "Maps a Scan and returns the Pose of the robot.\n\n"
+          "Maps a Scan and returns the Pose of the robot. Leaves out a scan whose readings repeat those of\n"
+          "an earlier one although odometry moved; its Pose is predicted by odometry.\n\n"
           "odometry: pose (x, y, yaw) of the robot by odometry at the time of the scan, metres and radians,\n"
           "          in a frame that stays the same; or None if the motion is unknown.")
       .def("finish", &PythonMapper::finish, py::arg("progress") = py::none(),

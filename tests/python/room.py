@@ -50,9 +50,11 @@ def true_pose(i):
     return 6.2 + 4 * math.cos(turn), 4 + 2.6 * math.sin(turn), tangent
 
 
-def drive(scans):
-    """Yields time, odometry and ranges of each scan. Odometry turns too far by one percent."""
+def drive(scans, stalled=()):
+    """Yields time, odometry and ranges of each scan, which repeat those before if it is stalled. Odometry turns too far
+    by one percent."""
     odometry = np.zeros(3)
+    ranges = None
     for i in range(scans):
         if i > 0:
             x, y, yaw = true_pose(i - 1)
@@ -62,12 +64,13 @@ def drive(scans):
             heading = odometry[2] + turn / 2
             odometry += [ahead * math.cos(heading), ahead * math.sin(heading), 1.01 * turn]
             odometry[2] = (odometry[2] + math.pi) % (2 * math.pi) - math.pi
-        yield 1000 + i * 0.25, tuple(odometry.round(6)), ranges_m(true_pose(i))
+        ranges = ranges if i in stalled else ranges_m(true_pose(i))
+        yield 1000 + i * 0.25, tuple(odometry.round(6)), ranges.copy()
 
 
-def write_log(path, scans):
+def write_log(path, scans, stalled=()):
     with open(path, "w") as log:
-        for time_s, (x, y, yaw), ranges in drive(scans):
+        for time_s, (x, y, yaw), ranges in drive(scans, stalled):
             pose = f"{x:.6f} {y:.6f} {yaw:.6f}"
             readings = " ".join(f"{reading:.3f}" for reading in ranges)
             log.write(f"FLASER {BEAMS} {readings} {pose} {pose} {time_s:.6f} robot {time_s:.6f}\n")

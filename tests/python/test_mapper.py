@@ -45,6 +45,25 @@ def test_fed_scans_give_the_map_of_their_log(log, tmp_path):
     assert driven == pytest.approx(np.linalg.norm(truth[1] - truth[0]), abs=0.05)
 
 
+def test_scans_that_repeat_an_earlier_one_are_left_out_as_those_of_their_log(tmp_path):
+    stalled = range(101, 126)  # the driver repeats scan 100
+    path = tmp_path / "stalled.log"
+    room.write_log(path, 320, stalled)
+    of_log = psi_slam.map(path, {"log.max_range_m": room.MAX_RANGE_M, "log.mask_own_body": "off"})
+    mapper = psi_slam.Mapper()
+    for i, (time_s, odometry, ranges) in enumerate(room.drive(320, stalled)):
+        pose = mapper.add(scan_of(time_s, ranges), odometry)
+        assert pose.time_s == time_s
+        assert pose.matched == (i > 0 and i not in stalled)
+        moved = np.array(room.true_pose(i)[:2]) - room.true_pose(0)[:2]
+        assert math.hypot(pose.x_m, pose.y_m) == pytest.approx(np.linalg.norm(moved), abs=0.1)
+    result = mapper.finish()
+    np.testing.assert_array_equal(result.poses, of_log.poses)
+    sentences = [warning for warning in result.warnings if "repeat the readings" in warning]
+    assert sentences == [warning for warning in of_log.warnings if "repeat the readings" in warning]
+    assert sentences[0].startswith("25 scans repeat")
+
+
 def test_bearings_and_other_arrays_give_the_same_map():
     by_angles, _ = fed(psi_slam.Mapper(), 40)
     mapper = psi_slam.Mapper()

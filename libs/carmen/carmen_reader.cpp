@@ -320,12 +320,12 @@ class CarmenReader : public LogReader {
 
   void end_of_log() {
     at_end_ = interpolator_.waiting() == 0;
-    const bool gives_nothing = frames_given() == 0 && at_end_;
+    const bool gives_nothing = frames_read() == 0 && at_end_;
     if (gives_nothing && contents_.skipped.count > 0) throw UserError(contents_.skipped.first);
     if (at_end_ && !is_stream_ &&
         contents_.skipped.count > std::max<std::size_t>(1, lines_needed_ / kLinesForOneSkipped))
       fail_as_garbled();
-    if (at_end_ && frames_given() == 0) fail_without_scans();
+    if (at_end_ && frames_read() == 0) fail_without_scans();
     if (!interpolator_.has_odometry()) interpolator_.expect_no_odometry();
     interpolator_.end_of_log();
   }

@@ -2,6 +2,8 @@
 // Base class of the readers of all log formats, and functions that open logs.
 #pragma once
 
+#include <deque>
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -48,18 +50,7 @@ struct LogContents {
 /// SynchronizedSource combines them. Leaves out scans that repeat an earlier one; see repeated_scans.h.
 class LogReader : public FrameSource {
  public:
-  std::optional<Frame> next() final {
-    auto frame = read_frame();
-    bool knows_turn = true;  // since the frame that was given last
-    for (; frame && repeated_.repeats(*frame); frame = read_frame()) {
-      contents_.repeated_scans = repeated_.sentence();
-      knows_turn = knows_turn && frame->imu_heading_rad;
-    }
-    if (!frame) return frame;
-    if (!knows_turn) frame->imu_heading_rad.reset();
-    frame->index = frames_given_++;
-    return frame;
-  }
+  std::optional<Frame> next() final;
   SkippedLines skipped_lines() const override { return contents_.skipped; }
   std::vector<std::string> assumptions() const override {
     std::vector<std::string> assumptions = contents_.assumptions;
@@ -72,13 +63,24 @@ class LogReader : public FrameSource {
   /// Reads the next frame, without its index.
   virtual std::optional<Frame> read_frame() = 0;
 
-  std::size_t frames_given() const { return frames_given_; }
+  /// Number of frames that read_frame() returned, without those that were left out.
+  std::size_t frames_read() const { return frames_given_ + ahead_.size(); }
 
   LogContents contents_;
 
  private:
+  struct Ahead {
+    Frame frame;
+    RepeatedScans::Judgement judgement;
+  };
+
+  bool reads_on() const;
+
   std::size_t frames_given_ = 0;
   RepeatedScans repeated_;
+  std::deque<Ahead> ahead_;     // frames that next() gives or leaves out
+  bool is_at_end_ = false;      // of the log, while there are frames ahead
+  std::exception_ptr failure_;  // thrown after the frames ahead
 };
 
 /// Returns whether open_log() combines the scans of several lasers of a log with these contents. Throws

@@ -140,9 +140,9 @@ bool RepeatedScans::is_elsewhere(const Seen& seen, const Frame& frame) const {
   return std::abs(turn_rad) > kStandingByGyroscope_rad && !looks_the_same_after({0, 0, turn_rad}, frame.scan);
 }
 
-bool RepeatedScans::repeats(const Frame& frame) {
+RepeatedScans::Judgement RepeatedScans::judge(const Frame& frame) {
   travel(frame);
-  if (!shows_shape(frame.scan.ranges_m)) return false;
+  if (!shows_shape(frame.scan.ranges_m)) return Judgement::kNew;
   std::deque<Seen>& seen = seen_[frame.scan.laser];
   const auto same = std::find_if(seen.rbegin(), seen.rend(), [&](const Seen& before) {
     return same_bits(before.frame.scan.ranges_m, frame.scan.ranges_m);
@@ -150,15 +150,28 @@ bool RepeatedScans::repeats(const Frame& frame) {
   if (same == seen.rend()) {
     seen.push_back({frame, path_m_, turned_rad_});
     if (seen.size() > kRemembered) seen.pop_front();
-    return false;
+    return Judgement::kNew;
   }
-  if (seen.size() >= kFewestSeen && is_elsewhere(*same, frame)) {
-    if (count_++ == 0) first_us_ = frame.time_us;
-    last_us_ = frame.time_us;
-    return true;
-  }
+  if (is_elsewhere(*same, frame))
+    return shows_change(frame.scan.laser) ? Judgement::kRepeats : Judgement::kPerhaps;
   if (frame.time_us - same->frame.time_us > kStanding_us) *same = {frame, path_m_, turned_rad_};
-  return false;
+  return Judgement::kNew;
+}
+
+bool RepeatedScans::repeats(const Frame& frame) {
+  const bool repeats = judge(frame) == Judgement::kRepeats;
+  if (repeats) count(frame);
+  return repeats;
+}
+
+bool RepeatedScans::shows_change(std::size_t laser) const {
+  const auto seen = seen_.find(laser);
+  return seen != seen_.end() && seen->second.size() >= kFewestSeen;
+}
+
+void RepeatedScans::count(const Frame& frame) {
+  if (count_++ == 0) first_us_ = frame.time_us;
+  last_us_ = frame.time_us;
 }
 
 std::string RepeatedScans::sentence() const {

@@ -5,7 +5,8 @@
 //
 // A simulator without noise repeats readings truthfully, which other explanations of a repeat cover: the
 // robot stands, it is back where it measured these readings as far as odometry can tell, or the walls look
-// the same from both poses, as in a bare corridor. The laser must have shown that its readings change.
+// the same from both poses, as in a bare corridor. The laser must show that its readings change, if not
+// before a repeat, then soon after it.
 #pragma once
 
 #include <cstddef>
@@ -19,12 +20,24 @@ namespace psi_slam {
 
 class RepeatedScans {
  public:
-  /// Takes the next frame of a reader, whose companions are empty. Returns whether its readings are those of
+  /// kPerhaps: the frame repeats an earlier one if its laser shows later that its readings change.
+  enum class Judgement { kNew, kPerhaps, kRepeats };
+
+  /// Takes the next frame of a reader, whose companions are empty. Judges whether its readings are those of
   /// an earlier scan of the laser although odometry, or else the gyroscope, shows that the robot is
   /// elsewhere.
+  Judgement judge(const Frame& frame);
+
+  /// Returns whether judge() decides that a frame repeats an earlier one, and counts it.
   bool repeats(const Frame& frame);
 
-  /// States for how many frames repeats() was true, and when: one sentence without full stop; empty for none.
+  /// Returns whether the readings of a laser have changed often enough.
+  bool shows_change(std::size_t laser) const;
+
+  /// Counts a frame that is left out.
+  void count(const Frame& frame);
+
+  /// States how many frames were counted, and when: one sentence without full stop; empty for none.
   std::string sentence() const;
 
  private:

@@ -356,10 +356,10 @@ class RawlogReader : public LogReader {
   std::optional<Frame> read_frame() override {
     while (true) {
       if (auto frame = frames_.next()) return frame;
-      if (at_end_ && frames_given() == 0 && frames_.scans() > 0 && contents_.skipped.count > 0)
+      if (at_end_ && frames_read() == 0 && frames_.scans() > 0 && contents_.skipped.count > 0)
         throw UserError(contents_.skipped.first +
                         ", as in all of its observations. Map without odometry with log.odometry=none");
-      if (at_end_ && frames_given() == 0 && invalid_.count > 0) throw UserError(invalid_.first);
+      if (at_end_ && frames_read() == 0 && invalid_.count > 0) throw UserError(invalid_.first);
       if (at_end_) return std::nullopt;
       if (const auto object = archive_->next()) {
         take(*object);

@@ -145,7 +145,7 @@ class RosbagReader : public LogReader {
       if (auto frame = uses_gyroscope() ? headings_.take() : interpolator_.take()) return frame;
       if (at_end_) {
         if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-        if (frames_given() == 0 && invalid_.count > 0) throw UserError(invalid_.first);
+        if (frames_read() == 0 && invalid_.count > 0) throw UserError(invalid_.first);
         return std::nullopt;
       }
       try {

@@ -31,6 +31,12 @@ std::vector<Frame> frames_of(const SimulatedRun& run) {
   return frames;
 }
 
+std::vector<TimeUs> times_of(const std::vector<Frame>& frames) {
+  std::vector<TimeUs> times;
+  for (const Frame& frame : frames) times.push_back(frame.time_us);
+  return times;
+}
+
 /// Returns the indices of the frames that repeat an earlier one.
 std::vector<std::size_t> repeats_in(const std::vector<Frame>& frames, RepeatedScans&& finder = {}) {
   std::vector<std::size_t> repeats;
@@ -101,6 +107,29 @@ TEST(RepeatedScans, that_a_reader_leaves_out_without_a_gyroscope_end_its_heading
     }
     EXPECT_FALSE(reader.next());
   }
+}
+
+TEST(RepeatedScans, at_the_beginning_are_left_out_as_soon_as_the_laser_has_shown_five_readings) {
+  std::vector<Frame> frames = frames_of(simulated_run({{0.08, 1.0, 60}}));
+  const auto given_times_of = [](const std::vector<Frame>& all) {
+    ReaderOfFrames reader(all);
+    std::vector<TimeUs> times;
+    while (const auto frame = reader.next()) {
+      EXPECT_EQ(frame->index, times.size());
+      times.push_back(frame->time_us);
+    }
+    return std::pair(times, reader.contents().repeated_scans);
+  };
+  for (std::size_t i = 3; i < 30; ++i) frames[i].scan.ranges_m = frames[2].scan.ranges_m;
+  const auto [times, sentence] = given_times_of(frames);
+  ASSERT_EQ(times.size(), frames.size() - 27);
+  EXPECT_EQ(times[2], frames[2].time_us);
+  EXPECT_EQ(times[3], frames[30].time_us);
+  EXPECT_THAT(sentence, testing::StartsWith("27 scans repeat the readings of an earlier scan although the "
+                                            "robot moved (the first 0.6 s, the last 5.8 s into the log)"));
+  for (std::size_t i = 30; i < frames.size(); ++i) frames[i].scan.ranges_m = frames[2].scan.ranges_m;
+  EXPECT_EQ(given_times_of(frames), std::pair(times_of(frames), std::string()))
+      << "the readings may not depend on the place";
 }
 
 TEST(RepeatedScans, judges_each_laser_by_itself) {

@@ -138,7 +138,7 @@ class Planner {
   }
 
   void take_imu(const BagMessage& message) {
-    if (!seen_imus_.insert(message.topic->name).second) return;
+    if (hears_no_more_imus() || !seen_imus_.insert(message.topic->name).second) return;
     const RosImu imu = read_ros_imu(message);
     if (imu.rate_radps) gyroscope_frames_.emplace(message.topic->name, imu.header.frame);
   }
@@ -174,6 +174,10 @@ class Planner {
     });
   }
 
+  /// Returns whether gyroscopes that begin later do not count: a bag that is being recorded does not show
+  /// them.
+  bool hears_no_more_imus() const { return heard_.is_over() && !gyroscope_frames_.empty(); }
+
   bool states_mount(const std::string& topic) const {
     return options_of_topic(options_, topic).robot_T_laser.has_value();
   }
@@ -183,8 +187,8 @@ class Planner {
   bool is_complete() const {
     const bool has_transforms = !plan_.transform_topics.empty();
     const bool has_odometry = plan_.has_odometry || heard_.is_complete();
-    const bool has_motion =
-        has_odometry || (!chosen_.expects_odometry && seen_imus_.size() == chosen_.imu_topics.size());
+    const bool has_gyroscope = seen_imus_.size() == chosen_.imu_topics.size() || hears_no_more_imus();
+    const bool has_motion = has_odometry || (!chosen_.expects_odometry && has_gyroscope);
     const auto has_mount = [&](const auto& sensor) { return !has_transforms || knows_mount(sensor.second); };
     return has_motion && knows_scans() && std::all_of(scan_frames_.begin(), scan_frames_.end(), has_mount) &&
            (has_odometry || std::all_of(gyroscope_frames_.begin(), gyroscope_frames_.end(), has_mount));

@@ -22,6 +22,9 @@ class HeardOdometry {
   void add_scan(TimeUs recorded_us);
   void add(const std::string& topic, const RosTransform& odometry);
 
+  /// Returns whether LookOver has enough scans.
+  bool is_over() const { return heard_.is_enough(); }
+
   /// Returns whether more messages change nothing.
   bool is_complete() const { return !first_.empty() && (scans_without_.size() == 1 || heard_.is_enough()); }
 

@@ -80,6 +80,31 @@ INSTANTIATE_TEST_SUITE_P(
                     SecondTopic{"five_times_in_a_second", [](double, int i) { return i % 10 == 0; }, true}),
     [](const auto& tested) { return tested.param.name; });
 
+TEST(BagWithASecondGyroscope, uses_the_one_that_speaks_in_a_file_as_in_a_stream) {
+  for (const double begins_s : {8.0, 1.0}) {
+    Recording recording;
+    for (const Recorded& message : recorded_run(240)) {
+      if (topic_of(message) == "/odom") continue;
+      recording.push_back(message);
+      const double at_s = seconds(time_of(message) - 1'600'000'000'000'000);
+      for (const char* topic : {"/imu", "/late_imu"})
+        if (at_s > (topic == std::string("/imu") ? 0.0 : begins_s))
+          recording.emplace_back(RecordedImu{topic, time_of(message), "laser", {0, 0, 0.3}});
+    }
+    const TemporaryFolder folder;
+    const Path path = folder.path() / "run.mcap";
+    for (const char* mount : {"known", "unknown"}) {
+      SCOPED_TRACE(mount);
+      write_mcap(path, recording);
+      const auto file = open_log_reader(path, {});
+      const auto live = open_rosbag_stream(std::make_unique<CompressedFile>(path), {}, kUsualLookOver_s);
+      EXPECT_EQ(expect_same_frames(*file, *live), 240U);
+      EXPECT_EQ(open_log_reader(path, {})->next()->imu_heading_rad.has_value(), begins_s > 5) << begins_s;
+      recording.erase(recording.begin());
+    }
+  }
+}
+
 TEST(HeardOdometry, waits_for_the_first_odometry) {
   HeardOdometry heard({"/odom", "/wheels"}, 5);
   for (int i = 0; i < 100; ++i) heard.add_scan(i * 100'000);

@@ -62,7 +62,7 @@ class Planner {
 
  private:
   /// Chooses the odometry of the first laser's robot: by namespace if the bag recorded several robots, topics
-  /// that are not silent, by the transforms, then /odom, then the first topic.
+  /// that are not silent, by the transforms, then /odom, then by namespace, then the first topic.
   void choose_odometry_topic() {
     if (chosen_.odometry_topics.empty()) return;
     const auto rank = [&](const std::string& topic) {
@@ -72,7 +72,7 @@ class Planner {
           is_heard && are_on_one_robot(plan_.transforms, pose->second.child_frame, first_scan_frame());
       const bool is_of_robot = robots_.robot_of(topic) == robots_.robot_of(plan_.scan_topics[0]);
       return std::make_tuple(!is_heard, !(robots_.are_several() && is_of_robot), heard_.is_silent(topic),
-                             !is_connected, topic != "/odom");
+                             !is_connected, topic != "/odom", !is_of_robot);
     };
     plan_.odometry_topic =
         *std::min_element(chosen_.odometry_topics.begin(), chosen_.odometry_topics.end(),

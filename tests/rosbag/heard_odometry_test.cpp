@@ -80,6 +80,30 @@ INSTANTIATE_TEST_SUITE_P(
                     SecondTopic{"five_times_in_a_second", [](double, int i) { return i % 10 == 0; }, true}),
     [](const auto& tested) { return tested.param.name; });
 
+TEST(BagWithASecondRobot, uses_the_odometry_of_the_first_in_a_file_as_in_a_stream) {
+  // The scans of the second robot begin late, but its odometry is the first topic.
+  Recording recording;
+  for (Recorded message : recorded_run(240)) {
+    if (topic_of(message) == "/tf_static") continue;
+    const bool is_late = time_of(message) > 1'600'000'008'000'000;
+    for (const char* robot : {"/b", "/a"}) {
+      Recorded own = message;
+      std::visit([&](auto& one) { one.topic = robot + one.topic, one.frame = robot + one.frame; }, own);
+      auto* pose = std::get_if<RecordedPose>(&own);
+      if (pose != nullptr) pose->child_frame = robot + pose->child_frame;
+      if (pose != nullptr && robot == std::string("/b")) pose->pose.y += 100;
+      if (pose != nullptr || is_late || robot == std::string("/a")) recording.push_back(own);
+    }
+  }
+  const TemporaryFolder folder;
+  const Path path = folder.path() / "run.mcap";
+  write_mcap(path, recording);
+  const auto file = open_log_reader(path, {});
+  const auto live = open_rosbag_stream(std::make_unique<CompressedFile>(path), {}, kUsualLookOver_s);
+  EXPECT_EQ(expect_same_frames(*file, *live), 240U);
+  EXPECT_LT(open_log_reader(path, {})->next()->odom_T_robot.y, 50);
+}
+
 TEST(BagWithASecondGyroscope, uses_the_one_that_speaks_in_a_file_as_in_a_stream) {
   for (const double begins_s : {8.0, 1.0}) {
     Recording recording;

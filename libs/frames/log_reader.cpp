@@ -39,14 +39,15 @@ std::optional<Frame> LogReader::next() {
       if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
       return std::nullopt;
     }
-    auto [frame, judgement] = std::move(ahead_.front());
+    Frame frame = std::move(ahead_.front().frame);
+    const Judgement judgement = ahead_.front().judgement;
     ahead_.pop_front();
     const bool is_left_out = judgement == Judgement::kRepeats ||
                              (judgement == Judgement::kPerhaps && repeated_.shows_change(frame.scan.laser));
     if (!is_left_out) {
       if (!knows_turn) frame.imu_heading_rad.reset();
       frame.index = frames_given_++;
-      return std::move(frame);
+      return frame;
     }
     repeated_.count(frame);
     contents_.repeated_scans = repeated_.sentence();

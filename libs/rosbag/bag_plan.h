@@ -34,7 +34,7 @@ struct BagPlan {
 
 /// Plans how to read a bag. Scans are laser scans, or point clouds if `options.slice_z_m` is set. Finds the
 /// topics by their types, or by the names that the user states. Then reads until all frames are known, or to
-/// the end; of several topics of odometry, those count that HeardOdometry hears within `look_over_s`. If the
+/// the end; of several topics of odometry, those count that HeardOdometry finds within `look_over_s`. If the
 /// user names no topic, plans to read all lasers whose mounts are known. Assumes that the only laser is at
 /// the robot's centre if its mount is unknown. Throws UserError if there are no scans, or if something that
 /// the user names is missing. `path` names the bag in messages.

@@ -11,9 +11,10 @@
 
 namespace psi_slam {
 
-/// Topics of odometry that speak at the beginning of a bag. A single topic is heard as soon as it speaks. Of
-/// several, those count that speak until LookOver has enough scans, as a bag that is still being recorded
-/// shows no more; if none does, those that speak as soon after the first.
+/// Finds the topics of odometry from which a bag is read. A single topic counts from its first message. Of
+/// several, those count that have a message before LookOver has enough scans: a bag that is still being
+/// recorded shows no more. If none has, the topics count that have a message within the same time after the
+/// first odometry.
 class HeardOdometry {
  public:
   HeardOdometry(std::vector<std::string> topics, double look_over_s);

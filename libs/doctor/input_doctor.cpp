@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "doctor/turned_laser.h"
+#include "doctor/pair_calibration.h"
 #include "frames/laser_choice.h"
 #include "frames/log_format.h"
 #include "frames/log_reader.h"
@@ -84,7 +84,8 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
   const std::vector<FrameMark> marks =
       removed_delay_s == 0 ? pass.marks : with_scan_delay(pass.marks, removed_delay_s);
   const auto tracks = tracks_from(frames_in_motion(marks, kTracks), marks.size());
-  const auto pairs = pairs_by_motion(marks, kComparedMotion_m, kComparedTurn_rad, kPairs);
+  const auto pairs = calibration_pairs(marks);
+  const auto moves = pairs_by_motion(marks, kComparedMotion_m, kComparedTurn_rad, kPairs);
   const auto suspects = suspected_jumps(marks, pass.facts.time.median_period_s, 100);
   const auto revisits = revisiting_pairs(marks, 0.5, 0.5, 30, 150);
   const BeamAngleEvidence evidence =
@@ -93,6 +94,7 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
   ScanLibrary library;
   for (const auto& track : tracks) library.want(track);
   library.want(pairs);
+  library.want(moves);
   library.want(of_field_of_view.turning_pairs);
   library.want(of_field_of_view.straight_pairs);
   library.want(suspects);
@@ -108,18 +110,16 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
   if (!diagnosis.odometry_is_sound && !diagnosis.odometry.clock_offset)
     diagnosis.field_of_view = study_field_of_view(marks, of_field_of_view, library);
   if (diagnosis.odometry_is_sound) {
-    std::vector<AlignedPair> aligned = align_pairs(corrected, pairs, library);
-    const auto turned =
-        find_turned_mount(diagnosis.odometry, corrected, pass.facts.robot_T_laser, aligned, library);
-    diagnosis.laser_is_turned = turned.has_value();
-    diagnosis.reversals = find_lost_reversals(aligned, library);
-    diagnosis.delay = remove_scan_delay(aligned, marks);
+    const PairCalibration found =
+        calibrate_by_pairs(diagnosis.odometry, marks, corrected, pass.facts.robot_T_laser, pairs, library);
+    diagnosis.laser_is_turned = found.laser_is_turned;
+    diagnosis.mount = found.mount;
+    diagnosis.delay = found.delay;
     // The scans are compared as recorded: measured in the middle of the sweep on average.
     if (diagnosis.delay)
       diagnosis.delay->delay_s +=
           removed_delay_s + std::abs(diagnosis.sweep_direction.stated_sweep_time_s) / 2;
-    diagnosis.mount =
-        estimate_laser_mount(aligned, turned ? turned->robot_T_laser : pass.facts.robot_T_laser);
+    diagnosis.reversals = find_lost_reversals(align_pairs(corrected, moves, library), library);
     diagnosis.jumps = confirm_jumps(marks, suspects, library);
     diagnosis.revisits = check_revisits(marks, revisits, library);
     std::optional<double> laser_heading_rad;

@@ -19,7 +19,7 @@ struct LaserFaults {
   std::size_t assumed_for_beams = 0;        ///< number of beams for which it is assumed; 0: the log states it
   std::optional<double> field_of_view_rad;  ///< set if the stated one is wrong; see FieldOfViewStudy
   mrpt::math::TPose2D stated_mount;
-  std::optional<LaserMountEstimate> mount;  ///< set if the stated heading is wrong; see turned_laser.h
+  std::optional<LaserMountEstimate> mount;  ///< set if the stated heading is wrong; see pair_calibration.h
 };
 
 /// Looks for wrong statements about the single laser of a log. Aligns pairs of scans from the beginning until

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "doctor/input_doctor.h"
-#include "doctor/odometry_check.h"
+#include "doctor/pair_calibration.h"
 #include "frames/laser_choice.h"
+#include "frames/log_format.h"
 #include "frames/log_reader.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
@@ -16,7 +17,6 @@ namespace psi_slam {
 namespace {
 
 constexpr std::size_t kCalibrationTracks = 30;
-constexpr std::size_t kMostPairs = 1500;
 constexpr double kShareOfReading = 0.25;  // of the time of an estimate, for each reading of the log
 
 LogFactsCollector read_once(const std::filesystem::path& path, const LogOptions& options,
@@ -58,30 +58,32 @@ LaserEstimate estimate_once(const std::filesystem::path& path, const LogOptions&
     return found;
   }
   const auto tracks = tracks_from(frames_in_motion(marks, kCalibrationTracks), marks.size());
-  const auto pairs = overlapping_pairs(marks, kComparedMotion_m, kComparedTurn_rad, kMostPairs);
+  const auto pairs = calibration_pairs(marks);
   ScanLibrary library;
   for (const auto& track : tracks) library.want(track);
   library.want(pairs);
   library.fetch(path, options, part_of(progress, kShareOfReading, 2 * kShareOfReading));
   std::vector<FrameMark> corrected = marks;
-  if (!is_sound(check_odometry_and_delay(corrected, tracks, library))) {
+  const OdometryAgreement odometry = check_odometry_and_delay(corrected, tracks, library);
+  if (!is_sound(odometry)) {
     found.obstacle = "odometry contradicts the scans. See psi-slam check";
     return found;
   }
-  std::vector<AlignedPair> aligned =
-      align_pairs(corrected, pairs, library, part_of(progress, 2 * kShareOfReading, 1));
-  found.delay = remove_scan_delay(aligned, marks);
   found.stated_mount = facts.robot_T_laser;
-  found.mount = estimate_laser_mount(aligned, facts.robot_T_laser);
+  const PairCalibration of_pairs = calibrate_by_pairs(odometry, marks, corrected, facts.robot_T_laser, pairs,
+                                                      library, part_of(progress, 2 * kShareOfReading, 1));
+  found.delay = of_pairs.delay;
+  found.mount = of_pairs.mount;
   return found;
 }
 
-/// Estimates twice if the scans are stamped late: the delay has spoilt the removal of the motion during a
-/// sweep, and the guesses for the alignment.
+/// Estimates twice if the scans are stamped late and state their sweep time: the delay has spoilt the removal
+/// of the motion during a sweep.
 LaserEstimate estimate(const std::filesystem::path& path, LogOptions options, const ShareObserver& progress) {
-  const bool states_delay = !stated_delays(options).empty();
-  LaserEstimate found = estimate_once(path, options, part_of(progress, 0, 0.5));
-  if (!found.delay || !found.delay->is_significant() || states_delay) return found;
+  const bool may_be_bent = is_bag(detect_log_format(path)) || options.sweep_time_s.value_or(0) > 0;
+  const bool may_repeat = may_be_bent && stated_delays(options).empty();
+  LaserEstimate found = estimate_once(path, options, part_of(progress, 0, may_repeat ? 0.5 : 1));
+  if (!may_repeat || !found.delay || !found.delay->is_significant()) return found;
   const double delay_s = found.delay->delay_s;
   options.scan_delay_s = scan_delay_text({{"", delay_s}});
   found = estimate_once(path, options, part_of(progress, 0.5, 1));

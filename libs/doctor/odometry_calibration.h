@@ -33,7 +33,7 @@ struct OdometryCalibration {
   bool several_lasers = false;
 };
 
-/// Reads the log twice for each laser, or four times if its scans are stamped late, and estimates what
+/// Reads the log twice for each laser, or four times if its swept scans are stamped late, and estimates what
 /// odometry, as corrected by `options`, still lacks. Scale and mount come from the first laser. Thins no
 /// scans. A damaged log counts up to the damage. Throws UserError if its first scan is unreadable. Calls
 /// `progress` many times a second.

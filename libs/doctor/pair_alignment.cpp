@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/portable_math.h"
-#include "doctor/estimate_covariance.h"
+#include "doctor/jackknife.h"
 #include "frames/pose_operations.h"
 
 namespace psi_slam {
@@ -57,9 +57,9 @@ std::vector<ScanTurn> reliable_turns(const std::vector<AlignedPair>& pairs) {
 std::optional<ScanDelay> remove_scan_delay(std::vector<AlignedPair>& pairs,
                                            const std::vector<FrameMark>& marks) {
   const std::optional<ScanDelay> delay = estimate_scan_delay(marks, reliable_turns(pairs));
-  if (!delay || !delay->is_significant()) return delay;
-  const std::vector<FrameMark> shifted = with_scan_delay(marks, delay->delay_s);
-  for (AlignedPair& pair : pairs) pair.by_odometry = odometry_between(shifted, pair.frames);
+  const bool is_delayed = delay && delay->is_significant();
+  const std::vector<FrameMark> measured = is_delayed ? with_scan_delay(marks, delay->delay_s) : marks;
+  for (AlignedPair& pair : pairs) pair.by_odometry = odometry_between(measured, pair.frames);
   return delay;
 }
 
@@ -105,17 +105,18 @@ LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const S
 std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<AlignedPair>& pairs,
                                                        const TPose2D& stated_mount) {
   // A is the robot's motion by odometry, B the laser's motion by scans, X the mount: A X = X B. For the
-  // translations, (R_A - 1) t_X - s R_X t_B = -t_A with the scale s of odometry. This equation is linear in
-  // t_X and in (s cos, s sin) of the mount's heading. Both sides use the turns of the scans, which are more
+  // translations, (R_A - 1) s t_X - s R_X t_B = -t_A with the scale s of odometry. This equation is linear in
+  // s t_X and in (s cos, s sin) of the mount's heading. Both sides use the turns of the scans, which are more
   // accurate than those of odometry.
   constexpr std::size_t kFewestPairs = 40;
   constexpr double kNoise_m = 0.02;  // residuals beyond this count less
   constexpr int kIterations = 20;
+  constexpr double kConverged = 1e-6;
+  constexpr double kRulerDeviation = 0.001;  // of the scale of a laser's ranges
   using Row = Eigen::Matrix<double, 2, 4>;
   struct Equation {
     Row row;
     Eigen::Vector2d value;
-    double weight = 1;
   };
   std::vector<Equation> equations;
   for (const AlignedPair& pair : pairs) {
@@ -140,38 +141,48 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
   const Eigen::Vector4d prior(stated_mount.x, stated_mount.y, portable::cos(stated_mount.phi),
                               portable::sin(stated_mount.phi));
   const Eigen::Matrix4d prior_hessian = kNoise_m * kNoise_m * Eigen::Matrix4d::Identity();
-  Eigen::Vector4d solution = prior;
   Eigen::Matrix4d hessian;
-  for (int i = 0; i < kIterations; ++i) {
-    hessian = prior_hessian;
-    Eigen::Vector4d gradient = prior_hessian * prior;
-    for (const Equation& equation : equations) {
-      hessian += equation.weight * equation.row.transpose() * equation.row;
-      gradient += equation.weight * equation.row.transpose() * equation.value;
+  // Solves with Cauchy weights, with all equations but [left_out_first, left_out_last).
+  const auto solve = [&](Eigen::Vector4d solution, std::size_t left_out_first, std::size_t left_out_last) {
+    for (int i = 0; i < kIterations; ++i) {
+      hessian = prior_hessian;
+      Eigen::Vector4d gradient = prior_hessian * prior;
+      for (std::size_t k = 0; k < equations.size(); ++k) {
+        if (k >= left_out_first && k < left_out_last) continue;
+        const Equation& equation = equations[k];
+        const double residual = (equation.row * solution - equation.value).norm() / kNoise_m;
+        const double weight = 1 / portable::pow(1 + residual * residual, 2);
+        hessian += weight * equation.row.transpose() * equation.row;
+        gradient += weight * equation.row.transpose() * equation.value;
+      }
+      const Eigen::Vector4d before = solution;
+      solution = hessian.ldlt().solve(gradient);
+      if ((solution - before).cwiseAbs().maxCoeff() < kConverged) break;
     }
-    solution = hessian.ldlt().solve(gradient);
-    for (Equation& equation : equations) {  // Cauchy weights
-      const double residual = (equation.row * solution - equation.value).norm() / kNoise_m;
-      equation.weight = 1 / (1 + residual * residual);
-    }
-  }
-  std::vector<Eigen::Vector4d> gradients;
-  gradients.reserve(equations.size());
-  for (const Equation& equation : equations)
-    gradients.emplace_back(equation.weight * equation.row.transpose() *
-                           (equation.value - equation.row * solution));
-  const Eigen::Matrix4d covariance =
-      estimate_covariance<4>(hessian, gradients, kNoise_m * kNoise_m * prior_hessian);
+    return solution;
+  };
+  const Eigen::Vector4d solution = solve(prior, 0, 0);
+  const Eigen::Matrix4d inverse = hessian.inverse();
+  const Eigen::Matrix4d covariance = jackknife_covariance<4>(equations.size(),
+                                                             [&](std::size_t first, std::size_t last) {
+                                                               return solve(solution, first, last);
+                                                             }) +
+                                     inverse * kNoise_m * kNoise_m * prior_hessian * inverse;
   LaserMountEstimate estimate;
   estimate.pairs = equations.size();
-  estimate.robot_T_laser = {solution[0], solution[1], portable::atan2(solution[3], solution[2])};
-  estimate.odometry_scale = solution.tail<2>().norm();
-  estimate.deviation_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
-  const Eigen::Vector2d along = solution.tail<2>() / estimate.odometry_scale;
-  const Eigen::Vector2d across(-along.y(), along.x());
-  const Eigen::Matrix2d of_heading = covariance.bottomRightCorner<2, 2>();
-  estimate.scale_deviation = std::sqrt(along.dot(of_heading * along));
-  estimate.deviation_rad = std::sqrt(across.dot(of_heading * across)) / estimate.odometry_scale;
+  const double scale = solution.tail<2>().norm();
+  estimate.odometry_scale = scale;
+  estimate.robot_T_laser = {solution[0] / scale, solution[1] / scale,
+                            portable::atan2(solution[3], solution[2])};
+  const Eigen::Vector2d along = solution.tail<2>() / scale;
+  const auto deviation_of = [&](double x, double y, const Eigen::Vector2d& heading) {
+    const Eigen::Vector4d derivative(x, y, heading.x(), heading.y());
+    return std::sqrt(derivative.dot(covariance * derivative)) / scale;
+  };
+  estimate.deviation_m = std::max(deviation_of(1, 0, -estimate.robot_T_laser.x * along),
+                                  deviation_of(0, 1, -estimate.robot_T_laser.y * along));
+  estimate.scale_deviation = scale * std::hypot(deviation_of(0, 0, along), kRulerDeviation);
+  estimate.deviation_rad = deviation_of(0, 0, {-along.y(), along.x()});
   return estimate;
 }
 

@@ -30,8 +30,9 @@ std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const 
 /// Returns the turns of the reliably aligned pairs.
 std::vector<ScanTurn> reliable_turns(const std::vector<AlignedPair>& pairs);
 
-/// Estimates the delay of the scans from the pairs, see estimate_scan_delay(). If it is significant, replaces
-/// the motions by odometry of all pairs with those between the times at which the scans were measured.
+/// Estimates the delay of the scans from the pairs, see estimate_scan_delay(). Replaces the motions by
+/// odometry of all pairs with those by `marks`; if the delay is significant, between the times at which the
+/// scans were measured.
 std::optional<ScanDelay> remove_scan_delay(std::vector<AlignedPair>& pairs,
                                            const std::vector<FrameMark>& marks);
 

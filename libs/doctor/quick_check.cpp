@@ -6,18 +6,15 @@
 #include <utility>
 
 #include "doctor/input_doctor.h"
-#include "doctor/turned_laser.h"
+#include "doctor/pair_calibration.h"
 #include "frames/laser_choice.h"
 
 namespace psi_slam {
 namespace {
 
-using mrpt::math::TPose2D;
-
 constexpr std::size_t kQuickTracks = 30;
 constexpr std::size_t kQuickJumps = 30;
 constexpr std::size_t kQuickRevisits = 60;
-constexpr std::size_t kQuickPairs = 200;
 
 /// Compares odometry with the alignment of a few scans. `scans` are in the order of the marks.
 void compare_odometry_with(const std::vector<const LaserScan*>& scans, LogDiagnosis& diagnosis) {
@@ -25,7 +22,7 @@ void compare_odometry_with(const std::vector<const LaserScan*>& scans, LogDiagno
   const auto tracks = tracks_from(frames_in_motion(marks, kQuickTracks), marks.size());
   const auto suspects = suspected_jumps(marks, diagnosis.facts.time.median_period_s, kQuickJumps);
   const auto revisits = revisiting_pairs(marks, 0.5, 0.5, 30, kQuickRevisits);
-  const auto pairs = pairs_by_motion(marks, kComparedMotion_m, kComparedTurn_rad, kQuickPairs);
+  const auto pairs = calibration_pairs(marks);
   const FieldOfViewEvidence of_field_of_view = choose_field_of_view_evidence(marks);
   ScanLibrary library;
   for (const auto& track : tracks) library.want(track);
@@ -43,14 +40,11 @@ void compare_odometry_with(const std::vector<const LaserScan*>& scans, LogDiagno
       diagnosis.field_of_view = study_field_of_view(marks, of_field_of_view, library);
     return;
   }
-  diagnosis.delay = estimate_scan_delay(marks, diagnosis.odometry.turns);
-  if (diagnosis.delay && diagnosis.delay->is_significant())
-    corrected = with_scan_delay(marks, diagnosis.delay->delay_s);
-  const TPose2D& stated_mount = diagnosis.facts.robot_T_laser;
-  std::vector<AlignedPair> aligned = align_pairs(corrected, pairs, library);
-  diagnosis.mount = find_turned_mount(diagnosis.odometry, corrected, stated_mount, aligned, library);
-  diagnosis.laser_is_turned = diagnosis.mount.has_value();
-  if (!diagnosis.mount) diagnosis.mount = estimate_laser_mount(aligned, stated_mount);
+  const PairCalibration found =
+      calibrate_by_pairs(diagnosis.odometry, marks, corrected, diagnosis.facts.robot_T_laser, pairs, library);
+  diagnosis.delay = found.delay;
+  diagnosis.mount = found.mount;
+  diagnosis.laser_is_turned = found.laser_is_turned;
   diagnosis.jumps = confirm_jumps(marks, suspects, library);
   diagnosis.revisits = check_revisits(marks, revisits, library);
 }

@@ -5,11 +5,13 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "base/portable_math.h"
-#include "doctor/estimate_covariance.h"
+#include "doctor/jackknife.h"
 #include "frames/laser_choice.h"
 #include "frames/odometry_track.h"
 
@@ -23,6 +25,7 @@ constexpr std::size_t kFewestTurns = 40;
 constexpr int kCandidates = 20;  // on each side of 0
 constexpr double kSlopeStep_s = 0.02;
 constexpr int kIterations = 20;
+constexpr double kConverged = 1e-5;  // last change of the delay in seconds and of the ratio of turns
 // Residuals beyond this count less (Cauchy weights): odometry that slips, scans that are badly aligned.
 const double kNoise_rad = mrpt::DEG2RAD(1.0);
 constexpr double kGainDeviation = 0.3;  // of the ratio of turns, before any scan is compared
@@ -30,6 +33,38 @@ constexpr double kOffsetStep_s = 0.1;   // turns of robots take longer
 constexpr double kMostOffset_s = 300;
 constexpr std::size_t kTurnsForOffset = 200;
 constexpr double kFarBetter = 0.5;  // ratio of the mean costs of an offset of clocks and of its rivals
+
+/// Hessian of a weak prior: without turns, the delay and the ratio of turns stay.
+Eigen::Matrix2d prior_hessian() {
+  return Eigen::Vector2d(portable::pow(kNoise_rad / kMostEstimatedDelay_s, 2),
+                         portable::pow(kNoise_rad / kGainDeviation, 2))
+      .asDiagonal();
+}
+
+/// Returns headings (TPose2D::phi) at four times for each pose, each the mean over two periods of odometry as
+/// interpolated between its poses, of times and of headings. Interpolated headings are less noisy midway
+/// between poses, which attracts delays. The noise of these means is the same at all times.
+OdometryTrack smoothed(const std::vector<FrameMark>& poses) {
+  constexpr int kTimes = 4;
+  std::vector<double> headings_rad = unwrapped_headings(poses);
+  OdometryTrack track;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    for (int k = 0; k < kTimes; ++k) {
+      const double after = static_cast<double>(k) / kTimes;
+      const std::array<double, 4> weights{(1 - after) * (1 - after) / 4, (2 - after * after) / 4,
+                                          (1 + 2 * after - after * after) / 4, after * after / 4};
+      double time_us = 0;
+      double heading_rad = 0;
+      for (std::size_t j = 0; j < weights.size(); ++j) {
+        const std::size_t pose = std::clamp<std::size_t>(i + j, 1, poses.size()) - 1;
+        time_us += weights[j] * static_cast<double>(poses[pose].time_us - poses[i].time_us);
+        heading_rad += weights[j] * headings_rad[pose];
+      }
+      track.add(poses[i].time_us + std::llround(time_us), {0, 0, wrapToPi(heading_rad)});
+    }
+  }
+  return track;
+}
 
 /// Odometry of all marks at shifted times.
 class ShiftedOdometry {
@@ -41,6 +76,14 @@ class ShiftedOdometry {
       if (begins_us_.size() < tracks_.size()) begins_us_.push_back(mark.time_us);
       tracks_.back().add(mark.time_us, mark.odom_T_robot);
       track_of_.push_back(tracks_.size() - 1);
+    }
+    for (std::size_t first = 0; first < marks.size();) {
+      std::vector<FrameMark> poses;
+      const std::size_t track = track_of_[first];
+      for (; first < marks.size() && track_of_[first] == track; ++first) poses.push_back(marks[first]);
+      std::stable_sort(poses.begin(), poses.end(),
+                       [](const FrameMark& a, const FrameMark& b) { return a.time_us < b.time_us; });
+      smoothed_.push_back(smoothed(poses));
     }
   }
 
@@ -62,9 +105,21 @@ class ShiftedOdometry {
     return wrapToPi(at(pair.second, delay_s).phi - at(pair.first, delay_s).phi);
   }
 
+  /// Like turn_rad(), of smoothed headings.
+  double smoothed_turn_rad(const FramePair& pair, double delay_s) const {
+    return wrapToPi(smoothed_heading_rad(pair.second, delay_s) - smoothed_heading_rad(pair.first, delay_s));
+  }
+
  private:
+  double smoothed_heading_rad(std::size_t frame, double delay_s) const {
+    return smoothed_[track_of_[frame]]
+        .at(marks_[frame].time_us - static_cast<TimeUs>(std::lround(1e6 * delay_s)))
+        .phi;
+  }
+
   const std::vector<FrameMark>& marks_;
   std::vector<OdometryTrack> tracks_;
+  std::vector<OdometryTrack> smoothed_;
   std::vector<TimeUs> begins_us_;  // of the tracks
   std::vector<std::size_t> track_of_;
 };
@@ -92,39 +147,55 @@ std::optional<double> best_candidate_s(const ShiftedOdometry& odometry, const st
   return kMostEstimatedDelay_s * best / kCandidates;
 }
 
-/// Estimates the delay near a candidate by Gauss-Newton steps for the delay and the ratio of turns, with a
-/// weak prior: without turns, both stay. Empty if the delay leaves the candidate by kMostEstimatedDelay_s.
+/// Delay and ratio of turns that explain the turns best, near a candidate.
+struct DelayFit {
+  Eigen::Vector2d estimate;  // delay in seconds, ratio of turns
+  Eigen::Matrix2d hessian;   // of the squared residuals and the prior
+};
+
+/// Fits by Gauss-Newton steps, with all turns but [left_out_first, left_out_last).
+DelayFit fit_delay(const ShiftedOdometry& odometry, const std::vector<ScanTurn>& turns, double candidate_s,
+                   Eigen::Vector2d start, std::size_t left_out_first, std::size_t left_out_last) {
+  const Eigen::Vector2d prior(candidate_s, 1);
+  DelayFit fit{start, {}};
+  for (int i = 0; i < kIterations; ++i) {
+    fit.hessian = prior_hessian();
+    Eigen::Vector2d gradient = fit.hessian * (prior - fit.estimate);
+    for (std::size_t k = 0; k < turns.size(); ++k) {
+      if (k >= left_out_first && k < left_out_last) continue;
+      const FramePair& frames = turns[k].frames;
+      const double turn_rad = odometry.smoothed_turn_rad(frames, fit.estimate[0]);
+      const double slope = wrapToPi(odometry.smoothed_turn_rad(frames, fit.estimate[0] + kSlopeStep_s) -
+                                    odometry.smoothed_turn_rad(frames, fit.estimate[0] - kSlopeStep_s)) /
+                           (2 * kSlopeStep_s);
+      const double residual = wrapToPi(turns[k].turn_rad - fit.estimate[1] * turn_rad);
+      const double weight = 1 / (1 + portable::pow(residual / kNoise_rad, 2));
+      const Eigen::Vector2d jacobian(fit.estimate[1] * slope, turn_rad);
+      fit.hessian += weight * jacobian * jacobian.transpose();
+      gradient += weight * residual * jacobian;
+    }
+    const Eigen::Vector2d step = fit.hessian.ldlt().solve(gradient);
+    fit.estimate += step;
+    if (step.cwiseAbs().maxCoeff() < kConverged) break;
+  }
+  return fit;
+}
+
+/// Estimates the delay near a candidate by Gauss-Newton steps. Empty if the delay leaves the candidate by
+/// kMostEstimatedDelay_s.
 std::optional<ScanDelay> refined(const ShiftedOdometry& odometry, const std::vector<ScanTurn>& turns,
                                  double candidate_s) {
-  const Eigen::Vector2d prior(candidate_s, 1);
-  const Eigen::Matrix2d prior_hessian = Eigen::Vector2d(portable::pow(kNoise_rad / kMostEstimatedDelay_s, 2),
-                                                        portable::pow(kNoise_rad / kGainDeviation, 2))
-                                            .asDiagonal();
-  Eigen::Vector2d estimate = prior;
-  Eigen::Matrix2d hessian;
-  std::vector<Eigen::Vector2d> gradients(turns.size());
-  for (int i = 0; i <= kIterations; ++i) {
-    hessian = prior_hessian;
-    Eigen::Vector2d gradient = prior_hessian * (prior - estimate);
-    for (std::size_t k = 0; k < turns.size(); ++k) {
-      const FramePair& frames = turns[k].frames;
-      const double turn_rad = odometry.turn_rad(frames, estimate[0]);
-      const double slope = wrapToPi(odometry.turn_rad(frames, estimate[0] + kSlopeStep_s) -
-                                    odometry.turn_rad(frames, estimate[0] - kSlopeStep_s)) /
-                           (2 * kSlopeStep_s);
-      const double residual = wrapToPi(turns[k].turn_rad - estimate[1] * turn_rad);
-      const double weight = 1 / (1 + portable::pow(residual / kNoise_rad, 2));
-      const Eigen::Vector2d jacobian(estimate[1] * slope, turn_rad);
-      hessian += weight * jacobian * jacobian.transpose();
-      gradients[k] = weight * residual * jacobian;
-      gradient += gradients[k];
-    }
-    if (i < kIterations) estimate += hessian.ldlt().solve(gradient);
-  }
-  if (!(std::abs(estimate[0] - candidate_s) < kMostEstimatedDelay_s)) return std::nullopt;
+  const DelayFit fit = fit_delay(odometry, turns, candidate_s, {candidate_s, 1}, 0, 0);
+  if (!(std::abs(fit.estimate[0] - candidate_s) < kMostEstimatedDelay_s)) return std::nullopt;
+  const Eigen::Matrix2d inverse = fit.hessian.inverse();
   const Eigen::Matrix2d covariance =
-      estimate_covariance<2>(hessian, gradients, kNoise_rad * kNoise_rad * prior_hessian);
-  return ScanDelay{turns.size(), estimate[0], std::sqrt(covariance(0, 0))};
+      jackknife_covariance<2>(
+          turns.size(),
+          [&](std::size_t first, std::size_t last) {
+            return fit_delay(odometry, turns, candidate_s, fit.estimate, first, last).estimate;
+          }) +
+      inverse * kNoise_rad * kNoise_rad * prior_hessian() * inverse;
+  return ScanDelay{turns.size(), fit.estimate[0], std::sqrt(covariance(0, 0))};
 }
 
 /// Mean cost of the turns under the assumption that odometry turns `factor` times as far, at the same times.

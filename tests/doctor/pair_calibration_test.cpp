@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor/turned_laser.h"
+#include "doctor/pair_calibration.h"
 
 #include <gtest/gtest.h>
 
@@ -28,14 +28,14 @@ std::optional<LaserMountEstimate> turned_mount_of(const TPose2D& true_mount, con
   options.field_of_view_rad = 2 * M_PI;
   options.robot_T_laser = stated_mount;
   const auto tracks = tracks_from(frames_in_motion(marks, 60), marks.size());
-  const auto pairs = pairs_by_motion(marks, kComparedMotion_m, kComparedTurn_rad, 300);
+  const auto pairs = calibration_pairs(marks);
   ScanLibrary library;
   for (const auto& track : tracks) library.want(track);
   library.want(pairs);
   library.fetch(folder.path() / "log", options);
   const OdometryAgreement odometry = check_odometry(marks, tracks, library);
-  std::vector<AlignedPair> aligned = align_pairs(marks, pairs, library);
-  return find_turned_mount(odometry, marks, stated_mount, aligned, library);
+  const PairCalibration found = calibrate_by_pairs(odometry, marks, marks, stated_mount, pairs, library);
+  return found.laser_is_turned ? found.mount : std::nullopt;
 }
 
 TEST(TurnedLaser, has_the_true_mount_within_its_standard_deviations) {

@@ -110,15 +110,22 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
   if (!diagnosis.odometry_is_sound && !diagnosis.odometry.clock_offset)
     diagnosis.field_of_view = study_field_of_view(marks, of_field_of_view, library);
   if (diagnosis.odometry_is_sound) {
+    const bool are_distorted = diagnosis.sweep_direction.stated_sweep_time_s != 0;
+    ScanLibrary undistorted;  // as they are mapped
+    if (are_distorted) {
+      LogOptions mapped = diagnosis.options;
+      mapped.sweep_time_s = options.sweep_time_s;
+      undistorted.want(pairs);
+      undistorted.fetch(diagnosis.path, mapped);
+    }
     const PairCalibration found =
-        calibrate_by_pairs(diagnosis.odometry, marks, corrected, pass.facts.robot_T_laser, pairs, library);
+        calibrate_by_pairs(diagnosis.odometry, marks, corrected, pass.facts.robot_T_laser, pairs,
+                           are_distorted ? undistorted : library);
     diagnosis.laser_is_turned = found.laser_is_turned;
+    if (found.laser_is_turned) library.set_mount(found.mount->robot_T_laser);
     diagnosis.mount = found.mount;
     diagnosis.delay = found.delay;
-    // The scans are compared as recorded: measured in the middle of the sweep on average.
-    if (diagnosis.delay)
-      diagnosis.delay->delay_s +=
-          removed_delay_s + std::abs(diagnosis.sweep_direction.stated_sweep_time_s) / 2;
+    if (diagnosis.delay) diagnosis.delay->delay_s += removed_delay_s;
     diagnosis.reversals = find_lost_reversals(align_pairs(corrected, moves, library), library);
     diagnosis.jumps = confirm_jumps(marks, suspects, library);
     diagnosis.revisits = check_revisits(marks, revisits, library);

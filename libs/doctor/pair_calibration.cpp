@@ -120,10 +120,10 @@ PairCalibration calibrate_by_pairs(const OdometryAgreement& odometry, const std:
   if (const auto guess = calibrator.improved(found, mount)) {
     const bool is_turned = found.laser_is_turned;
     found = calibrator.estimate(*guess, part_of(progress, 0.5, 1));
-    found.laser_is_turned = is_turned;
+    found.laser_is_turned = is_turned && found.mount;
   }
   if (progress) progress(1);
-  library.set_mount(found.laser_is_turned && found.mount ? found.mount->robot_T_laser : stated_mount);
+  library.set_mount(found.laser_is_turned ? found.mount->robot_T_laser : stated_mount);
   return found;
 }
 

@@ -66,10 +66,13 @@ OdometryTrack smoothed(const std::vector<FrameMark>& poses) {
   return track;
 }
 
-/// Odometry of all marks at shifted times.
+enum class Headings { kRecorded, kSmoothed };
+
+/// Odometry of all marks at shifted times. Smoothed odometry has headings only.
 class ShiftedOdometry {
  public:
-  explicit ShiftedOdometry(const std::vector<FrameMark>& marks) : marks_(marks), tracks_(1) {
+  explicit ShiftedOdometry(const std::vector<FrameMark>& marks, Headings headings = Headings::kRecorded)
+      : marks_(marks), tracks_(1) {
     track_of_.reserve(marks.size());
     for (const FrameMark& mark : marks) {
       if (tracks_.back().ends_before(mark.time_us)) tracks_.emplace_back();
@@ -77,14 +80,7 @@ class ShiftedOdometry {
       tracks_.back().add(mark.time_us, mark.odom_T_robot);
       track_of_.push_back(tracks_.size() - 1);
     }
-    for (std::size_t first = 0; first < marks.size();) {
-      std::vector<FrameMark> poses;
-      const std::size_t track = track_of_[first];
-      for (; first < marks.size() && track_of_[first] == track; ++first) poses.push_back(marks[first]);
-      std::stable_sort(poses.begin(), poses.end(),
-                       [](const FrameMark& a, const FrameMark& b) { return a.time_us < b.time_us; });
-      smoothed_.push_back(smoothed(poses));
-    }
+    if (headings == Headings::kSmoothed) smooth();
   }
 
   /// Odometry of a frame whose scan was measured `delay_s` before its time stamp.
@@ -105,21 +101,19 @@ class ShiftedOdometry {
     return wrapToPi(at(pair.second, delay_s).phi - at(pair.first, delay_s).phi);
   }
 
-  /// Like turn_rad(), of smoothed headings.
-  double smoothed_turn_rad(const FramePair& pair, double delay_s) const {
-    return wrapToPi(smoothed_heading_rad(pair.second, delay_s) - smoothed_heading_rad(pair.first, delay_s));
-  }
-
  private:
-  double smoothed_heading_rad(std::size_t frame, double delay_s) const {
-    return smoothed_[track_of_[frame]]
-        .at(marks_[frame].time_us - static_cast<TimeUs>(std::lround(1e6 * delay_s)))
-        .phi;
+  void smooth() {
+    std::vector<std::vector<FrameMark>> poses(tracks_.size());
+    for (std::size_t i = 0; i < marks_.size(); ++i) poses[track_of_[i]].push_back(marks_[i]);
+    for (std::size_t track = 0; track < tracks_.size(); ++track) {
+      std::stable_sort(poses[track].begin(), poses[track].end(),
+                       [](const FrameMark& a, const FrameMark& b) { return a.time_us < b.time_us; });
+      tracks_[track] = smoothed(poses[track]);
+    }
   }
 
   const std::vector<FrameMark>& marks_;
   std::vector<OdometryTrack> tracks_;
-  std::vector<OdometryTrack> smoothed_;
   std::vector<TimeUs> begins_us_;  // of the tracks
   std::vector<std::size_t> track_of_;
 };
@@ -164,9 +158,9 @@ DelayFit fit_delay(const ShiftedOdometry& odometry, const std::vector<ScanTurn>&
     for (std::size_t k = 0; k < turns.size(); ++k) {
       if (k >= left_out_first && k < left_out_last) continue;
       const FramePair& frames = turns[k].frames;
-      const double turn_rad = odometry.smoothed_turn_rad(frames, fit.estimate[0]);
-      const double slope = wrapToPi(odometry.smoothed_turn_rad(frames, fit.estimate[0] + kSlopeStep_s) -
-                                    odometry.smoothed_turn_rad(frames, fit.estimate[0] - kSlopeStep_s)) /
+      const double turn_rad = odometry.turn_rad(frames, fit.estimate[0]);
+      const double slope = wrapToPi(odometry.turn_rad(frames, fit.estimate[0] + kSlopeStep_s) -
+                                    odometry.turn_rad(frames, fit.estimate[0] - kSlopeStep_s)) /
                            (2 * kSlopeStep_s);
       const double residual = wrapToPi(turns[k].turn_rad - fit.estimate[1] * turn_rad);
       const double weight = 1 / (1 + portable::pow(residual / kNoise_rad, 2));
@@ -228,7 +222,7 @@ std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks
   const ShiftedOdometry odometry(marks);
   const auto candidate_s = best_candidate_s(odometry, turns);
   if (!candidate_s) return std::nullopt;
-  const auto delay = refined(odometry, turns, *candidate_s);
+  const auto delay = refined(ShiftedOdometry(marks, Headings::kSmoothed), turns, *candidate_s);
   if (!delay || !(std::abs(delay->delay_s) < kMostEstimatedDelay_s)) return std::nullopt;
   return delay;
 }

@@ -82,6 +82,7 @@ TEST_F(PairAlignmentTest, finds_the_mount_of_the_laser) {
 
 TEST_F(PairAlignmentTest, measures_the_scale_of_odometry) {
   SimulatedRun run = round_trips(1);
+  run.robot_T_laser = {0.5, 0, 0};
   for (TPose2D& pose : run.odometry) {
     pose.x *= 1.05;
     pose.y *= 1.05;
@@ -89,6 +90,7 @@ TEST_F(PairAlignmentTest, measures_the_scale_of_odometry) {
   const auto mount = estimate_laser_mount(aligned(run), {0, 0, 0});
   ASSERT_TRUE(mount);
   EXPECT_NEAR(mount->odometry_scale, 1.05, 0.01);
+  EXPECT_NEAR(mount->robot_T_laser.x, 0.5, 0.015) << "in metres, not in those of odometry";
 }
 
 TEST_F(PairAlignmentTest, straight_motion_shows_the_scale_but_not_the_position_of_the_laser) {

@@ -1,9 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/pair_calibration.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/number_text.h"
+#include "doctor/input_doctor.h"
+#include "doctor/odometry_calibration.h"
+#include "doctor/quick_check.h"
 #include "log_files.h"
+#include "psi_slam/open_log.h"
 #include "simulated_run.h"
 #include "temporary_folder.h"
 
@@ -61,6 +73,83 @@ TEST(TurnedLaser, is_not_found_where_the_heading_is_about_right) {
 TEST(TurnedLaser, is_not_found_where_the_headings_of_odometry_may_be_wrong) {
   for (const double off_deg : {40.0, -90.0})
     EXPECT_FALSE(turned_mount_of({0.25, 0, 0}, {0.25, 0, 0}, DEG2RAD(off_deg))) << off_deg;
+}
+
+/// A log with a delay, and odometry and a laser that differ from what the log states.
+struct WrongLog {
+  SimulatedRun run;
+  double delay_s = 0;
+  double odometry_scale = 1;
+};
+
+WrongLog wrong_log(unsigned seed) {
+  WrongLog log{round_trips(2, seed), 0.1 * (seed % 7) - 0.3, 0.88 + 0.06 * (seed % 5)};
+  log.run.seed = seed;
+  log.run.robot_T_laser = {0.25, -0.05, DEG2RAD(2.0)};
+  log.run = with_late_stamps(log.run, log.delay_s);
+  for (TPose2D& pose : log.run.odometry) {
+    pose.x *= log.odometry_scale;
+    pose.y *= log.odometry_scale;
+  }
+  return log;
+}
+
+LogDiagnosis diagnosis_of(const SimulatedRun& run, const std::filesystem::path& path) {
+  write_file(path, carmen_log(run));
+  return diagnose(path);
+}
+
+TEST(PairCalibration, has_the_truth_within_its_standard_deviations) {
+  constexpr unsigned kLogs = 10;
+  const TemporaryFolder folder;
+  std::map<std::string, double> squares;
+  for (unsigned seed = 1; seed <= kLogs; ++seed) {
+    const WrongLog log = wrong_log(seed);
+    const LogDiagnosis found = diagnosis_of(log.run, folder.path() / "log");
+    ASSERT_TRUE(found.delay && found.mount) << seed;
+    const LaserMountEstimate& mount = *found.mount;
+    const TPose2D off = mount.robot_T_laser - log.run.robot_T_laser;
+    const std::map<std::string, double> errors{
+        {"delay", (found.delay->delay_s - log.delay_s) / found.delay->deviation_s},
+        {"position", off.norm() / std::sqrt(2) / mount.deviation_m},
+        {"heading", off.phi / mount.deviation_rad},
+        {"scale", (mount.odometry_scale - log.odometry_scale) / mount.scale_deviation}};
+    for (const auto& [name, error] : errors) {
+      EXPECT_LT(std::abs(error), 4) << name << " with seed " << seed;
+      squares[name] += error * error / kLogs;
+    }
+    EXPECT_LT(found.delay->deviation_s, 0.03);
+    EXPECT_LT(mount.deviation_m, 0.02);
+    EXPECT_LT(mount.deviation_rad, DEG2RAD(0.3));
+    EXPECT_LT(mount.scale_deviation, 0.01);
+  }
+  for (const auto& [name, square] : squares) {
+    EXPECT_LT(std::sqrt(square), 1.6) << name;
+    // The scale is stated no better than lasers measure. Simulated ranges are exact.
+    EXPECT_GT(std::sqrt(square), name == "scale" ? 0 : 0.4) << name;
+  }
+}
+
+TEST(PairCalibration, is_the_same_by_check_at_the_end_of_a_run_and_by_calibration) {
+  const TemporaryFolder folder;
+  for (const double delay_s : {-0.27, 0.16}) {
+    const auto path = folder.path() / "log";
+    const LogDiagnosis found = diagnosis_of(with_late_stamps(round_trips(2), delay_s), path);
+    ASSERT_TRUE(found.delay);
+    EXPECT_NEAR(found.delay->delay_s, delay_s, 4 * found.delay->deviation_s);
+    std::vector<Frame> frames;
+    const auto log = open_log(path);
+    while (auto frame = log->next()) frames.push_back(std::move(*frame));
+    EXPECT_THAT(
+        quick_check(frames, 0, frames.size(), {}),
+        testing::Contains(testing::HasSubstr(
+            fixed_text(std::abs(found.delay->delay_s), 3) + (delay_s > 0 ? " s later" : " s earlier") +
+            " than odometry (accurate to " + fixed_text(found.delay->deviation_s, 3) + " s)")));
+    const OdometryCalibration calibration = calibrate_odometry(path, {});
+    ASSERT_TRUE(calibration.delays.front().delay);
+    EXPECT_NEAR(calibration.delays.front().delay->delay_s, found.delay->delay_s, 1e-3);
+    EXPECT_NEAR(calibration.delays.front().delay->deviation_s, found.delay->deviation_s, 1e-3);
+  }
 }
 
 }  // namespace

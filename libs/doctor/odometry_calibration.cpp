@@ -17,7 +17,7 @@ namespace psi_slam {
 namespace {
 
 constexpr std::size_t kCalibrationTracks = 30;
-constexpr double kShareOfReading = 0.25;  // of the time of an estimate, for each reading of the log
+constexpr double kShareOfReading = 0.2;  // of the time of an estimate, for each reading of the log
 
 LogFactsCollector read_once(const std::filesystem::path& path, const LogOptions& options,
                             const ShareObserver& progress) {

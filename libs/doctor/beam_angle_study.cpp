@@ -9,10 +9,9 @@
 #include <memory>
 #include <numeric>
 
-#include "base/portable_math.h"
+#include "doctor/bearing_comparison.h"
 #include "doctor/pair_alignment.h"
 #include "frames/laser_readings.h"
-#include "frames/scan_alignment.h"
 
 namespace psi_slam {
 namespace {
@@ -29,117 +28,96 @@ constexpr double kWorseFraction = 0.004;  // as a fraction of the smallest dista
 constexpr double kWorseErrors = 5;        // in standard errors
 const double kTurnError_rad = DEG2RAD(1.0);
 
-struct Convention {
-  BeamAngles angles;
-  BeamBearings bearings_rad;
+/// Bearings of a convention and its name.
+struct Conventions : BearingHypotheses {
+  std::vector<BeamAngles> angles;
 };
 
-std::vector<Convention> conventions_for(const std::vector<float>& used_rad, double field_of_view_rad) {
+Conventions conventions_for(const std::vector<float>& used_rad, double field_of_view_rad) {
   const bool clockwise = used_rad.size() > 1 && used_rad.back() < used_rad.front();
-  std::vector<Convention> conventions;
+  Conventions conventions;
+  conventions.beams = used_rad.size();
+  conventions.max_range_m = kSight_m;
+  conventions.points = kPoints;
   for (const BeamAngles angles : stated_beam_angles()) {
     if (angles == BeamAngles::kSkipZero && used_rad.size() % 2 != 0) continue;
     std::vector<float> bearings = make_bearings_rad(angles, used_rad.size(), field_of_view_rad);
     if (clockwise) mirror(bearings);
-    conventions.push_back({angles, std::make_shared<const std::vector<float>>(std::move(bearings))});
+    conventions.angles.push_back(angles);
+    conventions.bearings_rad.push_back(std::make_shared<const std::vector<float>>(std::move(bearings)));
   }
   return conventions;
 }
 
-AlignableScan with_bearings(LaserScan scan, const BeamBearings& bearings_rad) {
-  scan.bearings_rad = bearings_rad;
-  return AlignableScan(scan, kSight_m, kPoints);
-}
-
-/// Returns [pair][convention]: the mean distance from points to walls, metres. Skips pairs that some
-/// convention does not align reliably.
-std::vector<std::vector<double>> distances_m(const std::vector<FrameMark>& marks,
-                                             const std::vector<FramePair>& pairs, const ScanLibrary& library,
-                                             const std::vector<Convention>& conventions) {
-  std::vector<std::vector<double>> rows;
+/// Returns the distances to walls of the pairs that all conventions align reliably.
+WallDistances distances_of(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
+                           const ScanLibrary& library, const Conventions& conventions) {
+  WallDistances distances;
   for (const FramePair& pair : pairs) {
-    const LaserScan& first = library.at(pair.first);
-    const LaserScan& second = library.at(pair.second);
-    const std::size_t beams = conventions.front().bearings_rad->size();
-    if (first.ranges_m.size() != beams || second.ranges_m.size() != beams) continue;
-    std::vector<double> row;
-    for (const Convention& convention : conventions) {
-      const ScanAlignment alignment =
-          align_scans(with_bearings(first, convention.bearings_rad),
-                      with_bearings(second, convention.bearings_rad), odometry_between(marks, pair));
-      if (!alignment.is_reliable()) break;
-      row.push_back(alignment.cost_m);
-    }
-    if (row.size() == conventions.size()) rows.push_back(std::move(row));
+    const std::vector<ScanAlignment> alignments = align_under(
+        conventions, library.at(pair.first), library.at(pair.second), {odometry_between(marks, pair)});
+    if (!alignments.empty() &&
+        std::all_of(alignments.begin(), alignments.end(),
+                    [](const ScanAlignment& alignment) { return alignment.is_reliable(); }))
+      distances.add(alignments);
   }
-  return rows;
+  return distances;
 }
 
-void compare_distances(const std::vector<std::vector<double>>& rows, std::vector<BeamAngleFit>& fits) {
-  const auto count = static_cast<double>(rows.size());
-  for (std::size_t c = 0; c < fits.size(); ++c)
-    for (const std::vector<double>& row : rows) fits[c].mean_distance_m += row[c] / count;
-  const auto best =
-      static_cast<std::size_t>(std::min_element(fits.begin(), fits.end(),
-                                                [](const BeamAngleFit& a, const BeamAngleFit& b) {
-                                                  return a.mean_distance_m < b.mean_distance_m;
-                                                }) -
-                               fits.begin());
+void compare_distances(const WallDistances& distances, std::vector<BeamAngleFit>& fits) {
+  std::size_t best = 0;
   for (std::size_t c = 0; c < fits.size(); ++c) {
-    double squares = 0;
-    fits[c].worse_by_m = fits[c].mean_distance_m - fits[best].mean_distance_m;
-    for (const std::vector<double>& row : rows)
-      squares += portable::pow(row[c] - row[best] - fits[c].worse_by_m, 2);
-    const double error_m = std::sqrt(squares) / count;
-    fits[c].significance = error_m > 0 ? fits[c].worse_by_m / error_m : 0;
-    fits[c].ruled_out_by_walls = fits[c].worse_by_m > kWorseFraction * fits[best].mean_distance_m &&
-                                 fits[c].significance > kWorseErrors;
+    fits[c].mean_distance_m = distances.mean_m(c);
+    if (fits[c].mean_distance_m < fits[best].mean_distance_m) best = c;
+  }
+  for (std::size_t c = 0; c < fits.size(); ++c) {
+    const auto [worse_by_m, error_m] = distances.excess(c, best);
+    fits[c].worse_by_m = worse_by_m;
+    fits[c].significance = error_m > 0 ? worse_by_m / error_m : 0;
+    fits[c].ruled_out_by_walls =
+        worse_by_m > kWorseFraction * fits[best].mean_distance_m && fits[c].significance > kWorseErrors;
   }
 }
 
-/// Returns the excess over 360 degrees of the alignments along a full turn, radians. Empty if a pair of scans
-/// does not align.
-std::optional<double> turn_error_rad(const std::vector<FrameMark>& marks,
-                                     const std::vector<double>& headings_rad,
-                                     const std::vector<std::size_t>& frames, const ScanLibrary& library,
-                                     const BeamBearings& bearings_rad) {
-  const auto aligned_turn = [&](std::size_t first, std::size_t second) -> std::optional<double> {
-    const LaserScan& a = library.at(first);
-    const LaserScan& b = library.at(second);
-    if (a.ranges_m.size() != bearings_rad->size() || b.ranges_m.size() != bearings_rad->size())
-      return std::nullopt;
-    const ScanAlignment alignment =
-        align_scans(with_bearings(a, bearings_rad), with_bearings(b, bearings_rad),
-                    odometry_between(marks, {first, second}));
-    if (alignment.cost_m > 0.06 || alignment.matched_share < 0.6) return std::nullopt;
-    return alignment.reference_T_scan.phi;
-  };
-  double sum_rad = 0;
-  for (std::size_t i = 1; i < frames.size(); ++i) {
-    const auto turn_rad = aligned_turn(frames[i - 1], frames[i]);
-    if (!turn_rad) return std::nullopt;
-    const double odometry_rad = headings_rad[frames[i]] - headings_rad[frames[i - 1]];
-    sum_rad += odometry_rad + wrapToPi(*turn_rad - odometry_rad);
+/// Returns the excess over 360 degrees of the alignments along a full turn under each convention, radians.
+/// Empty if a pair of scans does not align.
+std::vector<double> turn_errors_rad(const std::vector<FrameMark>& marks,
+                                    const std::vector<double>& headings_rad,
+                                    const std::vector<std::size_t>& frames, const ScanLibrary& library,
+                                    const Conventions& conventions) {
+  std::vector<double> sums_rad(conventions.angles.size(), 0);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const bool is_closing = i + 1 == frames.size();
+    const std::size_t first = is_closing ? frames.front() : frames[i];
+    const std::size_t second = is_closing ? frames.back() : frames[i + 1];
+    const std::vector<ScanAlignment> alignments = align_under(
+        conventions, library.at(first), library.at(second), {odometry_between(marks, {first, second})});
+    if (alignments.empty()) return {};
+    const double odometry_rad = headings_rad[second] - headings_rad[first];
+    for (std::size_t c = 0; c < alignments.size(); ++c) {
+      if (alignments[c].cost_m > 0.06 || alignments[c].matched_share < 0.6) return {};
+      const double turn_rad = alignments[c].reference_T_scan.phi;
+      if (is_closing)
+        sums_rad[c] = std::abs(sums_rad[c] - turn_rad) - 2 * M_PI;
+      else
+        sums_rad[c] += odometry_rad + wrapToPi(turn_rad - odometry_rad);
+    }
   }
-  const auto closing_rad = aligned_turn(frames.front(), frames.back());
-  if (!closing_rad) return std::nullopt;
-  return std::abs(sum_rad - *closing_rad) - 2 * M_PI;
+  return sums_rad;
 }
 
 void compare_full_turns(const std::vector<FrameMark>& marks,
                         const std::vector<std::vector<std::size_t>>& turns, const ScanLibrary& library,
-                        const std::vector<Convention>& conventions, BeamAngleStudy& study) {
+                        const Conventions& conventions, BeamAngleStudy& study) {
   const std::vector<double> headings_rad = unwrapped_headings(marks);
   for (const std::vector<std::size_t>& frames : turns) {
-    std::vector<double> errors_rad;
-    for (const Convention& convention : conventions) {
-      const auto error_rad = turn_error_rad(marks, headings_rad, frames, library, convention.bearings_rad);
-      if (!error_rad || std::abs(*error_rad) > DEG2RAD(10.0)) break;
-      errors_rad.push_back(*error_rad);
-    }
-    if (errors_rad.size() != conventions.size()) continue;
+    const std::vector<double> errors_rad = turn_errors_rad(marks, headings_rad, frames, library, conventions);
+    if (errors_rad.empty() || std::any_of(errors_rad.begin(), errors_rad.end(), [](double error_rad) {
+          return std::abs(error_rad) > DEG2RAD(10.0);
+        }))
+      continue;
     ++study.full_turns;
-    for (std::size_t c = 0; c < conventions.size(); ++c) study.fits[c].full_turn_error_rad += errors_rad[c];
+    for (std::size_t c = 0; c < errors_rad.size(); ++c) study.fits[c].full_turn_error_rad += errors_rad[c];
   }
   if (study.full_turns == 0) return;
   double least_rad = INFINITY;
@@ -156,14 +134,13 @@ double mean(const std::vector<float>& values) {
 }
 
 /// Returns whether the step between beams is a multiple of 0.25 degrees, as for most lasers.
-bool has_usual_steps(const Convention& convention) {
-  const std::vector<float>& bearings = *convention.bearings_rad;
+bool has_usual_steps(const std::vector<float>& bearings) {
   if (bearings.size() < 2) return true;
   const double quarters = std::abs(mrpt::RAD2DEG(static_cast<double>(bearings[1] - bearings[0]))) / 0.25;
   return std::abs(quarters - std::round(quarters)) < 0.001;
 }
 
-BeamAngles choose(const std::vector<Convention>& conventions, const BeamAngleStudy& study) {
+BeamAngles choose(const Conventions& conventions, const BeamAngleStudy& study) {
   std::vector<std::size_t> left;
   const auto keep = [&](auto&& is_right) {
     std::vector<std::size_t> kept;
@@ -171,17 +148,17 @@ BeamAngles choose(const std::vector<Convention>& conventions, const BeamAngleStu
       if (is_right(c)) kept.push_back(c);
     if (!kept.empty()) left = kept;
   };
-  for (std::size_t c = 0; c < conventions.size(); ++c) left.push_back(c);
+  for (std::size_t c = 0; c < conventions.angles.size(); ++c) left.push_back(c);
   keep([&](std::size_t c) { return !study.fits[c].ruled_out_by_walls; });
   keep([&](std::size_t c) { return !study.fits[c].ruled_out_by_turns; });
-  keep([&](std::size_t c) { return has_usual_steps(conventions[c]); });
-  const BeamAngles usual = usual_beam_angles(conventions.front().bearings_rad->size());
+  keep([&](std::size_t c) { return has_usual_steps(*conventions.bearings_rad[c]); });
+  const BeamAngles usual = usual_beam_angles(conventions.beams);
   const auto chosen = std::min_element(left.begin(), left.end(), [&](std::size_t a, std::size_t b) {
     if (study.knows_heading)
       return std::abs(study.fits[a].laser_heading_rad) < std::abs(study.fits[b].laser_heading_rad);
-    return conventions[a].angles == usual && conventions[b].angles != usual;
+    return conventions.angles[a] == usual && conventions.angles[b] != usual;
   });
-  return conventions[*chosen].angles;
+  return conventions.angles[*chosen];
 }
 
 }  // namespace
@@ -196,19 +173,19 @@ BeamAngleStudy study_beam_angles(const std::vector<FrameMark>& marks, const Beam
                                  double field_of_view_rad, std::optional<double> laser_heading_rad) {
   BeamAngleStudy study;
   if (used_rad.size() < 2) return study;
-  const std::vector<Convention> conventions = conventions_for(used_rad, field_of_view_rad);
-  const auto rows = distances_m(marks, evidence.turning_pairs, library, conventions);
-  study.pairs = rows.size();
-  if (rows.size() < kFewestPairs) return study;
-  for (const Convention& convention : conventions) {
+  const Conventions conventions = conventions_for(used_rad, field_of_view_rad);
+  const WallDistances distances = distances_of(marks, evidence.turning_pairs, library, conventions);
+  study.pairs = distances.pairs();
+  if (study.pairs < kFewestPairs) return study;
+  for (std::size_t c = 0; c < conventions.angles.size(); ++c) {
     BeamAngleFit fit;
-    fit.angles = convention.angles;
+    fit.angles = conventions.angles[c];
     if (laser_heading_rad)
-      fit.laser_heading_rad = *laser_heading_rad - (mean(*convention.bearings_rad) - mean(used_rad));
+      fit.laser_heading_rad = *laser_heading_rad - (mean(*conventions.bearings_rad[c]) - mean(used_rad));
     study.fits.push_back(fit);
   }
   study.knows_heading = laser_heading_rad.has_value();
-  compare_distances(rows, study.fits);
+  compare_distances(distances, study.fits);
   compare_full_turns(marks, evidence.full_turns, library, conventions, study);
   study.best = choose(conventions, study);
   return study;

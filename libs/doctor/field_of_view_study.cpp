@@ -8,9 +8,8 @@
 #include <cmath>
 #include <memory>
 
-#include "base/portable_math.h"
+#include "doctor/bearing_comparison.h"
 #include "frames/laser_readings.h"
-#include "frames/scan_alignment.h"
 
 namespace psi_slam {
 namespace {
@@ -52,60 +51,38 @@ BeamBearings bearings_for(const std::vector<float>& stated, double field_of_view
   return std::make_shared<const std::vector<float>>(std::move(bearings));
 }
 
-AlignableScan with_other_bearings(LaserScan scan, const BeamBearings& bearings_rad) {
-  if (bearings_rad) scan.bearings_rad = bearings_rad;
-  return AlignableScan(scan);
-}
-
-/// Costs and turns of pairs of scans under several fields of view.
+/// Distances to walls and turns of pairs of scans under several fields of view.
 struct Alignments {
-  std::vector<std::vector<double>> distances_m;  ///< [pair][field of view]: mean distance to walls
-  std::vector<double> turn_shares;               ///< [field of view]: fraction of the turns of odometry
+  WallDistances distances;
+  std::vector<double> turn_shares;  ///< [field of view]: fraction of the turns of odometry
 };
 
-/// Aligns pairs of scans of as many beams as `beams`, with the stated bearings where `bearings` is null.
 Alignments align_all(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
-                     const ScanLibrary& library, const std::vector<BeamBearings>& bearings,
-                     std::size_t beams) {
+                     const ScanLibrary& library, const BearingHypotheses& hypotheses) {
   Alignments all;
-  all.turn_shares.assign(bearings.size(), 0);
+  all.turn_shares.assign(hypotheses.bearings_rad.size(), 0);
   for (const FramePair& pair : pairs) {
-    const LaserScan& first = library.at(pair.first);
-    const LaserScan& second = library.at(pair.second);
-    if (first.ranges_m.size() != beams || second.ranges_m.size() != beams) continue;
     const TPose2D motion = odometry_between(marks, pair);
     const double tolerance_rad = kTurnTolerance_rad + kTurnToleranceShare * std::abs(motion.phi);
-    std::vector<double> row;
-    for (std::size_t k = 0; k < bearings.size(); ++k) {
-      const ScanAlignment alignment =
-          align_scans(with_other_bearings(first, bearings[k]), with_other_bearings(second, bearings[k]),
-                      {motion, {motion.x, motion.y, motion.phi / 2}});
-      row.push_back(alignment.cost_m);
-      const double off_rad = mrpt::math::wrapToPi(alignment.reference_T_scan.phi - motion.phi);
-      if (alignment.is_reliable() && std::abs(off_rad) <= tolerance_rad) ++all.turn_shares[k];
+    const std::vector<ScanAlignment> alignments =
+        align_under(hypotheses, library.at(pair.first), library.at(pair.second),
+                    {motion, {motion.x, motion.y, motion.phi / 2}});
+    if (alignments.empty()) continue;
+    for (std::size_t k = 0; k < alignments.size(); ++k) {
+      const double off_rad = mrpt::math::wrapToPi(alignments[k].reference_T_scan.phi - motion.phi);
+      if (alignments[k].is_reliable() && std::abs(off_rad) <= tolerance_rad) ++all.turn_shares[k];
     }
-    all.distances_m.push_back(std::move(row));
+    all.distances.add(alignments);
   }
   for (double& share : all.turn_shares)
-    share /= static_cast<double>(std::max<std::size_t>(1, all.distances_m.size()));
+    share /= static_cast<double>(std::max<std::size_t>(1, all.distances.pairs()));
   return all;
 }
 
-double mean_distance_m(const std::vector<std::vector<double>>& rows, std::size_t k) {
-  double sum_m = 0;
-  for (const std::vector<double>& row : rows) sum_m += row[k];
-  return sum_m / static_cast<double>(rows.size());
-}
-
 /// Returns whether the distances under the field of view `k` are smaller than as stated, beyond doubt.
-bool fits_walls_better(const std::vector<std::vector<double>>& rows, const FieldOfViewStudy& study,
-                       std::size_t k) {
-  const double stated_m = study.fits.front().mean_distance_m;
-  const double better_m = stated_m - study.fits[k].mean_distance_m;
-  double squares = 0;
-  for (const std::vector<double>& row : rows) squares += portable::pow(row[0] - row[k] - better_m, 2);
-  return better_m > kLeastGain * stated_m &&
-         better_m > kErrors * std::sqrt(squares) / static_cast<double>(rows.size());
+bool fits_walls_better(const WallDistances& distances, std::size_t k) {
+  const auto [better_m, error_m] = distances.excess(0, k);
+  return better_m > kLeastGain * distances.mean_m(0) && better_m > kErrors * error_m;
 }
 
 }  // namespace
@@ -127,27 +104,27 @@ FieldOfViewStudy study_field_of_view(const std::vector<FrameMark>& marks, const 
   const std::vector<float>& stated = *library.at(evidence.turning_pairs.front().first).bearings_rad;
   const double stated_rad = field_of_view_rad(stated);
   if (stated_rad <= 0) return study;
-  std::vector<BeamBearings> bearings;
+  BearingHypotheses hypotheses;
+  hypotheses.beams = stated.size();
   for (const double factor : {1.0, 2.0, 0.5}) {
     if (factor * stated_rad > 2 * M_PI + 1e-6) continue;
     const double fov_rad = std::min(rounded_rad(factor * stated_rad), 2 * M_PI);
     study.fits.push_back({fov_rad});
-    bearings.push_back(factor == 1 ? nullptr : bearings_for(stated, fov_rad));
+    hypotheses.bearings_rad.push_back(factor == 1 ? nullptr : bearings_for(stated, fov_rad));
   }
-  const Alignments turns = align_all(marks, evidence.turning_pairs, library, bearings, stated.size());
-  const Alignments straight = align_all(marks, evidence.straight_pairs, library, bearings, stated.size());
-  study.turns = turns.distances_m.size();
-  study.straight_pairs = straight.distances_m.size();
+  const Alignments turns = align_all(marks, evidence.turning_pairs, library, hypotheses);
+  const Alignments straight = align_all(marks, evidence.straight_pairs, library, hypotheses);
+  study.turns = turns.distances.pairs();
+  study.straight_pairs = straight.distances.pairs();
   if (std::min(study.turns, study.straight_pairs) < kFewestTurningPairs) return {};
   std::size_t best = 0;
   for (std::size_t k = 0; k < study.fits.size(); ++k) {
     study.fits[k].turn_share = turns.turn_shares[k];
-    study.fits[k].mean_distance_m = mean_distance_m(straight.distances_m, k);
+    study.fits[k].mean_distance_m = straight.distances.mean_m(k);
     if (study.fits[k].turn_share > study.fits[best].turn_share) best = k;
   }
   if (study.fits[best].turn_share >= kLeastAgreeingShare &&
-      study.fits.front().turn_share < 1 - kLeastAgreeingShare &&
-      fits_walls_better(straight.distances_m, study, best))
+      study.fits.front().turn_share < 1 - kLeastAgreeingShare && fits_walls_better(straight.distances, best))
     study.best = best;
   return study;
 }

@@ -7,14 +7,12 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <utility>
 
 #include "base/portable_math.h"
 #include "doctor/input_doctor.h"
+#include "frames/aligned_steps.h"
 #include "frames/laser_choice.h"
 #include "frames/log_reader.h"
-#include "frames/pose_operations.h"
-#include "frames/scan_alignment.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 
@@ -55,34 +53,25 @@ bool contradicts_odometry(const std::filesystem::path& path, const LogOptions& o
     log = open_log_reader(path, options);
   else
     log = open_log(path, options);  // removes them
+  AlignedSteps steps(*log, kComparedMotion_m, kComparedTurn_rad);
   Comparison straight;
   Comparison turns;
-  std::optional<Frame> reference;
-  for (std::size_t pairs = 0; pairs < kMostCompared && !(straight.is_enough() && turns.is_enough());) {
-    std::optional<Frame> frame = log->next();
-    if (!frame) break;
+  for (std::size_t pairs = 0; pairs < kMostCompared && !(straight.is_enough() && turns.is_enough());
+       ++pairs) {
+    const std::optional<AlignedStep> step = steps.next();
+    if (!step) break;
     if (progress) progress(log->progress());
-    if (!frame->has_odometry) return false;
-    if (!reference) {
-      reference = std::move(frame);
-      continue;
-    }
-    const TPose2D motion = between(reference->odom_T_robot, frame->odom_T_robot);
-    if (motion.norm() < kComparedMotion_m && std::abs(motion.phi) < kComparedTurn_rad) continue;
-    ++pairs;
-    const ScanAlignment alignment =
-        align_scans(AlignableScan(reference->scan), AlignableScan(frame->scan), motion);
-    if (alignment.is_reliable()) {
-      const TPose2D off = between(motion, alignment.reference_T_scan);
-      if (std::abs(motion.phi) > kComparedTurn_rad / 2 &&
-          alignment.heading_deviation_rad() < kComparedDeviation_rad)
-        turns.add(std::abs(off.phi) < kTolerance_rad + kTolerance * std::abs(motion.phi));
-      const double direction_rad = portable::atan2(motion.y, motion.x) - reference->scan.robot_T_laser.phi;
-      if (motion.norm() > kComparedMotion_m / 2 &&
-          alignment.deviation_along_m(direction_rad) < kComparedDeviation_m)
-        straight.add(off.norm() < kTolerance_m + kTolerance * motion.norm());
-    }
-    reference = std::move(frame);
+    const TPose2D& motion = step->by_odometry;
+    const ScanAlignment& alignment = step->by_scans;
+    if (!alignment.is_reliable()) continue;
+    const TPose2D off = step->difference();
+    if (std::abs(motion.phi) > kComparedTurn_rad / 2 &&
+        alignment.heading_deviation_rad() < kComparedDeviation_rad)
+      turns.add(std::abs(off.phi) < kTolerance_rad + kTolerance * std::abs(motion.phi));
+    const double direction_rad = portable::atan2(motion.y, motion.x) - step->robot_T_laser.phi;
+    if (motion.norm() > kComparedMotion_m / 2 &&
+        alignment.deviation_along_m(direction_rad) < kComparedDeviation_m)
+      straight.add(off.norm() < kTolerance_m + kTolerance * motion.norm());
   }
   return straight.is_suspicious() || turns.is_suspicious();
 }

@@ -7,9 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "frames/pose_operations.h"
-#include "frames/scan_alignment.h"
-#include "psi_slam/user_error.h"
+#include "frames/aligned_steps.h"
 
 namespace psi_slam {
 namespace {
@@ -21,14 +19,6 @@ constexpr std::size_t kMostSteps = 200;
 constexpr std::size_t kLeastSteps = 10;
 constexpr double kErrors = 4;  // least difference of two medians, in standard errors
 
-std::optional<Frame> next_readable(FrameSource& scans) {
-  try {
-    return scans.next();
-  } catch (const UserError&) {
-    return std::nullopt;
-  }
-}
-
 }  // namespace
 
 bool OdometryDisagreement::is_clearly_less_than(const OdometryDisagreement& other) const {
@@ -37,19 +27,12 @@ bool OdometryDisagreement::is_clearly_less_than(const OdometryDisagreement& othe
 
 OdometryDisagreement disagreement_with_odometry(FrameSource& scans) {
   std::vector<double> differences_m;
-  std::optional<Frame> reference;
+  AlignedSteps steps(scans, kStep_m, kStep_rad);
   while (differences_m.size() < kMostSteps) {
-    std::optional<Frame> frame = next_readable(scans);
-    if (!frame || !frame->has_odometry) break;
-    if (reference) {
-      const mrpt::math::TPose2D motion = between(reference->odom_T_robot, frame->odom_T_robot);
-      if (motion.norm() < kStep_m && std::abs(motion.phi) < kStep_rad) continue;
-      const ScanAlignment alignment =
-          align_scans(AlignableScan(reference->scan), AlignableScan(frame->scan), motion);
-      const mrpt::math::TPose2D off = between(motion, alignment.reference_T_scan);
-      if (alignment.is_reliable()) differences_m.push_back(off.norm() + kLever_m * std::abs(off.phi));
-    }
-    reference = std::move(frame);
+    const std::optional<AlignedStep> step = steps.next();
+    if (!step) break;
+    const mrpt::math::TPose2D off = step->difference();
+    if (step->by_scans.is_reliable()) differences_m.push_back(off.norm() + kLever_m * std::abs(off.phi));
   }
   if (differences_m.size() < kLeastSteps) return {std::numeric_limits<double>::infinity(), 0};
   std::sort(differences_m.begin(), differences_m.end());

@@ -76,7 +76,7 @@ FrontEndStep FrontEnd::track(const Frame& frame, bool may_be_lost) {
   const double travel_m = motion.measured ? motion.length_m : std::max(motion.length_m, motion.sigma_m);
   unmatched_travel_m_ = step.matched ? 0 : unmatched_travel_m_ + travel_m;
   propagate_covariances(step, motion);
-  if (!last_ || !(last_->odom_T_robot == frame.odom_T_robot))
+  if (!last_ || last_->has_odometry != frame.has_odometry || !(last_->odom_T_robot == frame.odom_T_robot))
     unchanged_odometry_local_T_robot_ = step.local_T_robot;
   last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}, frame.has_odometry};
   // A wrong prediction bends a scan about the middle of its sweep, where the match is therefore right. Speeds
@@ -177,7 +177,6 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   const double weight = 1 / (1 + elapsed * elapsed);
   motion.disagreement_m = weight * distance_m(last_motion_, motion.predicted);
   motion.disagreement_rad = weight * std::abs(mrpt::math::wrapToPi(motion.predicted.phi - last_motion_.phi));
-  motion.wide_disagreement_rad = motion.disagreement_rad;
   // Compared with odometry only: a wrong match must not make the next wrong correction plausible.
   const double uneven_m = distance_m(last_predicted_motion_, motion.predicted);
   motion.correction_sigma_m = portable::hypot(
@@ -202,7 +201,6 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(const Frame& frame) const {
   motion.turn_rad = std::abs(motion.predicted.phi);
   motion.disagreement_m = predicted.sigma_since_match_m;
   motion.disagreement_rad = predicted.sigma_since_match_rad;
-  motion.wide_disagreement_rad = predicted.sigma_without_gyroscope_rad;
   motion.sigma_m = predicted.sigma_m;
   motion.sigma_rad = predicted.sigma_rad;
   motion.after_gap = constant_velocity_.is_gap(frame.time_us);

@@ -17,7 +17,6 @@ using mrpt::math::TPose2D;
 
 constexpr double kResponseWeight = 0.2;  // weight of one scan in the expected response
 constexpr double kLeastExpected = 0.25;  // lower bound of the expected response
-constexpr double kWiderBy = 1.5;         // smallest ratio of wide to narrow half-widths for a wide search
 // Limits for the search of a wide window: number of points, and the farthest distance from which the heading
 // step is computed. The match is then refined with all points.
 constexpr std::size_t kCoarsePoints = 120;
@@ -26,8 +25,8 @@ constexpr double kCoarseFarthest_m = 30;
 constexpr double kJudgedShare = 0.2;  // smallest share of a scan in observed space that can contradict a map
 // After a gap, share of the expected response that a match needs if the robot did not move as predicted.
 constexpr double kSureShare = 0.6;
-// Share of the points in observed space that must fit it at a pose that odometry does not explain: after an
-// interruption, and in a wide window.
+// Of the points in observed space, the share that must fit the map at a pose that odometry does not explain:
+// after an interruption, and in a wide window.
 constexpr double kLeastMatchedAgreement = 0.85;
 constexpr int kLostMisses = 5;      // the robot may be lost after this many successive scans without a match
 constexpr double kLostAfter_s = 5;  // and this time
@@ -75,17 +74,13 @@ PosePrior FrontEnd::prior(const TPose2D& map_T_robot, const Motion& motion) cons
 }
 
 // Returns a window for large errors of odometry. The error can be twice the motion, for example if odometry
-// reports a reversal as forward motion. If the narrow window has no match, an obstacle may have turned the
-// robot by any angle while the wheels slipped.
-SearchExtent FrontEnd::wide_extent(const Motion& motion, bool has_match) const {
+// reports a reversal as forward motion. An obstacle may have turned the robot by any angle while the wheels
+// slipped.
+SearchExtent FrontEnd::wide_extent(const Motion& motion) const {
   const double half_m =
       std::min(options_.max_wide_window_m,
                options_.window_m + options_.wide_window_per_motion * motion.length_m + motion.disagreement_m);
-  const double half_rad =
-      options_.window_rad + motion.wide_disagreement_rad +
-      options_.wide_window_per_motion * (motion.turn_rad + options_.window_rad_per_metre * motion.length_m);
-  const double max_rad = motion.measured ? options_.max_wide_window_rad : M_PI;
-  return {half_m, half_m, has_match ? std::min(half_rad, max_rad) : M_PI};
+  return {half_m, half_m, M_PI};
 }
 
 MatchResult FrontEnd::search(FrontEndStep& step, const ScanPoints& scan, const ScoreGrid& grid,
@@ -98,15 +93,14 @@ MatchResult FrontEnd::search(FrontEndStep& step, const ScanPoints& scan, const S
   return match;
 }
 
-/// Searches the wide window. Stores the window in step.window if it contains a match. Returns nothing if the
-/// window is hardly wider than step.window, if no response reaches the limit of wide_response_gain, or if the
-/// match contradicts what the map has observed. `poor_response` is 0 if the narrow window has no match.
+/// Searches the wide window. Stores the window in step.window if it contains a match. Returns nothing if no
+/// response reaches the limit of wide_response_gain, or if the match contradicts what the map has observed.
+/// `poor_response` is 0 if the narrow window has no match.
 std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Motion& motion,
                                                    double poor_response) {
-  SearchExtent wide = wide_extent(motion, poor_response > 0);
-  if (wide.x_m <= kWiderBy * step.window.x_m && wide.theta_rad <= kWiderBy * step.window.theta_rad) return {};
-  wide = {std::max(wide.x_m, step.window.x_m), std::max(wide.y_m, step.window.y_m),
-          std::max(wide.theta_rad, step.window.theta_rad)};
+  SearchExtent wide = wide_extent(motion);
+  wide.x_m = std::max(wide.x_m, step.window.x_m);
+  wide.y_m = std::max(wide.y_m, step.window.y_m);
   const PlacedLocalMap& older = active_.front();
   PosePrior unknown;
   unknown.map_T_robot = between(older.local_T_map, compose(last_local_T_robot_, motion.predicted));
@@ -144,8 +138,8 @@ bool FrontEnd::contradicts(const ScanPoints& scan, const TPose2D& local_T_robot,
                            double least_agreement) const {
   const PlacedLocalMap& older = active_.front();
   const LocalMap::Agreement agreement = older.map->agreement(scan, between(older.local_T_map, local_T_robot));
-  return static_cast<double>(agreement.observed) >= kJudgedShare * static_cast<double>(scan.points.size()) &&
-         agreement.share() < least_agreement;
+  const double least_observed = std::max(1.0, kJudgedShare * static_cast<double>(scan.points.size()));
+  return static_cast<double>(agreement.observed) >= least_observed && agreement.share() < least_agreement;
 }
 
 // Returns whether odometry states that the robot has left the place of the last scan that was drawn. If it

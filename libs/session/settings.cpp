@@ -225,7 +225,8 @@ void require_at_most(const Named& smaller, const Named& larger) {
 }
 
 // Options that once set numbers of the method. A settings file that still has them is accepted.
-constexpr const char* kObsoleteOptions[] = {"front_end.refine_max_iterations",
+constexpr const char* kObsoleteOptions[] = {"front_end.min_range_m",
+                                            "front_end.refine_max_iterations",
                                             "front_end.refine_max_shift_m",
                                             "front_end.prior_sigma_m",
                                             "front_end.prior_sigma_theta_deg",
@@ -233,6 +234,7 @@ constexpr const char* kObsoleteOptions[] = {"front_end.refine_max_iterations",
                                             "front_end.prior_theta_per_turn",
                                             "front_end.prior_per_surprise",
                                             "front_end.prediction_share",
+                                            "front_end.max_wide_window_theta_deg",
                                             "front_end.odometry_sigma_m",
                                             "front_end.odometry_sigma_per_metre",
                                             "front_end.odometry_sigma_per_radian",
@@ -282,7 +284,6 @@ void describe(OptionTable& table, Settings& settings) {
   describe_run(table, settings.run);
   table.alias("last_pass", "final_search")
       .alias("log.odometry_topic", "log.odometry")
-      .alias("front_end.min_range_m", "log.min_range_m")
       .alias("front_end.max_strain_m", "front_end.max_doubtful_correction_m")
       .alias("front_end.strain_travel_m", "front_end.doubtful_correction_travel_m")
       .alias("consensus.max_rival_share", "consensus.max_other_place_share");

@@ -213,6 +213,15 @@ TEST(FrontEnd, finds_a_robot_that_an_obstacle_turned_while_its_wheels_slipped) {
   }
 }
 
+// A scan without returns contradicts nothing.
+TEST(FrontEnd, scans_without_returns_in_the_middle_of_a_run_become_nodes) {
+  SimulatedDrive drive = drive_along(office_floor(), path_along({{1.6, 1.6}, {9, 1.6}}, 0.2), {}, 21);
+  const std::size_t blind = drive.frames.size() / 2;
+  for (std::size_t i = blind; i < blind + 2; ++i)
+    for (float& range_m : drive.frames[i].scan.ranges_m) range_m = kNan;
+  for (const FrontEndStep& step : follow(drive).steps) EXPECT_TRUE(step.node);
+}
+
 // One scan shows another place, as a damaged message does. It must not become part of the local maps.
 TEST(FrontEnd, a_scan_that_contradicts_the_local_map_becomes_no_node) {
   SimulatedDrive drive = drive_along(office_floor(), path_along({{1.6, 1.6}, {9, 1.6}}, 0.2), {}, 18);

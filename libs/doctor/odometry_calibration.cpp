@@ -37,7 +37,6 @@ LogFactsCollector read_once(const std::filesystem::path& path, const LogOptions&
 /// Estimates by the scans of one laser; see OdometryCalibration.
 struct LaserEstimate {
   std::string obstacle;
-  double median_period_s = 0;
   mrpt::math::TPose2D stated_mount;
   std::optional<ScanDelay> delay;
   std::optional<LaserMountEstimate> mount;
@@ -51,7 +50,6 @@ LaserEstimate estimate_once(const std::filesystem::path& path, const LogOptions&
   const LogFactsCollector collector = read_once(path, options, part_of(progress, 0, kShareOfReading));
   const LogFacts facts = collector.facts();
   const std::vector<FrameMark>& marks = collector.marks();
-  found.median_period_s = facts.time.median_period_s;
   if (facts.scans_without_odometry > 0) {
     found.obstacle = facts.scans_without_odometry == facts.scans ? "the log has no odometry"
                                                                  : "some scans have no odometry";
@@ -107,7 +105,7 @@ OdometryCalibration calibrate_odometry(const std::filesystem::path& path, const 
       return static_cast<double>(laser) / static_cast<double>(estimated);
     };
     const LaserEstimate found = estimate(path, alone, part_of(progress, share(i), share(i + 1)));
-    calibration.delays.push_back({lasers[i].name, found.median_period_s, found.delay, found.obstacle});
+    calibration.delays.push_back({lasers[i].name, found.delay, found.obstacle});
     if (i > 0) continue;
     calibration.obstacle = found.obstacle;
     calibration.stated_mount = found.stated_mount;

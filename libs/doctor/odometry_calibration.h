@@ -18,7 +18,6 @@ namespace psi_slam {
 /// Delay of the scans of a laser.
 struct LaserDelay {
   std::string laser;                 ///< name; see SingleLaser::name
-  double median_period_s = 0;        ///< time between scans
   std::optional<ScanDelay> delay{};  ///< empty: the scans show no delay of less than a second
   std::string obstacle{};            ///< why nothing could be estimated; see OdometryCalibration
 };

@@ -28,8 +28,6 @@ constexpr double kScaleDeviation = 0.005;
 const double kMostLogScale = portable::log(2.0);  // of odometry in metres
 constexpr double kMountDeviation_m = 0.02;
 const double kMountDeviation_rad = DEG2RAD(0.5);
-constexpr double kDelayDeviationPerPeriod = 0.2;
-constexpr double kDelayDeviationPerDelay = 0.1;
 constexpr double kSignificant = 4;  // in standard deviations
 // Slip in turns spoils the estimate by about as much as a stated pose is usually wrong.
 constexpr double kUsualError_m = 0.03;
@@ -103,16 +101,11 @@ class Calibrator {
     if (!found.obstacle.empty()) return say("estimates no delay of " + scans + ", because " + found.obstacle);
     if (!found.delay) return say("finds no turns that show a delay of " + scans + " below 1 s");
     const ScanDelay& delay = *found.delay;
-    const bool is_determined =
-        delay.deviation_s <= std::max(kDelayDeviationPerPeriod * found.median_period_s,
-                                      kDelayDeviationPerDelay * std::abs(delay.delay_s));
-    const bool is_used = is_determined && delay.is_significant();
+    const bool is_used = delay.is_significant();
     add(kDelay, delay.delay_s, delay.deviation_s, is_used, found.laser);
     say("estimates the delay of " + scans + ": " + fixed_text(delay.delay_s, 3) + " s (standard deviation " +
         fixed_text(delay.deviation_s, 3) + " s), " +
-        (is_used         ? "used"
-         : is_determined ? "not used, because it hardly differs from 0"
-                         : kUndetermined));
+        (is_used ? "used" : "not used, because it hardly differs from 0"));
   }
 
   void use_mount() {

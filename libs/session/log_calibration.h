@@ -23,9 +23,8 @@ struct LogCalibration {
 
 /// Decides on the estimates of options that `options` leave open: the scale if its standard deviation is at
 /// most 0.5 % and it is between 0.5 and 2; the mount of a single laser if those of its position and heading
-/// are at most 2 cm and 0.5 degrees; the delay if its own is at most a fifth of the time between scans or a
-/// tenth of the delay. Mount and delay must differ from what the log states by four standard deviations, and
-/// the mount by 3 cm or 0.8 degrees.
+/// are at most 2 cm and 0.5 degrees. Mount and delay must differ from what the log states by four standard
+/// deviations, and the mount by 3 cm or 0.8 degrees.
 LogCalibration use_calibration(const OdometryCalibration& calibration, const LogOptions& options);
 
 /// Decides what replaces wrong statements of the log about its laser, and says so: a field of view; a mount

@@ -11,13 +11,18 @@ namespace psi_slam {
 using Judgement = RepeatedScans::Judgement;
 
 /// Returns whether the next frame must be read before the first frame ahead is given or left out: there is
-/// none, or its laser has not shown yet whether its readings change.
-bool LogReader::reads_on() const {
+/// none, or a laser has not shown yet whether its readings change.
+bool LogReader::reads_on() {
   if (ahead_.empty()) return true;
-  return !is_at_end_ && ahead_.size() < LookOver::kMostScans &&
-         std::any_of(ahead_.begin(), ahead_.end(), [&](const Ahead& one) {
-           return one.judgement == Judgement::kPerhaps && !repeated_.shows_change(one.frame.scan.laser);
-         });
+  if (is_at_end_) return false;
+  const auto is_awaited = [&](const Ahead& one) {
+    return one.judgement == Judgement::kPerhaps && !repeated_.shows_change(one.frame.scan.laser) &&
+           unchanging_.count(one.frame.scan.laser) == 0;
+  };
+  if (ahead_.size() < LookOver::kMostScans) return std::any_of(ahead_.begin(), ahead_.end(), is_awaited);
+  for (const Ahead& one : ahead_)
+    if (is_awaited(one)) unchanging_.insert(one.frame.scan.laser);
+  return false;
 }
 
 std::optional<Frame> LogReader::next() {

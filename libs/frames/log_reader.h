@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -74,13 +75,14 @@ class LogReader : public FrameSource {
     RepeatedScans::Judgement judgement;
   };
 
-  bool reads_on() const;
+  bool reads_on();
 
   std::size_t frames_given_ = 0;
   RepeatedScans repeated_;
-  std::deque<Ahead> ahead_;     // frames that next() gives or leaves out
-  bool is_at_end_ = false;      // of the log, while there are frames ahead
-  std::exception_ptr failure_;  // thrown after the frames ahead
+  std::deque<Ahead> ahead_;           // frames that next() gives or leaves out
+  std::set<std::size_t> unchanging_;  // lasers that were awaited in vain
+  bool is_at_end_ = false;            // of the log, while there are frames ahead
+  std::exception_ptr failure_;        // thrown after the frames ahead
 };
 
 /// Returns whether open_log() combines the scans of several lasers of a log with these contents. Throws

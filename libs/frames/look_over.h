@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Limits of what is decided by the beginning of a stream, because a stream cannot be looked over as a whole.
+// Limits of what is decided by the beginning of a log: a stream cannot be looked over as a whole, and a file
+// is read as its stream would be.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 
 namespace psi_slam {
 
-/// Usual length of the beginning of a log that decides, seconds after the first scan.
+/// Length of the beginning of a log that decides unless stated, seconds after the first scan.
 inline constexpr double kUsualLookOver_s = 5;
 
 /// Largest number of scans of a stream that wait for odometry.

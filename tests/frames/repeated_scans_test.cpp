@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "frames/log_reader.h"
+#include "frames/look_over.h"
 #include "simulated_run.h"
 
 namespace psi_slam {
@@ -80,6 +81,7 @@ class ReaderOfFrames : public LogReader {
  public:
   explicit ReaderOfFrames(std::vector<Frame> frames) : frames_(std::move(frames)) {}
   double progress() const override { return 0; }
+  std::size_t frames_taken() const { return next_; }
 
  protected:
   std::optional<Frame> read_frame() override {
@@ -107,6 +109,24 @@ TEST(RepeatedScans, that_a_reader_leaves_out_without_a_gyroscope_end_its_heading
     }
     EXPECT_FALSE(reader.next());
   }
+}
+
+// One of two lasers is dead and gives one scan again and again.
+TEST(RepeatedScans, of_a_laser_that_never_changes_are_awaited_only_once) {
+  std::vector<Frame> frames;
+  for (const Frame& frame : frames_of(simulated_run({{0.08, 1.0, 400}}))) {
+    frames.push_back(frame);
+    frames.push_back(frame);
+    frames.back().scan.laser = 1;
+    frames.back().scan.ranges_m = frames.at(1).scan.ranges_m;
+  }
+  ReaderOfFrames reader(frames);
+  std::size_t given = 0;
+  std::size_t most_ahead = 0;
+  for (; reader.next(); ++given)
+    if (given > LookOver::kMostScans) most_ahead = std::max(most_ahead, reader.frames_taken() - given);
+  EXPECT_EQ(given, frames.size());
+  EXPECT_LE(most_ahead, 2U);
 }
 
 TEST(RepeatedScans, at_the_beginning_are_left_out_as_soon_as_the_laser_has_shown_five_readings) {

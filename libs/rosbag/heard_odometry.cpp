@@ -14,7 +14,8 @@ void HeardOdometry::add_scan(TimeUs recorded_us) {
   if (is_complete()) return;
   heard_.add_scan(recorded_us);
   ++scans_;
-  for (auto& [topic, scans] : scans_without_) scans.most = std::max(scans.most, ++scans.since_odometry);
+  for (auto& [topic, scans] : scans_without_)
+    scans.longest_silence = std::max(scans.longest_silence, ++scans.since_odometry);
 }
 
 void HeardOdometry::add(const std::string& topic, const RosTransform& odometry) {
@@ -30,7 +31,7 @@ void HeardOdometry::add(const std::string& topic, const RosTransform& odometry) 
 
 bool HeardOdometry::is_silent(const std::string& topic) const {
   const auto scans = scans_without_.find(topic);
-  return scans == scans_without_.end() || 2 * scans->second.most > scans_;
+  return scans == scans_without_.end() || 2 * scans->second.longest_silence > scans_;
 }
 
 }  // namespace psi_slam

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Chooses among topics of odometry by the beginning of a bag, in the same way for a complete bag and for one
+// that is still being recorded.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +14,9 @@
 namespace psi_slam {
 
 /// Finds the topics of odometry from which a bag is read. A single topic counts from its first message. Of
-/// several, those count that have a message before LookOver has enough scans: a bag that is still being
-/// recorded shows no more. If none has, the topics count that have a message within the same time after the
-/// first odometry.
+/// several, those are candidates that have a message before LookOver has enough scans: a bag that is still
+/// being recorded shows no more. If none has, the topics are candidates that have a message within the same
+/// time after the first odometry.
 class HeardOdometry {
  public:
   HeardOdometry(std::vector<std::string> topics, double look_over_s);
@@ -38,7 +40,7 @@ class HeardOdometry {
  private:
   struct Scans {
     std::size_t since_odometry = 0;
-    std::size_t most = 0;
+    std::size_t longest_silence = 0;
   };
 
   double look_over_s_;

@@ -54,7 +54,9 @@ class Channels {
 
   void add_channel(ByteCursor record) {
     const auto id = record.number<std::uint16_t>();
-    const auto schema = schemas_.find(record.number<std::uint16_t>());
+    const auto schema_id = record.number<std::uint16_t>();
+    const auto schema = schemas_.find(schema_id);
+    if (schema_id != 0 && schema == schemas_.end()) return;  // lost; the summary may have it
     BagTopic topic;
     topic.name = text(record);
     topic.encoding = encoding_named(text(record));
@@ -135,7 +137,7 @@ class McapBag : public RecordBag {
     if (channels_.topic(channel) == nullptr && !std::exchange(knows_summary_, true))
       channels_.add(channels_of_summary());
     const BagTopic* topic = channels_.topic(channel);
-    if (topic == nullptr) throw MalformedBytes("a message has no channel");
+    if (topic == nullptr) return skip_unknown(channel, "channel");
     if (!is_wanted(*topic)) return false;
     cursor.number<std::uint32_t>();  // sequence number of the message
     const auto recorded_ns = cursor.number<std::uint64_t>();

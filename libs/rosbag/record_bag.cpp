@@ -96,6 +96,12 @@ bool RecordBag::next(BagMessage& message) {
   return false;
 }
 
+bool RecordBag::skip_unknown(std::uint32_t number, const std::string& kind) {
+  if (!unknown_.insert(number).second) return false;
+  throw DamagedPart(place() + ": the bag is damaged: a message has no " + kind +
+                    ", so its topic is unknown. Fetch the bag again");
+}
+
 void RecordBag::unpack_chunk(std::string_view compression, std::string_view bytes, std::uint64_t size) {
   if (in_chunk_) throw MalformedBytes("a chunk contains another chunk");
   is_chunk_ = true;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -77,6 +78,10 @@ class RecordBag : public BagFile {
  protected:
   explicit RecordBag(BagStream stream) : stream_(std::move(stream)) {}
 
+  /// Skips a message whose channel or connection is unknown, because the record that states it is damaged.
+  /// Returns false. Throws DamagedPart for the first message of each.
+  bool skip_unknown(std::uint32_t number, const std::string& kind);
+
   /// Reads the next record of the file; returns false at the end.
   virtual bool read_record_of_file() = 0;
   /// Reads the next record of the current chunk.
@@ -100,6 +105,7 @@ class RecordBag : public BagFile {
 
  private:
   std::optional<ByteCursor> in_chunk_;
+  std::set<std::uint32_t> unknown_;    // numbers given to skip_unknown()
   bool has_record_ = false;            // whether the current record of the file was read as a whole
   bool is_chunk_ = false;              // whether that record is a chunk
   std::uint64_t offset_in_chunk_ = 0;  // byte offset of the current record in the decompressed chunk

@@ -172,7 +172,7 @@ class Ros1Bag final : public RecordBag {
     if (connections_.count(number) == 0 && !std::exchange(knows_index_, true))
       for (const BagTopic& topic : connections_of_index()) add_connection(topic);
     const auto connection = connections_.find(number);
-    if (connection == connections_.end()) throw MalformedBytes("a message has no connection");
+    if (connection == connections_.end()) return skip_unknown(number, "connection");
     if (!is_wanted(connection->second)) return false;
     ByteCursor time(text_field(record_.fields, "time"));
     const auto stamp_s = time.number<std::uint32_t>();

@@ -32,8 +32,10 @@ TEST(BeginningOfBag, has_the_topics_in_the_order_of_the_complete_bag) {
     return recording;
   }());
   sqlite3* database = nullptr;
-  sqlite3_open(path.c_str(), &database);
-  sqlite3_exec(database, "DELETE FROM messages WHERE id IN (1, 3)", nullptr, nullptr, nullptr);
+  ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(database, "DELETE FROM messages WHERE id IN (1, 3)", nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  ASSERT_EQ(sqlite3_changes(database), 2);
   sqlite3_close(database);
 
   BagRecorder recorder;

@@ -38,8 +38,10 @@ class DamagedPartOfABag : public testing::TestWithParam<DamagedKind> {
     GetParam().write(path_, recorded_run(kScans));
     std::string bytes = read_file(path_);
     std::size_t at = 0;
-    for (std::size_t part = 0; part <= number; ++part) at = bytes.find(GetParam().begin, at + 1);
-    ASSERT_NE(at, std::string::npos);
+    for (std::size_t part = 0; part <= number; ++part) {
+      at = bytes.find(GetParam().begin, at + 1);
+      ASSERT_NE(at, std::string::npos);
+    }
     write_file(path_, bytes.replace(at + GetParam().begin.size(), 4, "\xFF\xFF\xFF\xFF"));
   }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "exports/frozen_odometry.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <cmath>
 
 #include "base/degrees.h"
@@ -13,9 +11,9 @@
 namespace psi_slam {
 namespace {
 
-constexpr double kLeast_s = 2;  // shorter stretches are odometry that comes late
-constexpr double kMoved_m = 0.5;
-constexpr double kTurned_rad = radians_from_degrees(30.0L);
+constexpr double kLeastDuration_s = 2;  // odometry that is silent for less may come late
+constexpr double kLeastMotion_m = 0.5;
+constexpr double kLeastTurn_rad = radians_from_degrees(30.0L);
 
 // A stretch of scans with the same odometry. The last scan is included.
 struct Stretch {
@@ -31,9 +29,9 @@ void append(Stretch& stretch, const std::vector<FrameRecord>& frames) {
   const auto& next = frames[++stretch.last].front_end_T_robot;
   stretch.path_m += distance_m(last, next);
   stretch.turn_rad += std::abs(between(last, next).phi);
-  const mrpt::math::TPose2D away = between(frames[stretch.first].front_end_T_robot, next);
-  stretch.has_moved = stretch.has_moved || std::hypot(away.x, away.y) >= kMoved_m ||
-                      std::abs(mrpt::math::wrapToPi(away.phi)) >= kTurned_rad;
+  const auto& first = frames[stretch.first].front_end_T_robot;
+  stretch.has_moved = stretch.has_moved || distance_m(first, next) >= kLeastMotion_m ||
+                      std::abs(between(first, next).phi) >= kLeastTurn_rad;
 }
 
 }  // namespace
@@ -51,7 +49,7 @@ std::optional<std::string> frozen_odometry_text(const MappingResult& result) {
         append(stretch, frames);
       begin = stretch.last + 1;
       const TimeUs lasts_us = frames[stretch.last].time_us - frames[stretch.first].time_us;
-      if (!stretch.has_moved || seconds(lasts_us) < kLeast_s) continue;
+      if (!stretch.has_moved || seconds(lasts_us) < kLeastDuration_s) continue;
       scans += stretch.last - stretch.first;
       if (stretch.path_m + stretch.turn_rad > longest.path_m + longest.turn_rad) longest = stretch;
     }
@@ -60,10 +58,10 @@ std::optional<std::string> frozen_odometry_text(const MappingResult& result) {
   const auto time = [&](std::size_t frame) {
     return minutes_text(std::floor(time_in_run_s(frames, result.later_run_frames, frame)));
   };
-  return "odometry stayed exactly the same during " + counted(scans, "scan") +
-         " although the robot moved, most between " + time(longest.first) + " and " + time(longest.last) +
-         ": by " + fixed_text(longest.path_m, 1) + " m and " + fixed_text(longest.turn_rad * 180 / M_PI, 0) +
-         " degrees; the scans alone gave its motion there";
+  return "odometry did not change in " + counted(scans, "scan") + " although the robot moved, most from " +
+         time(longest.first) + " to " + time(longest.last) + ": " + fixed_text(longest.path_m, 1) +
+         " m and " + fixed_text(longest.turn_rad * 180 / M_PI, 0) +
+         " degrees. The scans alone determined its motion there. Check the wheel encoders and their driver";
 }
 
 }  // namespace psi_slam

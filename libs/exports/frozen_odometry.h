@@ -10,9 +10,10 @@
 
 namespace psi_slam {
 
-/// Returns a sentence without full stop about the stretches of two seconds or more with the same odometry, to
-/// the last bit, along which the mapped robot moved 0.5 m or turned by 30 degrees: more than scans of a robot
-/// at rest can err. It tells how long they are and when the longest path was. Empty if there is none.
+/// Returns sentences, the last one without full stop, about the stretches of two seconds or more with the
+/// same odometry, to the last bit, along which the mapped robot moved 0.5 m or turned by 30 degrees: more
+/// than scans of a robot at rest can err. They tell how long the stretches are, when the longest path was,
+/// and what to do. Empty if there is none.
 std::optional<std::string> frozen_odometry_text(const MappingResult& result);
 
 }  // namespace psi_slam

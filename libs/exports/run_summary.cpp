@@ -187,7 +187,7 @@ Json unmatched_json(const UnmatchedScans& unmatched) {
                          {"last_scan", stretch.last_frame},
                          {"first_time_s", format_seconds(stretch.first_time_us)},
                          {"last_time_s", format_seconds(stretch.last_time_us)},
-                         {"odometry_length_m", number(stretch.odometry_length_m, 3)}});
+                         {"odometry_length_m", number(stretch.predicted_length_m, 3)}});
   return {{"count", unmatched.count}, {"stretches", std::move(stretches)}};
 }
 

@@ -20,7 +20,7 @@ std::string stretch_text(const UnmatchedStretch& stretch, bool of_several_runs) 
   return since_start(stretch.first_time_us) +
          (stretch.scans() > 1 ? '-' + since_start(stretch.last_time_us) : "") + " s " +
          (of_several_runs ? "of run " + std::to_string(stretch.run + 1) + ' ' : "") + '(' +
-         counted(stretch.scans(), "scan") + ", " + fixed_text(stretch.odometry_length_m, 1) + " m)";
+         counted(stretch.scans(), "scan") + ", " + fixed_text(stretch.predicted_length_m, 1) + " m)";
 }
 
 /// Drops all but the kMostListed stretches with the longest paths, and returns how many were dropped.
@@ -28,8 +28,8 @@ std::size_t keep_longest(std::vector<UnmatchedStretch>& stretches) {
   if (stretches.size() <= kMostListed) return 0;
   const std::size_t dropped = stretches.size() - kMostListed;
   std::sort(stretches.begin(), stretches.end(), [](const UnmatchedStretch& a, const UnmatchedStretch& b) {
-    return std::tuple(b.odometry_length_m, b.scans(), a.first_frame) <
-           std::tuple(a.odometry_length_m, a.scans(), b.first_frame);
+    return std::tuple(b.predicted_length_m, b.scans(), a.first_frame) <
+           std::tuple(a.predicted_length_m, a.scans(), b.first_frame);
   });
   stretches.resize(kMostListed);
   std::sort(stretches.begin(), stretches.end(), [](const UnmatchedStretch& a, const UnmatchedStretch& b) {
@@ -67,12 +67,12 @@ UnmatchedScans unmatched_scans(const std::vector<FrameRecord>& frames, const std
       stretch.run = run;
       stretch.run_start_us = frames[runs[run].begin].time_us;
       stretch.first_frame = i;
-      std::vector<mrpt::math::TPose2D> odometry{frames[i - 1].odom_T_robot};
-      for (; is_unmatched(i); ++i) odometry.push_back(frames[i].odom_T_robot);
+      std::vector<mrpt::math::TPose2D> predicted{frames[i - 1].front_end_T_robot};
+      for (; is_unmatched(i); ++i) predicted.push_back(frames[i].front_end_T_robot);
       stretch.last_frame = i - 1;
       stretch.first_time_us = frames[stretch.first_frame].time_us;
       stretch.last_time_us = frames[stretch.last_frame].time_us;
-      stretch.odometry_length_m = path_length_m(odometry);
+      stretch.predicted_length_m = path_length_m(predicted);
       unmatched.count += stretch.scans();
       unmatched.stretches.push_back(stretch);
     }
@@ -83,7 +83,7 @@ UnmatchedScans unmatched_scans(const std::vector<FrameRecord>& frames, const std
 std::optional<std::string> unmatched_scans_text(const MappingResult& result, const MapVerdict* verdict) {
   UnmatchedScans unmatched = unmatched_scans(result.frames, runs_of(result));
   double path_m = 0;
-  for (const UnmatchedStretch& stretch : unmatched.stretches) path_m += stretch.odometry_length_m;
+  for (const UnmatchedStretch& stretch : unmatched.stretches) path_m += stretch.predicted_length_m;
   if (path_m < kNegligiblePath_m) return std::nullopt;
   const bool has_odometry = std::all_of(result.log.begin(), result.log.end(),
                                         [](const Frame& frame) { return frame.has_odometry; });

@@ -19,10 +19,11 @@ struct UnmatchedStretch {
   std::size_t run = 0;          ///< number of the run, from 0
   std::size_t first_frame = 0;  ///< index; never the first scan of the run, which has no local map yet
   std::size_t last_frame = 0;
-  TimeUs first_time_us = 0;      ///< time of the first scan of the stretch
-  TimeUs last_time_us = 0;       ///< time of the last scan of the stretch
-  TimeUs run_start_us = 0;       ///< time of the first scan of the run
-  double odometry_length_m = 0;  ///< path by odometry, from the scan before the stretch to the last scan
+  TimeUs first_time_us = 0;  ///< time of the first scan of the stretch
+  TimeUs last_time_us = 0;   ///< time of the last scan of the stretch
+  TimeUs run_start_us = 0;   ///< time of the first scan of the run
+  /// Path by odometry or the constant-velocity model, from the scan before the stretch to the last scan.
+  double predicted_length_m = 0;
 
   std::size_t scans() const { return last_frame - first_frame + 1; }
 };

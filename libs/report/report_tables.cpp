@@ -156,7 +156,7 @@ std::string unmatched_table(const UnmatchedScans& unmatched) {
     rows += "<tr>" +
             cells({grouped(stretch.first_frame) + " to " + grouped(stretch.last_frame),
                    format_seconds(stretch.first_time_us), format_seconds(stretch.last_time_us),
-                   fixed_text(stretch.odometry_length_m, 2)}) +
+                   fixed_text(stretch.predicted_length_m, 2)}) +
             "</tr>\n";
   return "<details><summary>" + counted(unmatched.count, "scan", "scans") + " not matched, in " +
          counted(unmatched.stretches.size(), "stretch", "stretches") + "</summary>" +

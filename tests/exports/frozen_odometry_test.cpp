@@ -28,8 +28,8 @@ TEST(FrozenOdometry, is_named_with_its_time_and_the_motion_of_the_robot) {
   for (int i = 20; i < 25; ++i) add_scan(result, {0.3 * (i - 10), 0, 0}, {0.3 * i, 0, 1});
   EXPECT_EQ(
       frozen_odometry_text(result),
-      "odometry stayed exactly the same during 10 scans although the robot moved, most between 0:09 and "
-      "0:19: by 3.0 m and 57 degrees; the scans alone gave its motion there");
+      "odometry did not change in 10 scans although the robot moved, most from 0:09 to 0:19: 3.0 m and 57 "
+      "degrees. The scans alone determined its motion there. Check the wheel encoders and their driver");
 }
 
 TEST(FrozenOdometry, is_not_a_robot_at_rest_whose_poses_have_errors) {

@@ -13,7 +13,7 @@ MappingResult drive(const std::string& scans) {
   for (std::size_t i = 0; i < scans.size(); ++i) {
     FrameRecord record;
     record.time_us = 976052905'000000 + static_cast<TimeUs>(i) * 500'000;
-    record.odom_T_robot = {0.5 * static_cast<double>(i), 0, 0};
+    record.front_end_T_robot = {0.5 * static_cast<double>(i), 0, 0};
     record.match = scans[i] == '+'   ? ScanMatch::kMatched
                    : scans[i] == '-' ? ScanMatch::kUnmatched
                                      : ScanMatch::kNoMap;
@@ -38,7 +38,7 @@ TEST(UnmatchedScans, are_joined_to_stretches) {
   EXPECT_EQ(first.last_frame, 5U);
   EXPECT_EQ(first.first_time_us, 976052906'500000);
   EXPECT_EQ(first.last_time_us, 976052907'500000);
-  EXPECT_NEAR(first.odometry_length_m, 1.5, 1e-9) << "the path starts at the last matched scan";
+  EXPECT_NEAR(first.predicted_length_m, 1.5, 1e-9) << "the path starts at the last matched scan";
   EXPECT_EQ(unmatched.stretches[1].scans(), 1U) << "the last scan of the log";
   EXPECT_EQ(unmatched.stretches[1].first_frame, 7U);
 }

@@ -87,10 +87,11 @@ class PythonMapper {
       if (frame.has_odometry) odom_T_robot = frame.odom_T_robot;
       if (odom_T_robot && odom_T_newest_)
         predicted.map_T_robot = compose(newest_.map_T_robot, between(*odom_T_newest_, *odom_T_robot));
+      const bool is_new = queue_->push(std::move(frame));
+      if (is_new) session->step();
       ++scans_;
-      if (!queue_->push(std::move(frame))) return predicted;
+      if (!is_new) return predicted;
       odom_T_newest_ = odom_T_robot;
-      session->step();
       return newest_;
     });
   }

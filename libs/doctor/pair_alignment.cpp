@@ -181,7 +181,7 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
   };
   estimate.deviation_m = std::max(deviation_of(1, 0, -estimate.robot_T_laser.x * along),
                                   deviation_of(0, 1, -estimate.robot_T_laser.y * along));
-  estimate.scale_deviation = scale * std::hypot(deviation_of(0, 0, along), kRulerDeviation);
+  estimate.scale_deviation = scale * portable::hypot(deviation_of(0, 0, along), kRulerDeviation);
   estimate.deviation_rad = deviation_of(0, 0, {-along.y(), along.x()});
   return estimate;
 }

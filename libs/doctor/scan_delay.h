@@ -33,8 +33,9 @@ struct ScanDelay {
 
 /// Estimates the delay, at most kMostEstimatedDelay_s. Also estimates the ratio of turns by odometry to turns
 /// by scans, so that a wrong wheel base does not disturb. Where the robot turns at a constant rate, no delay
-/// shows; the deviation is then up to a second. Empty for fewer than 40 turns, and if no delay of less than a
-/// second explains the turns.
+/// shows; the deviation is then up to a second. Empty for fewer than 40 turns, if no delay of less than a
+/// second explains the turns, and if odometry mostly has fewer than two poses in a second: it is a
+/// guess between them, and a delay of that length cannot be told from it.
 std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks,
                                              const std::vector<ScanTurn>& turns);
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/portable_math.h"
 #include "frames/aligned_steps.h"
 
 namespace psi_slam {
@@ -22,7 +23,7 @@ constexpr double kErrors = 4;  // least difference of two medians, in standard e
 }  // namespace
 
 bool OdometryDisagreement::is_clearly_less_than(const OdometryDisagreement& other) const {
-  return other.median_m - median_m > kErrors * std::hypot(standard_error_m, other.standard_error_m);
+  return other.median_m - median_m > kErrors * portable::hypot(standard_error_m, other.standard_error_m);
 }
 
 OdometryDisagreement disagreement_with_odometry(FrameSource& scans) {

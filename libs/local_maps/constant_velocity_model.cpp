@@ -96,6 +96,7 @@ double ConstantVelocityModel::unmatched_s(TimeUs time_us) const {
 
 PredictedMotion ConstantVelocityModel::predict(TimeUs time_us, std::optional<double> imu_heading_rad) const {
   PredictedMotion predicted = predict_steady(time_us);
+  predicted.sigma_without_gyroscope_rad = predicted.sigma_since_match_rad;
   const std::optional<double> measured_rad = turn_by_gyroscope_rad(imu_heading_rad);
   if (!measured_rad || !gyroscope_.is_credible()) return predicted;
   const double passed_s = this->passed_s(time_us);

@@ -29,6 +29,7 @@ struct PredictedMotion {
   double sigma_rad = 0;
   double sigma_since_match_m = 0;  ///< standard deviations of the motion since the last matched pose
   double sigma_since_match_rad = 0;
+  double sigma_without_gyroscope_rad = 0;  ///< sigma_since_match_rad if the gyroscope is wrong
 };
 
 class ConstantVelocityModel {

@@ -177,6 +177,7 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   const double weight = 1 / (1 + elapsed * elapsed);
   motion.disagreement_m = weight * distance_m(last_motion_, motion.predicted);
   motion.disagreement_rad = weight * std::abs(mrpt::math::wrapToPi(motion.predicted.phi - last_motion_.phi));
+  motion.wide_disagreement_rad = motion.disagreement_rad;
   // Compared with odometry only: a wrong match must not make the next wrong correction plausible.
   const double uneven_m = distance_m(last_predicted_motion_, motion.predicted);
   motion.correction_sigma_m = portable::hypot(
@@ -201,6 +202,7 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(const Frame& frame) const {
   motion.turn_rad = std::abs(motion.predicted.phi);
   motion.disagreement_m = predicted.sigma_since_match_m;
   motion.disagreement_rad = predicted.sigma_since_match_rad;
+  motion.wide_disagreement_rad = predicted.sigma_without_gyroscope_rad;
   motion.sigma_m = predicted.sigma_m;
   motion.sigma_rad = predicted.sigma_rad;
   motion.after_gap = constant_velocity_.is_gap(frame.time_us);

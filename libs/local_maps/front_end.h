@@ -55,9 +55,10 @@ struct FrontEndOptions {
   /// A match in the wide window must reach this multiple of the poor response, and this multiple of the
   /// response that a match needs.
   double wide_response_gain = 1.6;
-  double wide_window_per_motion = 2.0;  ///< growth of the wide half-width per metre; it spans all headings
+  double wide_window_per_motion = 2.0;  ///< growth of the wide half-widths per metre or radian of motion
   double max_wide_window_m = 2.5;
-  /// Prediction for scans without odometry.
+  double max_wide_window_rad = radians_from_degrees(60.0L);  ///< with a poor match; without, all headings
+  /// Prediction for scans without odometry. Their wide window may span all headings.
   ConstantVelocityOptions constant_velocity;
 
   // Standard deviations of the predicted pose for a robot at rest, and their growth with the motion and with
@@ -188,6 +189,9 @@ class FrontEnd {
     /// Without odometry, the values of sigma_m and sigma_rad.
     double disagreement_m = 0;
     double disagreement_rad = 0;
+    /// The value of disagreement_rad for the wide window. With a gyroscope, it is larger: the window finds
+    /// the robot although the gyroscope is wrong.
+    double wide_disagreement_rad = 0;
     double sigma_m = 0;  ///< standard deviations of the motion, for the covariance of the poses
     double sigma_rad = 0;
     bool after_gap = false;  ///< scans are missing before this scan
@@ -217,7 +221,7 @@ class FrontEnd {
   Motion constant_velocity_motion(const Frame& frame) const;
   SearchExtent search_extent(const Motion& motion) const;
   PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const Motion& motion) const;
-  SearchExtent wide_extent(const Motion& motion) const;
+  SearchExtent wide_extent(const Motion& motion, bool has_match) const;
   void match(FrontEndStep& step, const Motion& motion);
   std::vector<mrpt::math::TPose2D> hypotheses(const Motion& motion) const;
   bool has_left_last_node(const Motion& motion) const;

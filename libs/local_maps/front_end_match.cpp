@@ -17,6 +17,7 @@ using mrpt::math::TPose2D;
 
 constexpr double kResponseWeight = 0.2;  // weight of one scan in the expected response
 constexpr double kLeastExpected = 0.25;  // lower bound of the expected response
+constexpr double kWiderBy = 1.5;         // smallest ratio of wide to narrow half-widths for a wide search
 // Limits for the search of a wide window: number of points, and the farthest distance from which the heading
 // step is computed. The match is then refined with all points.
 constexpr std::size_t kCoarsePoints = 120;
@@ -74,13 +75,17 @@ PosePrior FrontEnd::prior(const TPose2D& map_T_robot, const Motion& motion) cons
 }
 
 // Returns a window for large errors of odometry. The error can be twice the motion, for example if odometry
-// reports a reversal as forward motion. An obstacle may have turned the robot by any angle while the wheels
-// slipped.
-SearchExtent FrontEnd::wide_extent(const Motion& motion) const {
+// reports a reversal as forward motion. If the narrow window has no match, an obstacle may have turned the
+// robot by any angle while the wheels slipped.
+SearchExtent FrontEnd::wide_extent(const Motion& motion, bool has_match) const {
   const double half_m =
       std::min(options_.max_wide_window_m,
                options_.window_m + options_.wide_window_per_motion * motion.length_m + motion.disagreement_m);
-  return {half_m, half_m, M_PI};
+  const double half_rad =
+      options_.window_rad + motion.wide_disagreement_rad +
+      options_.wide_window_per_motion * (motion.turn_rad + options_.window_rad_per_metre * motion.length_m);
+  const double max_rad = motion.measured ? options_.max_wide_window_rad : M_PI;
+  return {half_m, half_m, has_match ? std::min(half_rad, max_rad) : M_PI};
 }
 
 MatchResult FrontEnd::search(FrontEndStep& step, const ScanPoints& scan, const ScoreGrid& grid,
@@ -93,14 +98,15 @@ MatchResult FrontEnd::search(FrontEndStep& step, const ScanPoints& scan, const S
   return match;
 }
 
-/// Searches the wide window. Stores the window in step.window if it contains a match. Returns nothing if no
-/// response reaches the limit of wide_response_gain, or if the match contradicts what the map has observed.
-/// `poor_response` is 0 if the narrow window has no match.
+/// Searches the wide window. Stores the window in step.window if it contains a match. Returns nothing if the
+/// window is hardly wider than step.window, if no response reaches the limit of wide_response_gain, or if the
+/// match contradicts what the map has observed. `poor_response` is 0 if the narrow window has no match.
 std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Motion& motion,
                                                    double poor_response) {
-  SearchExtent wide = wide_extent(motion);
-  wide.x_m = std::max(wide.x_m, step.window.x_m);
-  wide.y_m = std::max(wide.y_m, step.window.y_m);
+  SearchExtent wide = wide_extent(motion, poor_response > 0);
+  if (wide.x_m <= kWiderBy * step.window.x_m && wide.theta_rad <= kWiderBy * step.window.theta_rad) return {};
+  wide = {std::max(wide.x_m, step.window.x_m), std::max(wide.y_m, step.window.y_m),
+          std::max(wide.theta_rad, step.window.theta_rad)};
   const PlacedLocalMap& older = active_.front();
   PosePrior unknown;
   unknown.map_T_robot = between(older.local_T_map, compose(last_local_T_robot_, motion.predicted));

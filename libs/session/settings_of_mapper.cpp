@@ -48,15 +48,19 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
           "worse keeps its predicted pose.")
       .number("poor_response_share", front_end.poor_response_share, between(0, 1), "",
               "A scan whose response is below this share of the mean response of the last scans is searched "
-              "again in a wide window, which spans all headings.")
+              "again in a wide window, unless this window is hardly wider than the first one.")
       .number("wide_response_gain", front_end.wide_response_gain, at_least(1), "",
               "A match in the wide window of a scan must exceed the response of the poor match by this "
               "factor. If "
               "there is no poor match, it must exceed the least response of a match by this factor.")
       .number("wide_window_per_motion", front_end.wide_window_per_motion, between(0, 100), "",
-              "Growth of the wide window of a scan: metres added to window_m for each metre moved.")
+              "Growth of the wide window of a scan: metres added to window_m for each metre moved, degrees "
+              "added to window_theta_deg for each degree turned, and a factor on window_theta_per_metre_deg.")
       .number("max_wide_window_m", front_end.max_wide_window_m, above(0).at_most(20), "m",
               "Largest half-width of the wide window of a scan along x and y.")
+      .angle_deg("max_wide_window_theta_deg", front_end.max_wide_window_rad, above(0).at_most(180),
+                 "Largest half-width in heading of the wide window of a scan that matches poorly. If it "
+                 "matches nothing, all headings are searched.")
       .number("acceleration_mps2", front_end.constant_velocity.acceleration_mps2, above(0).at_most(100),
               "m/s²", "Without odometry: standard deviation of the robot's acceleration.")
       .angle_deg(

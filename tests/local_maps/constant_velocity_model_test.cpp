@@ -111,6 +111,7 @@ TEST(ConstantVelocityModel, a_gyroscope_predicts_the_turn) {
   EXPECT_EQ(steady.motion.phi, 0);
   EXPECT_LT(predicted.sigma_rad, 0.2 * steady.sigma_rad);
   EXPECT_LT(predicted.sigma_since_match_rad, 0.2 * steady.sigma_since_match_rad);
+  EXPECT_EQ(predicted.sigma_without_gyroscope_rad, steady.sigma_since_match_rad);
   EXPECT_EQ(predicted.sigma_m, steady.sigma_m);
 }
 
@@ -132,7 +133,7 @@ TEST(ConstantVelocityModel, unknown_turns_since_the_last_match_widen_the_window)
   robot.moved(2 * kSecond, {0, 0, 0}, false, 1.0);
   const PredictedMotion predicted = robot.predict(5 * kSecond / 2, 1.5);
   EXPECT_NEAR(predicted.motion.phi, 0.5, 1e-9);
-  EXPECT_EQ(predicted.sigma_since_match_rad, robot.predict(5 * kSecond / 2).sigma_since_match_rad);
+  EXPECT_EQ(predicted.sigma_since_match_rad, predicted.sigma_without_gyroscope_rad);
 }
 
 // The robot turns left and right in turns; the gyroscope reports nothing.

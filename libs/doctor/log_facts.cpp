@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/median.h"
 #include "frames/pose_operations.h"
 
 namespace psi_slam {
@@ -27,14 +28,9 @@ void add_time_facts(const std::vector<FrameMark>& marks, TimeFacts& facts) {
       std::minmax_element(marks.begin(), marks.end(),
                           [](const FrameMark& a, const FrameMark& b) { return a.time_us < b.time_us; });
   facts.duration_s = seconds(latest->time_us - earliest->time_us);
-  std::vector<double> periods_s;
-  for (std::size_t i = 1; i < marks.size(); ++i)
-    periods_s.push_back(seconds(marks[i].time_us - marks[i - 1].time_us));
+  const std::vector<double> periods_s = periods_between(marks);
   if (periods_s.empty()) return;
-  std::vector<double> sorted_s = periods_s;
-  const auto middle = sorted_s.begin() + static_cast<std::ptrdiff_t>(sorted_s.size() / 2);
-  std::nth_element(sorted_s.begin(), middle, sorted_s.end());
-  facts.median_period_s = *middle;
+  facts.median_period_s = median(periods_s);
   for (const double period_s : periods_s) {
     if (period_s > std::max(kLeastGap_s, kGapPeriods * facts.median_period_s)) {
       ++facts.gaps;
@@ -114,6 +110,13 @@ LogFacts LogFactsCollector::facts() const {
     facts.ranges.largest_reading_m = static_cast<float>(readings_by_cm_.size() - 1) / 100.0F;
   facts.ranges.median_return_m = median_below(readings_by_cm_, facts.ranges.returns);
   return facts;
+}
+
+std::vector<double> periods_between(const std::vector<FrameMark>& marks) {
+  std::vector<double> periods_s;
+  for (std::size_t i = 1; i < marks.size(); ++i)
+    periods_s.push_back(seconds(marks[i].time_us - marks[i - 1].time_us));
+  return periods_s;
 }
 
 bool has_return(const Frame& frame) {

@@ -79,6 +79,9 @@ struct FrameMark {
   mrpt::math::TPose2D odom_T_robot;
 };
 
+/// Returns the times from each frame to the next, seconds. They are negative where the clock steps back.
+std::vector<double> periods_between(const std::vector<FrameMark>& marks);
+
 class LogFactsCollector {
  public:
   /// Adds a frame whose ranges were read without limits. Readings from `min_range_m` on and below

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/portable_math.h"
+#include "base/significance.h"
 #include "doctor/finding_list.h"
 #include "frames/laser_choice.h"
 #include "frames/pose_operations.h"
@@ -261,7 +262,7 @@ class OdometryJudge : public FindingList {
     const double stated_s =
         delay_of_laser(stated, lasers.empty() ? std::vector<std::string>() : lasers.front());
     const double off_s = std::abs(delay.delay_s - stated_s);
-    if (off_s < std::max(kLeast_s, 4 * delay.deviation_s)) return;
+    if (off_s < std::max(kLeast_s, kSignificantDeviations * delay.deviation_s)) return;
     const std::string sentence = "turns show that the scans are stamped " +
                                  fixed(std::abs(delay.delay_s), 3) + " s " +
                                  (delay.delay_s > 0 ? "later" : "earlier") + " than odometry (accurate to " +
@@ -281,8 +282,8 @@ class OdometryJudge : public FindingList {
     const double yaw_rad = laser_yaw_rad(mount);
     const double off_m = distance_m(stated, mount.robot_T_laser);
     const double off_rad = std::abs(mrpt::math::wrapToPi(yaw_rad - stated.phi));
-    if (off_m > std::max(0.03, 4 * mount.deviation_m) ||
-        off_rad > std::max(DEG2RAD(0.8), 4 * mount.deviation_rad)) {
+    if (off_m > std::max(0.03, kSignificantDeviations * mount.deviation_m) ||
+        off_rad > std::max(DEG2RAD(0.8), kSignificantDeviations * mount.deviation_rad)) {
       const std::string x = fixed(mount.robot_T_laser.x, 3);
       const std::string y = fixed(mount.robot_T_laser.y, 3);
       const std::string yaw = fixed(RAD2DEG(yaw_rad), 2);
@@ -305,7 +306,7 @@ class OdometryJudge : public FindingList {
     constexpr double kLeast = 0.01;
     constexpr double kUsual = 0.04;  // wheels that slip or wear
     const double off = std::abs(mount.odometry_scale * diagnosis_.options.odometry_scale.value_or(1) - 1);
-    if (off <= std::max(kLeast, 4 * mount.scale_deviation)) return;
+    if (off <= std::max(kLeast, kSignificantDeviations * mount.scale_deviation)) return;
     const std::string sentence = std::string("odometry ") +
                                  (mount.odometry_scale > 1 ? "overstates" : "understates") +
                                  " distances by " + fixed(100 * std::abs(mount.odometry_scale - 1), 1) +
@@ -314,7 +315,7 @@ class OdometryJudge : public FindingList {
         std::string(diagnosis_.options.odometry_scale ? "" : "log.calibrate = true, or ") +
         "log.odometry_scale = " + fixed(1 / mount.odometry_scale, 4);
     const bool is_bent = diagnosis_.sweep_direction.stated_sweep_time_s != 0;  // which spoils the estimate
-    if (off > kUsual + 4 * mount.scale_deviation && !is_bent)
+    if (off > kUsual + kSignificantDeviations * mount.scale_deviation && !is_bent)
       warn("odometry_scale", sentence, remedy);
     else
       note("odometry_scale", sentence, remedy);

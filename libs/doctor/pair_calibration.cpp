@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/significance.h"
 #include "frames/pose_operations.h"
 
 namespace psi_slam {
@@ -17,7 +18,6 @@ using mrpt::math::TPose2D;
 using mrpt::math::wrapToPi;
 
 constexpr std::size_t kMostPairs = 500;
-constexpr double kSignificant = 4;  // in standard deviations
 const double kHeadingDeterminedTo_rad = DEG2RAD(0.5);
 constexpr int kRoundsOfTurned = 2;  // each begins with better guesses of the motions of the scans
 
@@ -68,9 +68,10 @@ class PairCalibrator {
     if (!found.mount) return is_delayed ? std::optional(guess) : std::nullopt;
     const LaserMountEstimate& mount = *found.mount;
     const TPose2D off = between(robot_T_laser, mount.robot_T_laser);
-    const bool is_elsewhere = off.norm() > kSignificant * mount.deviation_m ||
-                              std::abs(off.phi) > kSignificant * mount.deviation_rad;
-    const bool is_scaled = std::abs(mount.odometry_scale - 1) > kSignificant * mount.scale_deviation;
+    const bool is_elsewhere = off.norm() > kSignificantDeviations * mount.deviation_m ||
+                              std::abs(off.phi) > kSignificantDeviations * mount.deviation_rad;
+    const bool is_scaled =
+        std::abs(mount.odometry_scale - 1) > kSignificantDeviations * mount.scale_deviation;
     if (is_elsewhere) guess.robot_T_laser = mount.robot_T_laser;
     for (FrameMark& mark : guess.marks) {
       if (!is_scaled) break;

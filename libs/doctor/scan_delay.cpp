@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <utility>
 
 #include "base/median.h"
 #include "base/portable_math.h"
@@ -216,19 +215,12 @@ double mean_cost_at(const ShiftedOdometry& odometry, const std::vector<ScanTurn>
                                     : cost / static_cast<double>(covered);
 }
 
-/// Median time between the poses of odometry.
-double median_period_s(const std::vector<FrameMark>& marks) {
-  std::vector<double> periods_s;
-  for (std::size_t i = 1; i < marks.size(); ++i)
-    periods_s.push_back(std::abs(seconds(marks[i].time_us - marks[i - 1].time_us)));
-  return median(std::move(periods_s));
-}
-
 }  // namespace
 
 std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks,
                                              const std::vector<ScanTurn>& turns) {
-  if (turns.size() < kFewestTurns || 2 * median_period_s(marks) > kMostEstimatedDelay_s) return std::nullopt;
+  if (turns.size() < kFewestTurns || 2 * median(periods_between(marks)) > kMostEstimatedDelay_s)
+    return std::nullopt;
   const ShiftedOdometry odometry(marks);
   const auto candidate_s = best_candidate_s(odometry, turns);
   if (!candidate_s) return std::nullopt;

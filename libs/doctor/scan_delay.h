@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/significance.h"
 #include "doctor/log_facts.h"
 #include "doctor/scan_sampling.h"
 
@@ -28,14 +29,14 @@ struct ScanDelay {
   double deviation_s = 0;  ///< standard deviation
 
   /// Returns whether the delay differs from 0 by at least four standard deviations.
-  bool is_significant() const { return std::abs(delay_s) > 4 * deviation_s; }
+  bool is_significant() const { return std::abs(delay_s) > kSignificantDeviations * deviation_s; }
 };
 
 /// Estimates the delay, at most kMostEstimatedDelay_s. Also estimates the ratio of turns by odometry to turns
 /// by scans, so that a wrong wheel base does not disturb. Where the robot turns at a constant rate, no delay
 /// shows; the deviation is then up to a second. Empty for fewer than 40 turns, if no delay of less than a
 /// second explains the turns, and if odometry mostly has fewer than two poses in a second: it is a
-/// guess between them, and a delay of that length cannot be told from it.
+/// guess between them, and a delay of that length cannot be distinguished from it.
 std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks,
                                              const std::vector<ScanTurn>& turns);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/portable_math.h"
+#include "base/significance.h"
 #include "frames/aligned_steps.h"
 
 namespace psi_slam {
@@ -18,12 +19,12 @@ constexpr double kStep_rad = 5 * M_PI / 180;
 constexpr double kLever_m = 2;
 constexpr std::size_t kMostSteps = 200;
 constexpr std::size_t kLeastSteps = 10;
-constexpr double kErrors = 4;  // least difference of two medians, in standard errors
 
 }  // namespace
 
 bool OdometryDisagreement::is_clearly_less_than(const OdometryDisagreement& other) const {
-  return other.median_m - median_m > kErrors * portable::hypot(standard_error_m, other.standard_error_m);
+  return other.median_m - median_m >
+         kSignificantDeviations * portable::hypot(standard_error_m, other.standard_error_m);
 }
 
 OdometryDisagreement disagreement_with_odometry(FrameSource& scans) {

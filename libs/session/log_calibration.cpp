@@ -10,6 +10,7 @@
 
 #include "base/number_text.h"
 #include "base/portable_math.h"
+#include "base/significance.h"
 #include "doctor/laser_faults.h"
 #include "doctor/odometry_calibration.h"
 #include "frames/laser_choice.h"
@@ -28,7 +29,6 @@ constexpr double kScaleDeviation = 0.005;
 const double kMostLogScale = portable::log(2.0);  // of odometry in metres
 constexpr double kMountDeviation_m = 0.02;
 const double kMountDeviation_rad = DEG2RAD(0.5);
-constexpr double kSignificant = 4;  // in standard deviations
 // Slip in turns spoils the estimate by about as much as a stated pose is usually wrong.
 constexpr double kUsualError_m = 0.03;
 const double kUsualError_rad = DEG2RAD(0.8);
@@ -115,8 +115,9 @@ class Calibrator {
     const TPose2D& pose = mount.robot_T_laser;
     const bool is_certain = is_determined(mount);
     const TPose2D off = between(found_.stated_mount, pose);
-    const bool differs = off.norm() > std::max(kUsualError_m, kSignificant * mount.deviation_m) ||
-                         std::abs(off.phi) > std::max(kUsualError_rad, kSignificant * mount.deviation_rad);
+    const bool differs =
+        off.norm() > std::max(kUsualError_m, kSignificantDeviations * mount.deviation_m) ||
+        std::abs(off.phi) > std::max(kUsualError_rad, kSignificantDeviations * mount.deviation_rad);
     const bool is_used = is_certain && differs;
     add(kLaserX, pose.x, mount.deviation_m, is_used);
     add(kLaserY, pose.y, mount.deviation_m, is_used);

@@ -178,10 +178,6 @@ class Planner {
   /// them.
   bool hears_no_more_imus() const { return heard_.is_over() && !gyroscope_frames_.empty(); }
 
-  bool states_mount(const std::string& topic) const {
-    return options_of_topic(options_, topic).robot_T_laser.has_value();
-  }
-
   /// Returns whether odometry, scans of all lasers and all mounts are known. Transforms are needed even for a
   /// stated mount, because they show whether the laser is upside down.
   bool is_complete() const {
@@ -290,7 +286,8 @@ class Planner {
   void keep_usable_lasers() {
     Names ranked = plan_.scan_topics;
     std::stable_sort(ranked.begin(), ranked.end(), [&](const std::string& a, const std::string& b) {
-      return std::make_tuple(!states_mount(a), a.size(), a) < std::make_tuple(!states_mount(b), b.size(), b);
+      return std::make_tuple(!states_mount(options_, a), a.size(), a) <
+             std::make_tuple(!states_mount(options_, b), b.size(), b);
     });
     Names kept;
     Names left_out;
@@ -304,7 +301,7 @@ class Planner {
         const auto scan = scan_frames_.find(topic);
         if (scan == scan_frames_.end() || (!known && !kept.empty())) continue;
         const std::string& frame = scan->second;
-        if (known && !states_mount(topic) &&
+        if (known && !states_mount(options_, topic) &&
             !(knows_mount(frame) && are_on_one_robot(plan_.transforms, plan_.base_frame, frame)))
           continue;
         const Names& topics = topics_of_frame.at(frame);
@@ -360,7 +357,7 @@ class Planner {
   void settle_mounts() {
     for (const std::string& topic : plan_.scan_topics) {
       const std::string& frame = scan_frames_.at(topic);
-      if (states_mount(topic) || knows_mount(frame)) continue;
+      if (states_mount(options_, topic) || knows_mount(frame)) continue;
       const bool several = plan_.scan_topics.size() > 1;
       const std::string reason = "no transform leads from \"" + plan_.base_frame + "\" to \"" + frame + "\"";
       const std::string remedy = several ? "log.laser_mounts, such as \"" + topic + " 0.2 0 0\""

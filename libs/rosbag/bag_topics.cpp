@@ -173,6 +173,10 @@ LogOptions options_of_topic(const LogOptions& options, const std::string& topic)
   return options_of_laser(options, names_of_topic(topic));
 }
 
+bool states_mount(const LogOptions& options, const std::string& topic) {
+  return options_of_topic(options, topic).robot_T_laser.has_value();
+}
+
 BagTopics choose_topics(const std::vector<BagTopic>& topics, const BagRobots& robots, const std::string& path,
                         const LogOptions& options) {
   return TopicChooser(topics, robots, path, options).choose();

@@ -40,4 +40,7 @@ std::vector<std::string> names_of_topic(const std::string& topic);
 /// Returns the options for the laser of a topic, with its stated mount and delay.
 LogOptions options_of_topic(const LogOptions& options, const std::string& topic);
 
+/// Returns whether the user states the mount of the laser with the topic.
+bool states_mount(const LogOptions& options, const std::string& topic);
+
 }  // namespace psi_slam

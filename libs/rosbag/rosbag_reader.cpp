@@ -279,13 +279,10 @@ class RosbagReader : public LogReader {
 /// the bag.
 BagPlan with_agreeing_topics(BagPlan plan, const LogOptions& options,
                              const std::function<std::unique_ptr<BagFile>()>& open) {
-  const auto states_mount = [&](const std::string& topic) {
-    return options_of_topic(options, topic).robot_T_laser.has_value();
-  };
   for (const std::vector<std::string>& rivals : plan.rival_topics) {
     std::vector<OdometryDisagreement> disagreements;
     for (const std::string& topic : rivals) {
-      if (states_mount(topic) != states_mount(rivals.front())) break;
+      if (states_mount(options, topic) != states_mount(options, rivals.front())) break;
       BagPlan one = plan;
       one.scan_topics = {topic};
       RosbagReader reader(std::move(one), open(), options, false);

@@ -13,7 +13,7 @@ namespace psi_slam {
 /// Returns sentences, the last one without full stop, about the stretches of two seconds or more with the
 /// same odometry, to the last bit, along which the mapped robot moved 0.5 m or turned by 30 degrees: more
 /// than scans of a robot at rest can err. They tell how long the stretches are, when the longest path was,
-/// and what to do. Empty if there is none.
+/// and what to do. Empty without such a stretch.
 std::optional<std::string> frozen_odometry_text(const MappingResult& result);
 
 }  // namespace psi_slam

@@ -32,7 +32,7 @@ std::optional<Frame> AlignedSteps::next_frame() {
   try {
     std::optional<Frame> frame = scans_.next();
     if (frame && frame->has_odometry) return frame;
-  } catch (const UserError&) {  // whoever maps the log says so
+  } catch (const UserError&) {  // mapping reports it
   }
   return std::nullopt;
 }

@@ -80,7 +80,7 @@ class LogReader : public FrameSource {
   std::size_t frames_given_ = 0;
   RepeatedScans repeated_;
   std::deque<Ahead> ahead_;           // frames that next() gives or leaves out
-  std::set<std::size_t> unchanging_;  // lasers that were awaited in vain
+  std::set<std::size_t> unchanging_;  // lasers whose readings LookOver::kMostScans frames did not change
   bool is_at_end_ = false;            // of the log, while there are frames ahead
   std::exception_ptr failure_;        // thrown after the frames ahead
 };

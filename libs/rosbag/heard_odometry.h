@@ -15,8 +15,8 @@ namespace psi_slam {
 
 /// Finds the topics of odometry from which a bag is read. A single topic counts from its first message. Of
 /// several, those are candidates that have a message before LookOver has enough scans: a bag that is still
-/// being recorded shows no more. If none has, the topics are candidates that have a message within the same
-/// time after the first odometry.
+/// being recorded shows nothing later. If none has, the topics are candidates that have a message within the
+/// same time after the first odometry.
 class HeardOdometry {
  public:
   HeardOdometry(std::vector<std::string> topics, double look_over_s);

@@ -191,7 +191,7 @@ TEST(FrontEnd, tolerates_odometry_that_stalls_and_jumps) {
 }
 
 // An obstacle turns the robot by a large angle in each of three scans, while its slipping wheels measure
-// straight motion. Then it stands, and turns on the spot by as much as odometry says.
+// straight motion. Then it stands, and turns on the spot by as much as odometry measures.
 TEST(FrontEnd, finds_a_robot_that_an_obstacle_turned_while_its_wheels_slipped) {
   for (const double turn_deg : {20, 35, -50}) {
     const double turn_rad = turn_deg * M_PI / 180;

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "command_words.h"
-#include "config/ini_file.h"
+#include "base/config/ini_file.h"
 #include "help_format.h"
 
 namespace psi_slam {

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "config/option_table.h"
+#include "base/config/option_table.h"
 
 namespace psi_slam {
 

@@ -11,7 +11,7 @@
 #include "base/exit_code.h"
 #include "base/number_text.h"
 #include "document_options.h"
-#include "evaluation/relations_metric.h"
+#include "map/trajectory/relations_metric.h"
 #include "number_between.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "replay/live_feed.h"
+#include "gui/live_feed.h"
 
 namespace psi_slam {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "view/palette.h"
+#include "gui/palette.h"
 #include "wx_text.h"
 
 namespace psi_slam {

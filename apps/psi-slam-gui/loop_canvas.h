@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "view/loop_picture.h"
+#include "gui/loop_picture.h"
 
 namespace psi_slam {
 

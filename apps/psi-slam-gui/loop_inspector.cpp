@@ -13,7 +13,7 @@
 
 #include "loop_canvas.h"
 #include "main_menu.h"
-#include "view/palette.h"
+#include "gui/palette.h"
 #include "wx_text.h"
 
 namespace psi_slam {

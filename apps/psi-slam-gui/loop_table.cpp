@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "base/number_text.h"
-#include "view/loop_picture.h"
+#include "gui/loop_picture.h"
 
 namespace psi_slam {
 namespace {

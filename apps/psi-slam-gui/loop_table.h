@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "replay/replay_snapshot.h"
+#include "gui/replay_snapshot.h"
 
 namespace psi_slam {
 

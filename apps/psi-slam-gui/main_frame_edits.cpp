@@ -8,8 +8,8 @@
 #include "message_bar.h"
 #include "psi_slam/loop_record.h"
 #include "psi_slam/user_error.h"
-#include "replay/loop_between_places.h"
-#include "view/palette.h"
+#include "gui/loop_between_places.h"
+#include "gui/palette.h"
 #include "wx_text.h"
 
 namespace psi_slam {

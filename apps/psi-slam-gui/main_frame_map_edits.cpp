@@ -7,7 +7,7 @@
 #include "main_menu.h"
 #include "map_canvas.h"
 #include "message_bar.h"
-#include "view/palette.h"
+#include "gui/palette.h"
 
 namespace psi_slam {
 namespace {

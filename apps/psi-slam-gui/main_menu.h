@@ -8,8 +8,8 @@
 #include <array>
 
 #include "matching/make_matcher.h"
-#include "rendering/map_edits.h"
-#include "view/map_scene.h"
+#include "map/rendering/map_edits.h"
+#include "gui/map_scene.h"
 
 namespace psi_slam {
 

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "base/portable_math.h"
-#include "view/layers.h"
+#include "gui/layers.h"
 #include "wx_text.h"
 
 namespace psi_slam {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "view/map_camera.h"
-#include "view/palette.h"
+#include "gui/map_camera.h"
+#include "gui/palette.h"
 
 namespace psi_slam {
 

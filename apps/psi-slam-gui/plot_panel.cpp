@@ -12,8 +12,8 @@
 #include <string>
 
 #include "base/portable_math.h"
-#include "report/decade_axis.h"
-#include "view/palette.h"
+#include "map/report/decade_axis.h"
+#include "gui/palette.h"
 #include "wx_text.h"
 
 namespace psi_slam {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "replay/replay_snapshot.h"
+#include "gui/replay_snapshot.h"
 
 namespace psi_slam {
 

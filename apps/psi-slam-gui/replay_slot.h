@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "replay/replay.h"
+#include "gui/replay.h"
 
 namespace psi_slam {
 

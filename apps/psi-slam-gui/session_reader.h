@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "replay/background_thread.h"
+#include "gui/background_thread.h"
 #include "session/session_input.h"
 
 namespace psi_slam {

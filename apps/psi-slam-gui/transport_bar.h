@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "psi_slam/time_stamp.h"
-#include "replay/replay_snapshot.h"
+#include "gui/replay_snapshot.h"
 
 class wxBitmapButton;
 class wxSlider;

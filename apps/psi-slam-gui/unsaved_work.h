@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "replay/replay_snapshot.h"
+#include "gui/replay_snapshot.h"
 #include "session/edit_journal.h"
 #include "session/session_input.h"
 

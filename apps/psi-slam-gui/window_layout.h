@@ -7,7 +7,7 @@
 #include <wx/confbase.h>
 #include <wx/frame.h>
 
-#include "view/map_scene.h"
+#include "gui/map_scene.h"
 
 namespace psi_slam {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "batch/workers.h"
-#include "config/option_table.h"
+#include "base/config/option_table.h"
 #include "psi_slam_app.h"
 
 namespace psi_slam {

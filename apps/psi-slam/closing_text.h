@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "exports/run_summary.h"
+#include "map/exports/run_summary.h"
 #include "psi_slam/mapping_result.h"
-#include "report/output_folder.h"
+#include "map/report/output_folder.h"
 
 namespace psi_slam {
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/degrees.h"
-#include "config/nearest_name.h"
+#include "base/config/nearest_name.h"
 #include "document_options.h"
 #include "mpi_option.h"
 #include "psi_slam/user_error.h"

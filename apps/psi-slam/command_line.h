@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "config/option_table.h"
+#include "base/config/option_table.h"
 #include "live_arguments.h"
 #include "other_programs.h"
 #include "psi_slam_app.h"

@@ -11,7 +11,7 @@
 #include "progress_line.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam_app.h"
-#include "report/output_folder.h"
+#include "map/report/output_folder.h"
 #include "session/session_input.h"
 #include "session/session_recording.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/failure_notice.h"
-#include "exports/live_map_writer.h"
+#include "map/exports/live_map_writer.h"
 #include "psi_slam/mapping_session.h"
 #include "session/settings.h"
 

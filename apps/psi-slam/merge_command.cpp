@@ -3,7 +3,7 @@
 #include <ostream>
 
 #include "commands.h"
-#include "exports/zone_files.h"
+#include "map/exports/zone_files.h"
 #include "files_to_write.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"

@@ -7,7 +7,7 @@
 
 #include "base/exit_code.h"
 #include "commands.h"
-#include "config/settings_text.h"
+#include "base/config/settings_text.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

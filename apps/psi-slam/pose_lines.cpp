@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/number_text.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 

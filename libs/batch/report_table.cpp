@@ -5,8 +5,8 @@
 #include <map>
 
 #include "base/number_text.h"
-#include "exports/csv_tables.h"
-#include "report/html_text.h"
+#include "map/exports/csv_tables.h"
+#include "map/report/html_text.h"
 
 namespace psi_slam {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/relations_metric.h"
+#include "map/trajectory/relations_metric.h"
 
 namespace psi_slam {
 

@@ -7,8 +7,8 @@
 #include "base/number_text.h"
 #include "batch/kept_run.h"
 #include "batch/report_table.h"
-#include "exports/csv_tables.h"
-#include "report/html_text.h"
+#include "map/exports/csv_tables.h"
+#include "map/report/html_text.h"
 
 namespace psi_slam {
 namespace {

@@ -10,7 +10,7 @@
 #include "batch/child_process.h"
 #include "batch/kept_run.h"
 #include "psi_slam/user_error.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

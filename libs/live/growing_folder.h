@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "rosbag/bag_file.h"
-#include "rosbag/bag_recorder.h"
+#include "logs/rosbag/bag_file.h"
+#include "logs/rosbag/bag_recorder.h"
 
 namespace psi_slam {
 

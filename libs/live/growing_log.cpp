@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "base/text_parts.h"
-#include "compression/decompressor.h"
-#include "compression/growing_file.h"
+#include "base/compression/decompressor.h"
+#include "base/compression/growing_file.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

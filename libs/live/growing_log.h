@@ -6,11 +6,11 @@
 #include <memory>
 #include <optional>
 
-#include "compression/byte_source.h"
-#include "frames/log_format.h"
+#include "base/compression/byte_source.h"
+#include "logs/frames/log_format.h"
 #include "live/line_stream.h"
 #include "live/live_control.h"
-#include "rosbag/bag_recorder.h"
+#include "logs/rosbag/bag_recorder.h"
 
 namespace psi_slam {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "compression/byte_source.h"
+#include "base/compression/byte_source.h"
 #include "live/live_control.h"
 
 namespace psi_slam {

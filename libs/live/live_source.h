@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "frames/look_over.h"
+#include "logs/frames/look_over.h"
 #include "live/live_control.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/log_options.h"

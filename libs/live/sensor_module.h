@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "live/live_control.h"
-#include "rawlog/object_source.h"
+#include "logs/rawlog/object_source.h"
 
 namespace psi_slam {
 

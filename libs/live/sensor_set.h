@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "live/live_control.h"
-#include "rawlog/object_source.h"
+#include "logs/rawlog/object_source.h"
 
 namespace psi_slam {
 

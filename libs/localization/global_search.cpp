@@ -9,7 +9,7 @@
 
 #include "base/number_text.h"
 #include "base/portable_math.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {

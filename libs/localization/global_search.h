@@ -12,7 +12,7 @@
 
 #include "localization/localizer_options.h"
 #include "localization/reference_map.h"
-#include "loop_closure/keyframe_store.h"
+#include "mapping/loop_closure/keyframe_store.h"
 #include "matching/make_matcher.h"
 #include "matching/scan_points.h"
 #include "matching/score_grid.h"

@@ -9,7 +9,7 @@
 #include "base/degrees.h"
 #include "base/median.h"
 #include "base/number_text.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/portable_math.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "localization/global_search.h"
 #include "localization/localizer_options.h"
 #include "localization/place_consensus.h"

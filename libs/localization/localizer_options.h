@@ -5,9 +5,9 @@
 #include <cstdint>
 
 #include "base/degrees.h"
-#include "local_maps/front_end.h"
-#include "loop_closure/loop_consensus.h"
-#include "loop_closure/scan_context.h"
+#include "mapping/local_maps/front_end.h"
+#include "mapping/loop_closure/loop_consensus.h"
+#include "mapping/loop_closure/scan_context.h"
 #include "matching/make_matcher.h"
 
 namespace psi_slam {

@@ -16,7 +16,7 @@
 #include "base/number_text.h"
 #include "base/portable_math.h"
 #include "base/yaml_directives.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "localization/image_size.h"
 #include "psi_slam/user_error.h"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "localization/global_search.h"
-#include "loop_closure/loop_consensus.h"
+#include "mapping/loop_closure/loop_consensus.h"
 
 namespace psi_slam {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/number_text.h"
-#include "frames/pose_operations.h"
-#include "frames/position_variance.h"
+#include "logs/frames/pose_operations.h"
+#include "logs/frames/position_variance.h"
 #include "localization/place_consensus.h"
 
 namespace psi_slam {

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "localization/global_search.h"
-#include "loop_closure/loop_consensus.h"
+#include "mapping/loop_closure/loop_consensus.h"
 #include "psi_slam/fixed_knowledge.h"
 #include "psi_slam/mapper.h"
 

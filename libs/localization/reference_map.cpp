@@ -17,7 +17,7 @@
 #include "base/file_bytes.h"
 #include "base/file_checksum.h"
 #include "base/number_text.h"
-#include "compression/compressed_file.h"
+#include "base/compression/compressed_file.h"
 #include "localization/image_size.h"
 #include "localization/map_server_file.h"
 #include "psi_slam/user_error.h"

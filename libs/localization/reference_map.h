@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "local_maps/local_map.h"
+#include "mapping/local_maps/local_map.h"
 
 namespace psi_slam {
 

@@ -7,15 +7,15 @@
 #include <utility>
 #include <vector>
 
-#include "frames/body_masked_source.h"
-#include "frames/corrected_odometry_source.h"
-#include "frames/deskewed_source.h"
-#include "frames/gyroscope_choice.h"
-#include "frames/height_slice.h"
-#include "frames/laser_choice.h"
-#include "frames/max_range_source.h"
-#include "frames/rewindable_source.h"
-#include "frames/scan_synchronizer.h"
+#include "logs/frames/body_masked_source.h"
+#include "logs/frames/corrected_odometry_source.h"
+#include "logs/frames/deskewed_source.h"
+#include "logs/frames/gyroscope_choice.h"
+#include "logs/frames/height_slice.h"
+#include "logs/frames/laser_choice.h"
+#include "logs/frames/max_range_source.h"
+#include "logs/frames/rewindable_source.h"
+#include "logs/frames/scan_synchronizer.h"
 #include "logs/sweep_direction_study.h"
 #include "psi_slam/user_error.h"
 

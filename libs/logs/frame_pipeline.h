@@ -8,9 +8,9 @@
 #include <memory>
 #include <string>
 
-#include "frames/log_format.h"
-#include "frames/log_reader.h"
-#include "frames/max_range_study.h"
+#include "logs/frames/log_format.h"
+#include "logs/frames/log_reader.h"
+#include "logs/frames/max_range_study.h"
 
 namespace psi_slam {
 

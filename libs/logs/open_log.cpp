@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "frames/height_slice.h"
-#include "frames/log_reader.h"
+#include "logs/frames/height_slice.h"
+#include "logs/frames/log_reader.h"
 #include "logs/frame_pipeline.h"
 
 namespace psi_slam {

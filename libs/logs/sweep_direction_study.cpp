@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "base/portable_math.h"
-#include "frames/deskewed_source.h"
-#include "frames/pose_operations.h"
-#include "frames/scan_alignment.h"
+#include "logs/frames/deskewed_source.h"
+#include "logs/frames/pose_operations.h"
+#include "logs/frames/scan_alignment.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "pose_graph/graduated_non_convexity.h"
 
 namespace psi_slam {

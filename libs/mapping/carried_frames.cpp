@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 
 namespace psi_slam {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/portable_math.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "mapping/unplaced_runs.h"
 #include "pose_graph/information_matrix.h"
 #include "pose_graph/placed_covariances.h"

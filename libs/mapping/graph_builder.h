@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "loop_closure/keyframe_store.h"
-#include "loop_closure/loop_closure_factor.h"
+#include "mapping/loop_closure/keyframe_store.h"
+#include "mapping/loop_closure/loop_closure_factor.h"
 #include "mapping/back_end.h"
 #include "mapping/mapper_options.h"
 #include "pose_graph/newest_covariance.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "matching/point_grid.h"
 
 namespace psi_slam {

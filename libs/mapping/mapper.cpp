@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "frames/discarded_ranges.h"
-#include "frames/pose_operations.h"
-#include "frames/sweep_motion.h"
+#include "logs/frames/discarded_ranges.h"
+#include "logs/frames/pose_operations.h"
+#include "logs/frames/sweep_motion.h"
 #include "mapping/carried_frames.h"
 #include "mapping/placed_knowledge.h"
 

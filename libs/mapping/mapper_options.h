@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/degrees.h"
-#include "local_maps/front_end.h"
+#include "mapping/local_maps/front_end.h"
 #include "mapping/back_end.h"
 #include "pose_graph/sparse_pose_adjustment.h"
 

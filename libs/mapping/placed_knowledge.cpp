@@ -10,7 +10,7 @@
 
 #include "base/degrees.h"
 #include "base/number_text.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "loop_closure/keyframe_store.h"
+#include "mapping/loop_closure/keyframe_store.h"
 #include "psi_slam/pose_graph.h"
 
 namespace psi_slam {

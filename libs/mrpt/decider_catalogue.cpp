@@ -11,7 +11,7 @@
 #include <mrpt/graphslam/NRD/CICPCriteriaNRD.h>
 #include <mrpt/graphslam/apps_related/TUserOptionsChecker.h>
 
-#include "config/nearest_name.h"
+#include "base/config/nearest_name.h"
 #include "mrpt/graphslam_run.h"
 #include "psi_slam/user_error.h"
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "frames/laser_choice.h"
+#include "logs/frames/laser_choice.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "frames/max_range_study.h"
-#include "frames/scan_synchronizer.h"
-#include "observations/observation_frames.h"
+#include "logs/frames/max_range_study.h"
+#include "logs/frames/scan_synchronizer.h"
+#include "logs/observations/observation_frames.h"
 
 namespace psi_slam {
 

@@ -2,8 +2,8 @@
 #include <iostream>
 
 #include "base/portable_math.h"
-#include "frames/pose_operations.h"
-#include "local_maps/front_end.h"
+#include "logs/frames/pose_operations.h"
+#include "mapping/local_maps/front_end.h"
 #include "mapping/carried_frames.h"
 #include "mrpt/entry_frames.h"
 #include "mrpt/graph_mirror.h"

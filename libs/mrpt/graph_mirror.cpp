@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "pose_graph/information_matrix.h"
 #include "psi_slam/user_error.h"
 

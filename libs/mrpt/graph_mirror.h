@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "loop_closure/keyframe_store.h"
+#include "mapping/loop_closure/keyframe_store.h"
 #include "pose_graph/sparse_pose_adjustment.h"
 #include "psi_slam/graphslam_deciders.h"
 

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "psi_slam/graphslam_deciders.h"
-#include "report/output_folder.h"
-#include "trajectory/trajectory_file.h"
+#include "map/report/output_folder.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "config/ini_file.h"
-#include "config/settings_text.h"
+#include "base/config/ini_file.h"
+#include "base/config/settings_text.h"
 
 namespace psi_slam {
 namespace {

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "frames/max_range_study.h"
-#include "frames/pose_operations.h"
-#include "local_maps/local_map.h"
-#include "loop_closure/keyframe_store.h"
-#include "observations/observation_frames.h"
+#include "logs/frames/max_range_study.h"
+#include "logs/frames/pose_operations.h"
+#include "mapping/local_maps/local_map.h"
+#include "mapping/loop_closure/keyframe_store.h"
+#include "logs/observations/observation_frames.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

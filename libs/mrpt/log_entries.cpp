@@ -9,14 +9,14 @@
 #include <string>
 #include <utility>
 
-#include "frames/laser_choice.h"
-#include "frames/log_format.h"
-#include "frames/pose_operations.h"
-#include "observations/cloud_points.h"
-#include "observations/mrpt_objects.h"
+#include "logs/frames/laser_choice.h"
+#include "logs/frames/log_format.h"
+#include "logs/frames/pose_operations.h"
+#include "logs/observations/cloud_points.h"
+#include "logs/observations/mrpt_objects.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
-#include "rawlog/rawlog_archive.h"
+#include "logs/rawlog/rawlog_archive.h"
 
 namespace psi_slam {
 namespace {

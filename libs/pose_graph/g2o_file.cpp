@@ -11,7 +11,7 @@
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
-#include "compression/line_reader.h"
+#include "base/compression/line_reader.h"
 #include "pose_graph/information_matrix.h"
 #include "pose_graph/spanning_tree.h"
 #include "psi_slam/user_error.h"

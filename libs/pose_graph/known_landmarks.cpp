@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/portable_math.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "pose_graph/constraint_error.h"
 #include "pose_graph/information_matrix.h"
 #include "pose_graph/marginal_covariance.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "frames/position_variance.h"
+#include "logs/frames/position_variance.h"
 
 namespace psi_slam {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "pose_graph/information_matrix.h"
 #include "pose_graph/marginal_covariance.h"
 #include "psi_slam/user_error.h"

@@ -5,7 +5,7 @@
 #include <deque>
 #include <string>
 
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 
 namespace psi_slam {
 

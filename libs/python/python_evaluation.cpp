@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/number_text.h"
-#include "evaluation/relations_metric.h"
+#include "map/trajectory/relations_metric.h"
 #include "psi_slam/user_error.h"
 #include "python/python_result.h"
 

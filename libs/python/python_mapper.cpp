@@ -14,7 +14,7 @@
 
 #include "base/number_text.h"
 #include "base/scope_exit.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 #include "python/python_result.h"
 #include "python/python_scan.h"

@@ -12,11 +12,11 @@
 #include <utility>
 
 #include "base/number_text.h"
-#include "exports/csv_tables.h"
-#include "exports/mapped_trajectory.h"
+#include "map/exports/csv_tables.h"
+#include "map/exports/mapped_trajectory.h"
 #include "python/errors.h"
-#include "rendering/map_image.h"
-#include "report/output_folder.h"
+#include "map/rendering/map_image.h"
+#include "map/report/output_folder.h"
 #include "session/drawn_map.h"
 
 namespace psi_slam {

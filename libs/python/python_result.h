@@ -14,7 +14,7 @@
 #include "base/scope_exit.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam/user_error.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "base/number_text.h"
-#include "frames/laser_readings.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/laser_readings.h"
+#include "logs/frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

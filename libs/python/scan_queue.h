@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "frames/repeated_scans.h"
+#include "logs/frames/repeated_scans.h"
 #include "psi_slam/frame_source.h"
 
 namespace psi_slam {

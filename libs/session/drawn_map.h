@@ -3,7 +3,7 @@
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
-#include "exports/run_summary.h"
+#include "map/exports/run_summary.h"
 
 namespace psi_slam {
 

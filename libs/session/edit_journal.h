@@ -45,7 +45,7 @@
 
 #include "psi_slam/fixed_knowledge.h"
 #include "psi_slam/loop_record.h"
-#include "rendering/map_edits.h"
+#include "map/rendering/map_edits.h"
 
 namespace psi_slam {
 

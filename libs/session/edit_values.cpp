@@ -6,7 +6,7 @@
 
 #include "base/quotable_text.h"
 #include "base/text_parts.h"
-#include "config/nearest_name.h"
+#include "base/config/nearest_name.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "frames/laser_readings.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/laser_readings.h"
+#include "logs/frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {

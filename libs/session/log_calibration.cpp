@@ -11,11 +11,11 @@
 #include "base/number_text.h"
 #include "base/portable_math.h"
 #include "base/significance.h"
-#include "doctor/laser_faults.h"
-#include "doctor/odometry_calibration.h"
-#include "frames/laser_choice.h"
-#include "frames/log_reader.h"
-#include "frames/pose_operations.h"
+#include "logs/doctor/laser_faults.h"
+#include "logs/doctor/odometry_calibration.h"
+#include "logs/frames/laser_choice.h"
+#include "logs/frames/log_reader.h"
+#include "logs/frames/pose_operations.h"
 #include "psi_slam/open_log.h"
 
 namespace psi_slam {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/share_observer.h"
-#include "exports/run_summary.h"
+#include "map/exports/run_summary.h"
 #include "psi_slam/log_options.h"
 
 namespace psi_slam {

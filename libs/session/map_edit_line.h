@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "rendering/map_edits.h"
+#include "map/rendering/map_edits.h"
 
 namespace psi_slam {
 

@@ -20,7 +20,7 @@
 #include "session/session_prior.h"
 #include "session/session_recording.h"
 #include "session/settings.h"
-#include "verdict/map_verdict.h"
+#include "map/verdict/map_verdict.h"
 
 namespace psi_slam {
 

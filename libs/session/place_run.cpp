@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "frames/discarded_ranges.h"
-#include "frames/pose_operations.h"
-#include "local_maps/front_end.h"
+#include "logs/frames/discarded_ranges.h"
+#include "logs/frames/pose_operations.h"
+#include "mapping/local_maps/front_end.h"
 #include "psi_slam/localizer.h"
 #include "psi_slam/user_error.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "config/ini_file.h"
+#include "base/config/ini_file.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "compression/compression.h"
-#include "frames/pose_operations.h"
+#include "base/compression/compression.h"
+#include "logs/frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

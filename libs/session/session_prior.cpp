@@ -8,9 +8,9 @@
 
 #include "base/number_text.h"
 #include "base/text_parts.h"
-#include "comparison/wall_changes.h"
+#include "localization/comparison/wall_changes.h"
 #include "psi_slam/user_error.h"
-#include "rendering/extended_map.h"
+#include "map/rendering/extended_map.h"
 #include "session/plan_drawing.h"
 
 namespace psi_slam {

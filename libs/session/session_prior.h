@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "exports/run_summary.h"
+#include "map/exports/run_summary.h"
 #include "localization/prior_map.h"
 #include "localization/reference_map.h"
 #include "psi_slam/fixed_knowledge.h"

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/number_text.h"
-#include "config/ini_file.h"
-#include "config/settings_text.h"
-#include "frames/laser_readings.h"
+#include "base/config/ini_file.h"
+#include "base/config/settings_text.h"
+#include "logs/frames/laser_readings.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
 

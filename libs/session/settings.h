@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "config/option_table.h"
-#include "exports/map_files.h"
+#include "base/config/option_table.h"
+#include "map/exports/map_files.h"
 #include "localization/localizer_options.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/grid_map.h"

@@ -44,8 +44,8 @@ function(psi_slam_join_sources count)
 endfunction()
 
 # psi_slam_add_library(NAME [LIGHT] SOURCES file... [PUBLIC dependency...] [PRIVATE dependency...])
-# Adds the static library of libs/NAME as psi-slam::NAME. Its own headers lie beside its sources and are included as
-# "NAME/file.h"; the public headers of all libraries are libs/include/psi_slam/*.h. The library is installed if a
+# Adds a static library as psi-slam::NAME. Its own headers lie beside its sources and are included by their path below
+# libs/; the public headers of all libraries are libs/include/psi_slam/*.h. The library is installed if a
 # component of the package needs it, see PsiSlamInstallation.cmake. LIGHT: see psi_slam_configure_light_target().
 function(psi_slam_add_library name)
   cmake_parse_arguments(ARG "LIGHT" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
@@ -93,11 +93,13 @@ function(psi_slam_configure_light_target target)
     $<$<CONFIG:Release>:-O1> $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-Wno-maybe-uninitialized>)
 endfunction()
 
-# psi_slam_add_tests(NAME [SEPARATE] LINK dependency...)
-# Adds one program NAME_tests with all tests/NAME/*_test.cpp, see psi_slam_add_test_suites(). SEPARATE compiles each source alone.
-function(psi_slam_add_tests name)
+# psi_slam_add_tests(FOLDER [SEPARATE] LINK dependency...)
+# Adds one program NAME_tests with all tests/FOLDER/*_test.cpp, see psi_slam_add_test_suites(). NAME is the last part of FOLDER.
+# SEPARATE compiles each source alone.
+function(psi_slam_add_tests folder)
   cmake_parse_arguments(ARG "SEPARATE" "" "LINK" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*_test.cpp)
+  get_filename_component(name ${folder} NAME)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cpp)
   if(NOT sources)
     return()
   endif()

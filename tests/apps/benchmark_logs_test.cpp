@@ -6,11 +6,11 @@
 #include <ostream>
 
 #include "app_run.h"
-#include "evaluation/relations_metric.h"
+#include "map/trajectory/relations_metric.h"
 #include "sanitizer.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

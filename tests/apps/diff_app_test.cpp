@@ -6,8 +6,8 @@
 
 #include "../session/room_log.h"
 #include "app_run.h"
-#include "exports/map_files.h"
-#include "exports/map_server_pair.h"
+#include "map/exports/map_files.h"
+#include "map/exports/map_server_pair.h"
 #include "localization/reference_map.h"
 #include "temporary_folder.h"
 

@@ -7,7 +7,7 @@
 
 #include "../session/room_log.h"
 #include "app_run.h"
-#include "report/output_folder.h"
+#include "map/report/output_folder.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {

@@ -9,7 +9,7 @@
 #include "pose_graph/g2o_file.h"
 #include "temporary_folder.h"
 #include "test_files.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

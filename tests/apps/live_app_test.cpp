@@ -17,7 +17,7 @@
 #include "sender.h"
 #include "session/session_file.h"
 #include "temporary_folder.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

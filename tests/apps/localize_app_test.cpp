@@ -11,7 +11,7 @@
 #include "../session/room_log.h"
 #include "app_run.h"
 #include "temporary_folder.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

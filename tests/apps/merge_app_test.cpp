@@ -15,7 +15,7 @@
 #include "session/settings.h"
 #include "temporary_folder.h"
 #include "test_files.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 #include "zone_corners.h"
 
 namespace psi_slam {

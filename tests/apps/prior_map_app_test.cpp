@@ -13,7 +13,7 @@
 #include "localization/reference_map.h"
 #include "temporary_folder.h"
 #include "test_files.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

@@ -20,7 +20,7 @@
 #include "same_results.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

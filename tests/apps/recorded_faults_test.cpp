@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "app_run.h"
-#include "compression/line_reader.h"
+#include "base/compression/line_reader.h"
 #include "path_error.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "app_run.h"
-#include "config/ini_file.h"
-#include "config/settings_text.h"
+#include "base/config/ini_file.h"
+#include "base/config/settings_text.h"
 #include "session/settings.h"
 #include "temporary_folder.h"
 

@@ -8,7 +8,7 @@
 #include "app_run.h"
 #include "rawlog_files.h"
 #include "temporary_folder.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

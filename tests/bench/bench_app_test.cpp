@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command_fixture.h"
-#include "evaluation/relations_metric.h"
+#include "map/trajectory/relations_metric.h"
 #include "progress_line.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/time_stamp.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "exports/run_summary.h"
+#include "map/exports/run_summary.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "local_maps/front_end.h"
+#include "mapping/local_maps/front_end.h"
 
 namespace psi_slam {
 namespace {

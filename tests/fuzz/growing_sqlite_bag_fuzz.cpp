@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "fuzz_target.h"
-#include "rosbag/bag_file.h"
+#include "logs/rosbag/bag_file.h"
 
 /// Follows a ROS 2 bag in an SQLite file with a write-ahead log. The first byte is the number of pages of 512
 /// bytes of the database; the log follows them.

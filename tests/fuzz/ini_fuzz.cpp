@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "config/ini_file.h"
+#include "base/config/ini_file.h"
 #include "fuzz_target.h"
 
 /// Parses a settings file. Included files do not exist.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carmen/carmen_stream.h"
+#include "logs/carmen/carmen_stream.h"
 #include "fuzz_target.h"
-#include "rosbag/rosbag_stream.h"
+#include "logs/rosbag/rosbag_stream.h"
 
 /// Reads a stream: CARMEN lines if the first byte is even, a bag that is being recorded if it is odd.
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

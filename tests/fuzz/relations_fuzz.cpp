@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evaluation/relations_metric.h"
+#include "map/trajectory/relations_metric.h"
 
 #include "fuzz_target.h"
 

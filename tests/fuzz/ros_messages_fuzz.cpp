@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fuzz_target.h"
-#include "rosbag/ros_messages.h"
+#include "logs/rosbag/ros_messages.h"
 
 /// Reads a message. The first byte chooses the type (bits 1 to 3) and the encoding (bit 0).
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

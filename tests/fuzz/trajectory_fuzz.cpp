@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 #include "fuzz_target.h"
 

@@ -8,7 +8,7 @@
 #include "gui_run.h"
 #include "message_bar.h"
 #include "psi_slam/mapping_session.h"
-#include "report/output_folder.h"
+#include "map/report/output_folder.h"
 #include "session/settings.h"
 #include "settings_panel.h"
 #include "test_files.h"

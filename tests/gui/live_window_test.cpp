@@ -7,7 +7,7 @@
 #include "gui_run.h"
 #include "message_bar.h"
 #include "psi_slam/mapping_session.h"
-#include "report/output_folder.h"
+#include "map/report/output_folder.h"
 #include "same_results.h"
 #include "sender.h"
 #include "session/settings.h"

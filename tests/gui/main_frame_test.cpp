@@ -16,13 +16,13 @@
 #include "message_bar.h"
 #include "psi_slam/loop_record.h"
 #include "psi_slam/mapping_session.h"
-#include "report/output_folder.h"
+#include "map/report/output_folder.h"
 #include "same_results.h"
 #include "session/edit_journal.h"
 #include "session/settings.h"
 #include "settings_panel.h"
 #include "shared_logs.h"
-#include "view/palette.h"
+#include "gui/palette.h"
 
 namespace psi_slam {
 namespace {

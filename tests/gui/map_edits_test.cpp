@@ -8,7 +8,7 @@
 #include "map_canvas.h"
 #include "message_bar.h"
 #include "psi_slam/mapping_session.h"
-#include "report/output_folder.h"
+#include "map/report/output_folder.h"
 #include "same_results.h"
 #include "session/edit_journal.h"
 #include "speed_dialog.h"

@@ -8,7 +8,7 @@
 
 #include "../session/room_log.h"
 #include "gui_run.h"
-#include "report/decade_axis.h"
+#include "map/report/decade_axis.h"
 
 namespace psi_slam {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "compression/line_reader.h"
+#include "base/compression/line_reader.h"
 #include "psi_slam/open_log.h"
 #include "same_frames.h"
 #include "shared_logs.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "compression/byte_source.h"
+#include "base/compression/byte_source.h"
 
 namespace psi_slam {
 

@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "exports/map_server_pair.h"
+#include "map/exports/map_server_pair.h"
 #include "localization/reference_map.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"

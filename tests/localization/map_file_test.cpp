@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 
 #include "base/file_checksum.h"
-#include "compression/compressed_file.h"
+#include "base/compression/compressed_file.h"
 #include "decompression_bombs.h"
-#include "exports/map_files.h"
-#include "exports/map_server_pair.h"
+#include "map/exports/map_files.h"
+#include "map/exports/map_server_pair.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 

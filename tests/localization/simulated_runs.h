@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "localization/localizer_options.h"
 #include "localization/reference_map.h"
 #include "psi_slam/grid_map.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "frames/body_masked_source.h"
+#include "logs/frames/body_masked_source.h"
 
 #include <gmock/gmock.h>
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/text_parts.h"
-#include "frames/log_reader.h"
+#include "logs/frames/log_reader.h"
 #include "log_files.h"
 #include "robot_body.h"
 #include "shared_logs.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "frames/deskewed_source.h"
+#include "logs/frames/deskewed_source.h"
 
 #include <gmock/gmock.h>
 #include <mrpt/math/wrap2pi.h>
@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "bag_files.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "log_files.h"
 #include "simulated_run.h"
 #include "temporary_folder.h"

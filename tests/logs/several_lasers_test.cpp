@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "frames/scan_synchronizer.h"
+#include "logs/frames/scan_synchronizer.h"
 
 #include <gmock/gmock.h>
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "frames/deskewed_source.h"
-#include "frames/log_reader.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/deskewed_source.h"
+#include "logs/frames/log_reader.h"
+#include "logs/frames/pose_operations.h"
 #include "frames_in_memory.h"
 #include "log_files.h"
 #include "shared_logs.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../local_maps/simulated_drive.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
 #include "same_map.h"

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "evaluation/relations_metric.h"
-#include "exports/mapped_trajectory.h"
+#include "map/trajectory/relations_metric.h"
+#include "map/exports/mapped_trajectory.h"
 #include "log_files.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"

@@ -10,7 +10,7 @@
 
 #include "../local_maps/simulated_drive.h"
 #include "base/random_draws.h"
-#include "local_maps/scan_filter.h"
+#include "mapping/local_maps/scan_filter.h"
 
 namespace psi_slam {
 namespace {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "../local_maps/simulated_drive.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "same_map.h"
 
 namespace psi_slam {

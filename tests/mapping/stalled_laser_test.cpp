@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "frames/log_reader.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/log_reader.h"
+#include "logs/frames/pose_operations.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
 #include "simulated_run.h"

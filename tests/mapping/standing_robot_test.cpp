@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "exports/run_summary.h"
-#include "frames/discarded_ranges.h"
+#include "map/exports/run_summary.h"
+#include "logs/frames/discarded_ranges.h"
 #include "psi_slam/mapper.h"
 #include "simulated_room.h"
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "local_maps/front_end.h"
+#include "mapping/local_maps/front_end.h"
 #include "psi_slam/open_log.h"
 #include "shared_logs.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "../local_maps/simulated_drive.h"
-#include "local_maps/scan_filter.h"
+#include "mapping/local_maps/scan_filter.h"
 
 namespace psi_slam {
 namespace {

@@ -13,7 +13,7 @@
 #include "simulated_rawlog.h"
 #include "temporary_folder.h"
 #include "test_files.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

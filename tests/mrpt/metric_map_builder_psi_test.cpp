@@ -23,7 +23,7 @@
 #include <type_traits>
 
 #include "../local_maps/simulated_drive.h"
-#include "observations/mrpt_objects.h"
+#include "logs/observations/mrpt_objects.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"

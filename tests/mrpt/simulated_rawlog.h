@@ -13,9 +13,9 @@
 #include <memory>
 #include <vector>
 
-#include "observations/mrpt_objects.h"
+#include "logs/observations/mrpt_objects.h"
 #include "simulation/simulated_log.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 

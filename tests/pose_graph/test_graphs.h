@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "pose_graph/constraint_error.h"
 #include "psi_slam/pose_graph.h"
 

@@ -10,10 +10,10 @@
 #include <limits>
 #include <string>
 
-#include "exports/map_files.h"
-#include "exports/map_server_pair.h"
-#include "exports/mapped_trajectory.h"
-#include "exports/run_summary.h"
+#include "map/exports/map_files.h"
+#include "map/exports/map_server_pair.h"
+#include "map/exports/mapped_trajectory.h"
+#include "map/exports/run_summary.h"
 #include "localization/reference_map.h"
 #include "psi_slam/configuration.h"
 #include "psi_slam/grid_map.h"

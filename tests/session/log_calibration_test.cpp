@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "bag_files.h"
-#include "doctor/odometry_calibration.h"
-#include "frames/laser_choice.h"
+#include "logs/doctor/odometry_calibration.h"
+#include "logs/frames/laser_choice.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam/open_log.h"
 #include "session/settings.h"

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "exports/mapped_trajectory.h"
+#include "map/exports/mapped_trajectory.h"
 #include "simulated_room.h"
 #include "test_files.h"
 

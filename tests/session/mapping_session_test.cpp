@@ -10,14 +10,14 @@
 #include <functional>
 #include <thread>
 
-#include "exports/mapped_trajectory.h"
-#include "exports/run_summary.h"
+#include "map/exports/mapped_trajectory.h"
+#include "map/exports/run_summary.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/grid_map.h"
-#include "rendering/map_image.h"
-#include "report/output_folder.h"
-#include "report/report_html.h"
+#include "map/rendering/map_image.h"
+#include "map/report/output_folder.h"
+#include "map/report/report_html.h"
 #include "room_log.h"
 #include "same_map.h"
 #include "same_results.h"
@@ -28,7 +28,7 @@
 #include "session/settings.h"
 #include "temporary_folder.h"
 #include "test_files.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "../localization/simulated_runs.h"
 #include "psi_slam/mapping_session.h"
-#include "report/output_folder.h"
+#include "map/report/output_folder.h"
 #include "same_results.h"
 #include "session/place_run.h"
 #include "session/session_file.h"

@@ -19,7 +19,7 @@
 #include <cmath>
 
 #include "base/file_checksum.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "psi_slam/mapping_session.h"
 #include "room_log.h"
 #include "session/recorded_settings.h"

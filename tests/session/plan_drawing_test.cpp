@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "exports/map_files.h"
+#include "map/exports/map_files.h"
 #include "psi_slam/user_error.h"
 #include "temporary_folder.h"
 #include "test_files.h"

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "psi_slam/mapping_session.h"
-#include "report/output_folder.h"
+#include "map/report/output_folder.h"
 #include "room_log.h"
 #include "session/settings.h"
 #include "temporary_folder.h"

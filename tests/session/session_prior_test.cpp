@@ -12,7 +12,7 @@
 
 #include "psi_slam/mapping_session.h"
 #include "psi_slam/user_error.h"
-#include "report/output_folder.h"
+#include "map/report/output_folder.h"
 #include "room_drawing.h"
 #include "room_log.h"
 #include "same_results.h"

@@ -7,8 +7,8 @@
 #include <functional>
 #include <set>
 
-#include "config/ini_file.h"
-#include "config/settings_text.h"
+#include "base/config/ini_file.h"
+#include "base/config/settings_text.h"
 #include "member_count.h"
 #include "psi_slam/user_error.h"
 

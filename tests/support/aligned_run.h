@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "doctor/pair_alignment.h"
+#include "logs/doctor/pair_alignment.h"
 #include "simulated_run.h"
 
 namespace psi_slam {

@@ -2,7 +2,7 @@
 // A made-up verdict with one hot spot, for the tests of exports and reports.
 #pragma once
 
-#include "verdict/map_verdict.h"
+#include "map/verdict/map_verdict.h"
 
 namespace psi_slam {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Test helpers that write recordings as ROS 1 bags. They follow the format specification, whereas
-// write_ros1_bag.py in tests/rosbag writes bags with ROS's own library.
+// write_ros1_bag.py in tests/logs/rosbag writes bags with ROS's own library.
 #pragma once
 
 #include <bzlib.h>

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "frames/laser_readings.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/laser_readings.h"
+#include "logs/frames/pose_operations.h"
 #include "psi_slam/frame.h"
 
 namespace psi_slam {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bag_files.h"
-#include "frames/laser_readings.h"
+#include "logs/frames/laser_readings.h"
 #include "simulated_run.h"
 
 namespace psi_slam {

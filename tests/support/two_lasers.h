@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bag_files.h"
-#include "frames/odometry_interpolator.h"
+#include "logs/frames/odometry_interpolator.h"
 #include "rawlog_files.h"
 #include "simulated_run.h"
 #include "test_files.h"

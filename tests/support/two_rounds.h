@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "../local_maps/simulated_drive.h"
-#include "local_maps/front_end.h"
-#include "loop_closure/keyframe_store.h"
+#include "mapping/local_maps/front_end.h"
+#include "mapping/loop_closure/keyframe_store.h"
 #include "psi_slam/loop_record.h"
 #include "psi_slam/pose_graph.h"
 

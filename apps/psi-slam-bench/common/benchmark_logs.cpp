@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "batch/kept_run.h"
-#include "exports/mapped_trajectory.h"
+#include "map/exports/mapped_trajectory.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "evaluation/relations_metric.h"
+#include "map/trajectory/relations_metric.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/mapper.h"

@@ -8,7 +8,7 @@
 
 #include "base/number_text.h"
 #include "base/portable_math.h"
-#include "report/html_text.h"
+#include "map/report/html_text.h"
 
 namespace psi_slam {
 namespace {

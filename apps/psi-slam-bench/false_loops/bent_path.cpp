@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/random_draws.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "pose_graph/changed_path.h"
 
 namespace psi_slam {

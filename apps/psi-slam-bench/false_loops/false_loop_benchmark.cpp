@@ -12,8 +12,8 @@
 #include "base/portable_math.h"
 #include "base/random_draws.h"
 #include "false_loops/bent_path.h"
-#include "frames/pose_operations.h"
-#include "loop_closure/outlier_loops.h"
+#include "logs/frames/pose_operations.h"
+#include "mapping/loop_closure/outlier_loops.h"
 #include "mapping/carried_frames.h"
 #include "psi_slam/open_log.h"
 

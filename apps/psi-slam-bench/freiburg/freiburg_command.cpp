@@ -10,7 +10,7 @@
 #include "mpi_option.h"
 #include "number_between.h"
 #include "psi_slam/user_error.h"
-#include "report/html_text.h"
+#include "map/report/html_text.h"
 
 namespace psi_slam {
 namespace {

@@ -6,7 +6,7 @@
 #include "base/number_text.h"
 #include "batch/kept_run.h"
 #include "freiburg/freiburg_comparison.h"
-#include "report/html_text.h"
+#include "map/report/html_text.h"
 
 namespace psi_slam {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "base/temporary_folder.h"
 #include "live_mapping.h"
-#include "loop_closure/keyframe_store.h"
+#include "mapping/loop_closure/keyframe_store.h"
 #include "mapping/carried_frames.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam/open_log.h"

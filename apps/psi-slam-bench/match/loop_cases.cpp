@@ -8,8 +8,8 @@
 
 #include "base/portable_math.h"
 #include "base/random_draws.h"
-#include "frames/pose_operations.h"
-#include "loop_closure/scan_context.h"
+#include "logs/frames/pose_operations.h"
+#include "mapping/loop_closure/scan_context.h"
 #include "psi_slam/open_log.h"
 
 namespace psi_slam {

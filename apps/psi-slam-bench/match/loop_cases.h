@@ -14,8 +14,8 @@
 
 #include "base/degrees.h"
 #include "common/benchmark_logs.h"
-#include "local_maps/local_map.h"
-#include "loop_closure/keyframe_store.h"
+#include "mapping/local_maps/local_map.h"
+#include "mapping/loop_closure/keyframe_store.h"
 #include "matching/matcher.h"
 
 namespace psi_slam {

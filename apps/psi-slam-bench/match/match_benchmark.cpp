@@ -13,7 +13,7 @@
 #include "base/number_text.h"
 #include "base/portable_math.h"
 #include "common/processor_time.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "matching/make_matcher.h"
 #include "psi_slam/user_error.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/number_text.h"
-#include "exports/mapped_trajectory.h"
+#include "map/exports/mapped_trajectory.h"
 #include "psi_slam/open_log.h"
 
 namespace psi_slam {

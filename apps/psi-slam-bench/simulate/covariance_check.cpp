@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/random_draws.h"
-#include "frames/pose_operations.h"
-#include "loop_closure/keyframe_store.h"
+#include "logs/frames/pose_operations.h"
+#include "mapping/loop_closure/keyframe_store.h"
 #include "pose_graph/constraint_error.h"
 #include "pose_graph/marginal_covariance.h"
 #include "pose_graph/path_covariance.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "psi_slam/mapping_result.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 

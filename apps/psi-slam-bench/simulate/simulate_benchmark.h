@@ -11,7 +11,7 @@
 
 #include "batch/workers.h"
 #include "common/bench_report.h"
-#include "evaluation/relations_metric.h"
+#include "map/trajectory/relations_metric.h"
 #include "psi_slam/mapping_result.h"
 #include "simulate/covariance_check.h"
 #include "simulation/simulated_log.h"

@@ -7,7 +7,7 @@
 #include "base/number_text.h"
 #include "batch/kept_run.h"
 #include "common/log_plots.h"
-#include "report/html_text.h"
+#include "map/report/html_text.h"
 
 namespace psi_slam {
 namespace {

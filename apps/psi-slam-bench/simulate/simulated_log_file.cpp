@@ -13,9 +13,9 @@
 #include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "common/bench_command.h"
-#include "compression/compression.h"
-#include "exports/corrected_log.h"
-#include "frames/pose_operations.h"
+#include "base/compression/compression.h"
+#include "map/exports/corrected_log.h"
+#include "logs/frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 #include "simulate/simulate_benchmark.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "simulation/simulated_log.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/portable_math.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "simulation/simulation_random.h"
 
 namespace psi_slam {

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "base/portable_math.h"
-#include "frames/laser_readings.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/laser_readings.h"
+#include "logs/frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/number_text.h"
 #include "base/worker_pool.h"
 #include "common/benchmark_logs.h"
-#include "exports/unmatched_scans.h"
+#include "map/exports/unmatched_scans.h"
 #include "simulate/simulate_benchmark.h"
 #include "sparse/step_thinned_source.h"
 

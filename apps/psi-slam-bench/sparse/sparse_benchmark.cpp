@@ -8,12 +8,12 @@
 
 #include "base/number_text.h"
 #include "common/measured_map.h"
-#include "exports/mapped_trajectory.h"
-#include "exports/unmatched_scans.h"
+#include "map/exports/mapped_trajectory.h"
+#include "map/exports/unmatched_scans.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
-#include "rendering/map_image.h"
+#include "map/rendering/map_image.h"
 
 namespace psi_slam {
 namespace {

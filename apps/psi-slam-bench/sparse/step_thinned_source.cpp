@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/portable_math.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "psi_slam/frame_source.h"
-#include "trajectory/trajectory_file.h"
+#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verdict/verdict_benchmark.h"
+#include "map/verdict/verdict_benchmark.h"
 
 #include <algorithm>
 
 #include "common/processor_time.h"
-#include "frames/pose_operations.h"
+#include "logs/frames/pose_operations.h"
 
 namespace psi_slam {
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes map.yaml and map.pgm again and again while the robot drives.
+//
+//     LiveMapWriter writer(folder.path(), settings.map, settings.live.map_period_s);
+//     after each scan:  writer.update(mapper);
+//
+// The scan costs what changed in the map, see LiveGridMap. A thread of the writer's own writes the files.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "psi_slam/grid_map.h"
+#include "psi_slam/mapper.h"
+#include "map/rendering/live_grid_map.h"
+#include "map/rendering/live_poses.h"
+
+namespace psi_slam {
+
+class LiveMapWriter {
+ public:
+  /// Writes to an existing folder every `period_s` seconds, if the map has changed. 0: never.
+  LiveMapWriter(std::filesystem::path folder, const GridMapOptions& map, double period_s);
+  /// Waits until files that are being written are complete. Destroy the writer before the final export.
+  ~LiveMapWriter();
+  LiveMapWriter(const LiveMapWriter&) = delete;
+  LiveMapWriter& operator=(const LiveMapWriter&) = delete;
+
+  /// Draws the new scans of the mapper and some of those that moved, fewer if `hurry` becomes true. If the
+  /// period is over, hands the map to the writing thread. Call it in the thread that calls the mapper, before
+  /// finish().
+  void update(const Mapper& mapper, const LiveGridMap::Hurry& hurry = {});
+
+  /// Draws all scans that moved, as calls of update() do in the time between later scans.
+  void settle(const Mapper& mapper);
+
+  /// Why the map could not be written the last time, a sentence without full stop; empty if it was written.
+  std::optional<std::string> failure() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void hand_over();
+  void work();
+
+  const std::filesystem::path folder_;
+  const std::chrono::duration<double> period_;
+  LiveGridMap map_;
+  LivePoses poses_;
+  Clock::time_point last_;       ///< time of the last hand-over
+  std::size_t handed_work_ = 0;  ///< map_.work() at the last hand-over
+
+  mutable std::mutex mutex_;  ///< protects the members below
+  std::condition_variable changed_;
+  std::optional<GridSnapshot> wanted_;  ///< the map to write next
+  std::optional<std::string> failure_;
+  bool stop_ = false;
+
+  std::thread thread_;
+};
+
+}  // namespace psi_slam

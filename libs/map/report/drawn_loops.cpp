@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/report/drawn_loops.h"
+
+#include <algorithm>
+#include <map>
+
+namespace psi_slam {
+
+std::vector<std::size_t> drawn_loops(const std::vector<LoopRecord>& loops) {
+  struct Sampling {
+    std::size_t count = 0;
+    std::size_t seen = 0;
+  };
+  std::map<LoopVerdict, Sampling> of_verdict;
+  for (const LoopRecord& loop : loops)
+    if (!loop.by_hand) ++of_verdict[loop.verdict].count;
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    bool drawn = true;
+    if (!loops[i].by_hand) {
+      auto& [count, seen] = of_verdict[loops[i].verdict];
+      const std::size_t most = std::min(count, kMaxLoopsDrawn);
+      drawn = seen * most / count != (seen + 1) * most / count;
+      ++seen;
+    }
+    if (drawn) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+}  // namespace psi_slam

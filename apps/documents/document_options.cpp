@@ -7,8 +7,8 @@
 #include <map>
 #include <sstream>
 
-#include "command_words.h"
 #include "base/config/ini_file.h"
+#include "command_words.h"
 #include "help_format.h"
 
 namespace psi_slam {

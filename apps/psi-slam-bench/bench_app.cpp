@@ -30,7 +30,7 @@
 #include "simulate/simulate_benchmark.h"
 #include "simulate/simulated_log_file.h"
 #include "sparse/sparse_benchmark.h"
-#include "map/verdict/verdict_benchmark.h"
+#include "verdict/verdict_benchmark.h"
 
 namespace psi_slam {
 namespace {

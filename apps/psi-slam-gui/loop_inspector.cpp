@@ -11,9 +11,9 @@
 #include <array>
 #include <utility>
 
+#include "gui/palette.h"
 #include "loop_canvas.h"
 #include "main_menu.h"
-#include "gui/palette.h"
 #include "wx_text.h"
 
 namespace psi_slam {

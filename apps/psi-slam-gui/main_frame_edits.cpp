@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Actions of the Edit menu, which change loops by hand, and files of edits.
 #include "base/number_text.h"
+#include "gui/loop_between_places.h"
+#include "gui/palette.h"
 #include "loop_inspector.h"
 #include "main_frame.h"
 #include "main_menu.h"
@@ -8,8 +10,6 @@
 #include "message_bar.h"
 #include "psi_slam/loop_record.h"
 #include "psi_slam/user_error.h"
-#include "gui/loop_between_places.h"
-#include "gui/palette.h"
 #include "wx_text.h"
 
 namespace psi_slam {

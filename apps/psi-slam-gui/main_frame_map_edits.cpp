@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/palette.h"
 #include "main_frame.h"
 #include "main_menu.h"
 #include "map_canvas.h"
 #include "message_bar.h"
-#include "gui/palette.h"
 
 namespace psi_slam {
 namespace {

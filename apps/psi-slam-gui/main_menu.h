@@ -7,9 +7,9 @@
 
 #include <array>
 
-#include "matching/make_matcher.h"
-#include "map/rendering/map_edits.h"
 #include "gui/map_scene.h"
+#include "map/rendering/map_edits.h"
+#include "matching/make_matcher.h"
 
 namespace psi_slam {
 

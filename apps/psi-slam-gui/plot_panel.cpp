@@ -12,8 +12,8 @@
 #include <string>
 
 #include "base/portable_math.h"
-#include "map/report/decade_axis.h"
 #include "gui/palette.h"
+#include "map/report/decade_axis.h"
 #include "wx_text.h"
 
 namespace psi_slam {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/time_stamp.h"
 #include "gui/replay_snapshot.h"
+#include "psi_slam/time_stamp.h"
 
 class wxBitmapButton;
 class wxSlider;

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "batch/workers.h"
 #include "base/config/option_table.h"
+#include "batch/workers.h"
 #include "psi_slam_app.h"
 
 namespace psi_slam {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "map/exports/run_summary.h"
-#include "psi_slam/mapping_result.h"
 #include "map/report/output_folder.h"
+#include "psi_slam/mapping_result.h"
 
 namespace psi_slam {
 

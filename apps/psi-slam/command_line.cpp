@@ -10,8 +10,8 @@
 #include <sstream>
 #include <utility>
 
-#include "base/degrees.h"
 #include "base/config/nearest_name.h"
+#include "base/degrees.h"
 #include "document_options.h"
 #include "mpi_option.h"
 #include "psi_slam/user_error.h"

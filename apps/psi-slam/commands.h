@@ -8,10 +8,10 @@
 
 #include "command_line.h"
 #include "interrupt_signals.h"
+#include "map/report/output_folder.h"
 #include "progress_line.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam_app.h"
-#include "map/report/output_folder.h"
 #include "session/session_input.h"
 #include "session/session_recording.h"
 

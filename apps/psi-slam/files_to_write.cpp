@@ -7,8 +7,8 @@
 
 #include "base/partial_files.h"
 #include "batch/kept_run.h"
-#include "psi_slam/user_error.h"
 #include "map/report/output_folder.h"
+#include "psi_slam/user_error.h"
 #include "session/session_file.h"
 
 namespace psi_slam {

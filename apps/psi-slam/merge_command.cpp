@@ -3,8 +3,8 @@
 #include <ostream>
 
 #include "commands.h"
-#include "map/exports/zone_files.h"
 #include "files_to_write.h"
+#include "map/exports/zone_files.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"
 #include "session/map_frame.h"

@@ -5,9 +5,9 @@
 #include <ostream>
 #include <string_view>
 
+#include "base/config/settings_text.h"
 #include "base/exit_code.h"
 #include "commands.h"
-#include "base/config/settings_text.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

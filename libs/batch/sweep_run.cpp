@@ -9,8 +9,8 @@
 #include "base/exit_code.h"
 #include "batch/child_process.h"
 #include "batch/kept_run.h"
-#include "psi_slam/user_error.h"
 #include "map/trajectory/trajectory_file.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -19,12 +19,12 @@
 #include <vector>
 
 #include "base/portable_math.h"
-#include "logs/frames/pose_operations.h"
-#include "mapping/local_maps/scan_filter.h"
-#include "map/report/drawn_loops.h"
 #include "gui/palette.h"
 #include "gui/raster_levels.h"
 #include "gui/wide_lines.h"
+#include "logs/frames/pose_operations.h"
+#include "map/report/drawn_loops.h"
+#include "mapping/local_maps/scan_filter.h"
 
 namespace psi_slam {
 namespace {

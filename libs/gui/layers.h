@@ -9,8 +9,8 @@
 #include <string>
 
 #include "gui/map_painter.h"
-#include "gui/replay_snapshot.h"
 #include "gui/map_scene.h"
+#include "gui/replay_snapshot.h"
 
 namespace psi_slam {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "psi_slam/time_stamp.h"
 #include "gui/background_thread.h"
+#include "psi_slam/time_stamp.h"
 #include "session/session_input.h"
 
 namespace psi_slam {

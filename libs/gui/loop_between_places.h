@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include "psi_slam/loop_record.h"
 #include "gui/replay_snapshot.h"
+#include "psi_slam/loop_record.h"
 
 namespace psi_slam {
 

@@ -74,8 +74,9 @@ std::optional<LoopPicture> loop_picture(const ReplaySnapshot& snapshot, std::siz
 }
 
 double loop_residual_m(const LoopRecord& loop, const std::vector<mrpt::math::TPose2D>& map_T_node) {
-  const Eigen::Vector3d error = constraint_error(loop.reference_T_node, RotatedPose(map_T_node.at(loop.reference)),
-                                                 RotatedPose(map_T_node.at(loop.node)));
+  const Eigen::Vector3d error =
+      constraint_error(loop.reference_T_node, RotatedPose(map_T_node.at(loop.reference)),
+                       RotatedPose(map_T_node.at(loop.node)));
   return portable::hypot(error.x(), error.y());
 }
 

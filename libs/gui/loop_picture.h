@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "map/rendering/map_image.h"
 #include "gui/replay_snapshot.h"
+#include "map/rendering/map_image.h"
 
 namespace psi_slam {
 

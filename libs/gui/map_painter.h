@@ -10,12 +10,12 @@
 #include <optional>
 #include <vector>
 
-#include "psi_slam/frame.h"
-#include "psi_slam/grid_map.h"
-#include "map/rendering/map_edits.h"
-#include "map/rendering/map_image.h"
 #include "gui/background_thread.h"
 #include "gui/shared_history.h"
+#include "map/rendering/map_edits.h"
+#include "map/rendering/map_image.h"
+#include "psi_slam/frame.h"
+#include "psi_slam/grid_map.h"
 #include "session/settings.h"
 
 namespace psi_slam {

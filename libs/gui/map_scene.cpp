@@ -6,10 +6,10 @@
 
 #include <algorithm>
 
-#include "logs/frames/discarded_ranges.h"
 #include "gui/layers.h"
 #include "gui/palette.h"
 #include "gui/raster_levels.h"
+#include "logs/frames/discarded_ranges.h"
 
 namespace psi_slam {
 namespace {

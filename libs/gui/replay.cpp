@@ -6,9 +6,9 @@
 
 #include "base/failure_notice.h"
 #include "base/scope_exit.h"
-#include "psi_slam/user_error.h"
 #include "gui/snapshot_maker.h"
 #include "map/report/output_folder.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -13,14 +13,14 @@
 #include <string>
 #include <vector>
 
+#include "gui/shared_history.h"
 #include "map/exports/unmatched_scans.h"
+#include "map/verdict/map_verdict.h"
 #include "mapping/loop_closure/keyframe_store.h"
 #include "psi_slam/frame.h"
 #include "psi_slam/mapping_result.h"
 #include "psi_slam/mapping_session.h"
-#include "gui/shared_history.h"
 #include "session/edit_journal.h"
-#include "map/verdict/map_verdict.h"
 
 namespace psi_slam {
 

@@ -7,10 +7,10 @@
 #include <iterator>
 #include <utility>
 
-#include "logs/frames/log_format.h"
 #include "live/growing_log.h"
-#include "psi_slam/user_error.h"
+#include "logs/frames/log_format.h"
 #include "logs/rosbag/rosbag_stream.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 

@@ -10,9 +10,9 @@
 #include <thread>
 #include <utility>
 
-#include "base/text_parts.h"
 #include "base/compression/decompressor.h"
 #include "base/compression/growing_file.h"
+#include "base/text_parts.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

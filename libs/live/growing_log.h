@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "base/compression/byte_source.h"
-#include "logs/frames/log_format.h"
 #include "live/line_stream.h"
 #include "live/live_control.h"
+#include "logs/frames/log_format.h"
 #include "logs/rosbag/bag_recorder.h"
 
 namespace psi_slam {

@@ -4,15 +4,15 @@
 #include <filesystem>
 #include <utility>
 
-#include "logs/carmen/carmen_stream.h"
 #include "live/growing_folder.h"
 #include "live/growing_log.h"
 #include "live/line_streams.h"
 #include "live/sensor_module.h"
+#include "logs/carmen/carmen_stream.h"
 #include "logs/frame_pipeline.h"
-#include "psi_slam/user_error.h"
 #include "logs/rawlog/observation_stream.h"
 #include "logs/rosbag/rosbag_stream.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

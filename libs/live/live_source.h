@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "logs/frames/look_over.h"
 #include "live/live_control.h"
+#include "logs/frames/look_over.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/log_options.h"
 

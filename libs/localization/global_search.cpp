@@ -21,7 +21,6 @@ using mrpt::math::TPose2D;
 constexpr double kSearchedShare = 0.9;
 // The exact search that checks a place starts at this share of its response, which allows for rounding.
 constexpr double kCheckedShare = 0.999;
-constexpr double kFineCells = 1.5;  // half-width of the window in the fine grid, in coarse cells
 constexpr double kFineWindow_rad = radians_from_degrees(2.0L);
 
 // Other places with a response below this share of the best response are ignored.

@@ -34,6 +34,10 @@ struct ClearBeams {
 /// whichever is more, and only if the beam crosses it at 27 degrees or more.
 ClearBeams clear_beams(const ScoreGrid& map, const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot);
 
+/// Half-width of the window in the fine grid around a match of the coarse grid, in coarse cells and heading
+/// steps.
+inline constexpr double kFineCells = 1.5;
+
 /// A scan to match in a whole map, at all headings.
 struct WholeMapProblem {
   const ScoreGrid& grid;

@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "base/portable_math.h"
-#include "logs/frames/pose_operations.h"
 #include "localization/global_search.h"
 #include "localization/localizer_options.h"
 #include "localization/place_consensus.h"
+#include "logs/frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {

@@ -16,8 +16,8 @@
 #include "base/number_text.h"
 #include "base/portable_math.h"
 #include "base/yaml_directives.h"
-#include "logs/frames/pose_operations.h"
 #include "localization/image_size.h"
+#include "logs/frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "localization/place_consensus.h"
 #include "logs/frames/pose_operations.h"
 #include "logs/frames/position_variance.h"
-#include "localization/place_consensus.h"
 
 namespace psi_slam {
 namespace {
@@ -50,7 +50,6 @@ constexpr double kMinClear = 0.8;
 constexpr double kMinFits = 0.7;  // least share of the places in the space of the map that fit
 
 constexpr double kSearchResolution_m = 0.1;
-constexpr double kSmoothing_m = 0.03;
 constexpr double kHeadingArm_m = 5;  // a heading is as uncertain as the wall at this distance
 
 // A bare plan lacks furniture, so the beams, which furniture cannot make cross a wall, must prove the place.
@@ -120,7 +119,7 @@ struct PriorMap::Path {
 
 PriorMap::PriorMap(const mrpt::maps::COccupancyGridMap2D& map, PriorMapOptions options)
     : options_(std::move(options)),
-      search_(make_reference_map(map, kSearchResolution_m, kSmoothing_m), search_options()),
+      search_(make_reference_map(map, kSearchResolution_m, kFineSmoothing_m), search_options()),
       matcher_(MatcherOptions()) {}
 
 FoundPlace PriorMap::place_anywhere(std::size_t node, const KeyframeStore& keyframes) const {

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "base/byte_cursor.h"
+#include "base/compression/compressed_file.h"
 #include "base/file_bytes.h"
 #include "base/file_checksum.h"
 #include "base/number_text.h"
-#include "base/compression/compressed_file.h"
 #include "localization/image_size.h"
 #include "localization/map_server_file.h"
 #include "psi_slam/user_error.h"

@@ -19,6 +19,9 @@ struct ReferenceMap {
   std::shared_ptr<const LocalMap> coarse;  ///< grid with larger cells, for fast searches of the whole map
 };
 
+/// Blur of the fine grid if the map is measured better than a robot maps, such as a plan.
+inline constexpr double kFineSmoothing_m = 0.03;
+
 /// Prepares a map. The cell size of the coarse grid is the largest multiple of the map's cell size up to
 /// `search_resolution_m`, but at least one cell. Each coarse cell takes the occupancy of the most occupied
 /// known cell in it, and is unknown if all of them are. `smoothing_sigma_m` blurs the scores of the fine

@@ -3,9 +3,9 @@
 
 #include <utility>
 
+#include "logs/frame_pipeline.h"
 #include "logs/frames/height_slice.h"
 #include "logs/frames/log_reader.h"
-#include "logs/frame_pipeline.h"
 
 namespace psi_slam {
 

@@ -14,6 +14,7 @@
 
 #include "base/degrees.h"
 #include "base/worker_pool.h"
+#include "mapping/joint_refinement.h"
 #include "mapping/loop_closure/final_search.h"
 #include "mapping/loop_closure/keyframe_store.h"
 #include "mapping/loop_closure/loop_closer.h"
@@ -21,7 +22,6 @@
 #include "mapping/loop_closure/loop_consensus.h"
 #include "mapping/loop_closure/loop_ledger.h"
 #include "mapping/loop_closure/matcher_policy.h"
-#include "mapping/joint_refinement.h"
 #include "mapping/optimization_schedule.h"
 #include "mapping/stage_clock.h"
 #include "pose_graph/incremental_pose_adjustment.h"

@@ -10,9 +10,9 @@
 #include <optional>
 #include <vector>
 
+#include "mapping/back_end.h"
 #include "mapping/loop_closure/keyframe_store.h"
 #include "mapping/loop_closure/loop_closure_factor.h"
-#include "mapping/back_end.h"
 #include "mapping/mapper_options.h"
 #include "pose_graph/newest_covariance.h"
 #include "pose_graph/sparse_pose_adjustment.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/degrees.h"
-#include "mapping/local_maps/front_end.h"
 #include "mapping/back_end.h"
+#include "mapping/local_maps/front_end.h"
 #include "pose_graph/sparse_pose_adjustment.h"
 
 namespace psi_slam {

@@ -3,8 +3,8 @@
 
 #include "base/portable_math.h"
 #include "logs/frames/pose_operations.h"
-#include "mapping/local_maps/front_end.h"
 #include "mapping/carried_frames.h"
+#include "mapping/local_maps/front_end.h"
 #include "mrpt/entry_frames.h"
 #include "mrpt/graph_mirror.h"
 #include "mrpt/graphslam_settings.h"

@@ -19,12 +19,12 @@
 
 #include "base/atomic_file.h"
 #include "base/atomic_folder.h"
-#include "map/exports/mapped_trajectory.h"
 #include "logs/frames/log_reader.h"
 #include "logs/frames/pose_operations.h"
+#include "logs/observations/mrpt_objects.h"
+#include "map/exports/mapped_trajectory.h"
 #include "mrpt/graphslam_settings.h"
 #include "mrpt/log_entries.h"
-#include "logs/observations/mrpt_objects.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

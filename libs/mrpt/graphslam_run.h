@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/graphslam_deciders.h"
 #include "map/report/output_folder.h"
 #include "map/trajectory/trajectory_file.h"
+#include "psi_slam/graphslam_deciders.h"
 
 namespace psi_slam {
 

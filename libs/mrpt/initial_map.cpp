@@ -9,9 +9,9 @@
 
 #include "logs/frames/max_range_study.h"
 #include "logs/frames/pose_operations.h"
+#include "logs/observations/observation_frames.h"
 #include "mapping/local_maps/local_map.h"
 #include "mapping/loop_closure/keyframe_store.h"
-#include "logs/observations/observation_frames.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -14,9 +14,9 @@
 #include "logs/frames/pose_operations.h"
 #include "logs/observations/cloud_points.h"
 #include "logs/observations/mrpt_objects.h"
+#include "logs/rawlog/rawlog_archive.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
-#include "logs/rawlog/rawlog_archive.h"
 
 namespace psi_slam {
 namespace {

@@ -15,18 +15,18 @@
 #include <vector>
 
 #include "logs/frames/pose_operations.h"
-#include "mapping/mapper_options.h"
-#include "mrpt/entry_frames.h"
-#include "mrpt/initial_map.h"
 #include "logs/observations/mrpt_objects.h"
-#include "pose_graph/newest_covariance.h"
-#include "pose_graph/shared_errors.h"
-#include "psi_slam/mapper.h"
-#include "psi_slam/user_error.h"
 #include "map/rendering/extended_map.h"
 #include "map/rendering/live_grid_map.h"
 #include "map/rendering/live_poses.h"
 #include "map/rendering/map_image.h"
+#include "mapping/mapper_options.h"
+#include "mrpt/entry_frames.h"
+#include "mrpt/initial_map.h"
+#include "pose_graph/newest_covariance.h"
+#include "pose_graph/shared_errors.h"
+#include "psi_slam/mapper.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -10,8 +10,8 @@
 #include <system_error>
 
 #include "base/atomic_file.h"
-#include "base/number_text.h"
 #include "base/compression/line_reader.h"
+#include "base/number_text.h"
 #include "pose_graph/information_matrix.h"
 #include "pose_graph/spanning_tree.h"
 #include "psi_slam/user_error.h"

@@ -4,7 +4,8 @@
 // Between complete solutions by SparsePoseAdjustment, it takes Gauss-Newton steps of the same robust error
 // sum, in which most terms remain from earlier steps:
 //
-// - Most nodes are leaves: their constraints lead only to core nodes, such as the first nodes of segments. The
+// - Most nodes are leaves: their constraints lead only to core nodes, such as the first nodes of segments.
+// The
 //   poses of leaves are eliminated, and only the core nodes remain in the equations that are factorised.
 // - Constraints are linearised again only if they are new, or if their nodes have moved so far that the
 //   linearisation or the weight by the kernel no longer holds (fluid relinearisation of Kaess et al.,

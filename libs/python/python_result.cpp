@@ -14,9 +14,9 @@
 #include "base/number_text.h"
 #include "map/exports/csv_tables.h"
 #include "map/exports/mapped_trajectory.h"
-#include "python/errors.h"
 #include "map/rendering/map_image.h"
 #include "map/report/output_folder.h"
+#include "python/errors.h"
 #include "session/drawn_map.h"
 
 namespace psi_slam {

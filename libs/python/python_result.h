@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "base/scope_exit.h"
+#include "map/trajectory/trajectory_file.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam/user_error.h"
-#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 

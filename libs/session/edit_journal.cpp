@@ -10,15 +10,15 @@
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "base/compression/compressed_file.h"
+#include "base/compression/line_reader.h"
 #include "base/number_text.h"
 #include "base/quotable_text.h"
 #include "base/text_parts.h"
-#include "base/compression/compressed_file.h"
-#include "base/compression/line_reader.h"
 #include "map/exports/zone_files.h"
+#include "map/rendering/placed_edits.h"
 #include "mapping/loop_closure/loop_edit_line.h"
 #include "psi_slam/user_error.h"
-#include "map/rendering/placed_edits.h"
 #include "session/edit_values.h"
 #include "session/knowledge_line.h"
 #include "session/map_edit_line.h"

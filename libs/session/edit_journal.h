@@ -43,9 +43,9 @@
 #include <variant>
 #include <vector>
 
+#include "map/rendering/map_edits.h"
 #include "psi_slam/fixed_knowledge.h"
 #include "psi_slam/loop_record.h"
-#include "map/rendering/map_edits.h"
 
 namespace psi_slam {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/config/nearest_name.h"
 #include "base/quotable_text.h"
 #include "base/text_parts.h"
-#include "base/config/nearest_name.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

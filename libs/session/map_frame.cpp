@@ -2,11 +2,11 @@
 #include "session/map_frame.h"
 
 #include "base/number_text.h"
-#include "map/exports/mapped_trajectory.h"
 #include "logs/frames/pose_operations.h"
-#include "psi_slam/user_error.h"
+#include "map/exports/mapped_trajectory.h"
 #include "map/rendering/placed_edits.h"
 #include "map/rendering/wall_direction.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

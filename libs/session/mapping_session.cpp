@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "base/scope_exit.h"
-#include "map/verdict/gyroscope_check.h"
 #include "logs/doctor/log_facts.h"
 #include "logs/doctor/quick_check.h"
-#include "map/exports/zone_files.h"
 #include "logs/frames/discarded_ranges.h"
+#include "map/exports/zone_files.h"
+#include "map/verdict/gyroscope_check.h"
 #include "psi_slam/configuration.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/user_error.h"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "map/verdict/map_verdict.h"
 #include "mapping/stage_clock.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/mapper.h"
@@ -20,7 +21,6 @@
 #include "session/session_prior.h"
 #include "session/session_recording.h"
 #include "session/settings.h"
-#include "map/verdict/map_verdict.h"
 
 namespace psi_slam {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "logs/frames/log_reader.h"
 #include "map/exports/frozen_odometry.h"
 #include "map/exports/interruptions.h"
 #include "map/exports/run_summary.h"
 #include "map/exports/unmatched_scans.h"
-#include "logs/frames/log_reader.h"
 #include "psi_slam/version.h"
 #include "session/mapping_session_members.h"
 #include "session/session_input.h"

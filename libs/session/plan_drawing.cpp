@@ -19,10 +19,10 @@
 #include "base/portable_math.h"
 #include "base/scope_exit.h"
 #include "base/text_parts.h"
-#include "map/exports/drawing_layers.h"
 #include "localization/reference_map.h"
-#include "psi_slam/user_error.h"
+#include "map/exports/drawing_layers.h"
 #include "map/rendering/grid_layout.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/file_checksum.h"
-#include "map/exports/map_files.h"
 #include "logs/frames/log_reader.h"
+#include "map/exports/map_files.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 #include "session/read_ahead.h"

@@ -9,8 +9,8 @@
 #include "base/number_text.h"
 #include "base/text_parts.h"
 #include "localization/comparison/wall_changes.h"
-#include "psi_slam/user_error.h"
 #include "map/rendering/extended_map.h"
+#include "psi_slam/user_error.h"
 #include "session/plan_drawing.h"
 
 namespace psi_slam {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "map/exports/run_summary.h"
 #include "localization/prior_map.h"
 #include "localization/reference_map.h"
+#include "map/exports/run_summary.h"
 #include "psi_slam/fixed_knowledge.h"
 #include "psi_slam/mapper.h"
 #include "session/session_recording.h"

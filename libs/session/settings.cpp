@@ -6,9 +6,9 @@
 #include <thread>
 #include <utility>
 
-#include "base/number_text.h"
 #include "base/config/ini_file.h"
 #include "base/config/settings_text.h"
+#include "base/number_text.h"
 #include "logs/frames/laser_readings.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"

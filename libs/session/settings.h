@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/config/option_table.h"
-#include "map/exports/map_files.h"
 #include "localization/localizer_options.h"
+#include "map/exports/map_files.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/log_options.h"

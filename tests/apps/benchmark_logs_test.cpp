@@ -7,10 +7,10 @@
 
 #include "app_run.h"
 #include "map/trajectory/relations_metric.h"
+#include "map/trajectory/trajectory_file.h"
 #include "sanitizer.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
-#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "../session/room_log.h"
 #include "app_run.h"
+#include "localization/reference_map.h"
 #include "map/exports/map_files.h"
 #include "map/exports/map_server_pair.h"
-#include "localization/reference_map.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {

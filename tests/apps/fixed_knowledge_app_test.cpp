@@ -6,10 +6,10 @@
 
 #include "../session/room_log.h"
 #include "app_run.h"
+#include "map/trajectory/trajectory_file.h"
 #include "pose_graph/g2o_file.h"
 #include "temporary_folder.h"
 #include "test_files.h"
-#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

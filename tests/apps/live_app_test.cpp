@@ -13,11 +13,11 @@
 #include "../session/room_log.h"
 #include "app_run.h"
 #include "bag_files.h"
+#include "map/trajectory/trajectory_file.h"
 #include "same_results.h"
 #include "sender.h"
 #include "session/session_file.h"
 #include "temporary_folder.h"
-#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "../session/room_log.h"
 #include "app_run.h"
-#include "temporary_folder.h"
 #include "map/trajectory/trajectory_file.h"
+#include "temporary_folder.h"
 
 namespace psi_slam {
 namespace {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "allocated_memory.h"
-#include "map/exports/mapped_trajectory.h"
 #include "logs/frames/discarded_ranges.h"
 #include "logs/frames/pose_operations.h"
+#include "map/exports/mapped_trajectory.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/localizer.h"
 #include "psi_slam/mapping_session.h"

@@ -12,11 +12,11 @@
 #include <thread>
 
 #include "../localization/degraded_map.h"
-#include "logs/frames/pose_operations.h"
 #include "localization/localization_report.h"
 #include "localization/reference_map.h"
-#include "psi_slam/mapping_session.h"
+#include "logs/frames/pose_operations.h"
 #include "map/report/output_folder.h"
+#include "psi_slam/mapping_session.h"
 #include "session/settings.h"
 #include "shared_logs.h"
 

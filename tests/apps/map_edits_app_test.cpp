@@ -6,12 +6,12 @@
 
 #include "../session/room_log.h"
 #include "app_run.h"
-#include "logs/frames/pose_operations.h"
 #include "localization/reference_map.h"
+#include "logs/frames/pose_operations.h"
+#include "map/trajectory/trajectory_file.h"
 #include "pose_graph/g2o_file.h"
 #include "temporary_folder.h"
 #include "test_files.h"
-#include "map/trajectory/trajectory_file.h"
 #include "zone_corners.h"
 
 namespace psi_slam {

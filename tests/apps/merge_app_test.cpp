@@ -8,6 +8,7 @@
 #include "../session/room_log.h"
 #include "app_run.h"
 #include "command_line.h"
+#include "map/trajectory/trajectory_file.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam/open_log.h"
 #include "same_results.h"
@@ -15,7 +16,6 @@
 #include "session/settings.h"
 #include "temporary_folder.h"
 #include "test_files.h"
-#include "map/trajectory/trajectory_file.h"
 #include "zone_corners.h"
 
 namespace psi_slam {

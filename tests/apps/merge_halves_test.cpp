@@ -9,11 +9,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "map/trajectory/relations_metric.h"
 #include "map/exports/mapped_trajectory.h"
+#include "map/report/output_folder.h"
+#include "map/trajectory/relations_metric.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam/open_log.h"
-#include "map/report/output_folder.h"
 #include "session/place_run.h"
 #include "session/session_input.h"
 #include "session/settings.h"

@@ -11,9 +11,9 @@
 #include "../session/room_log.h"
 #include "app_run.h"
 #include "localization/reference_map.h"
+#include "map/trajectory/trajectory_file.h"
 #include "temporary_folder.h"
 #include "test_files.h"
-#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

@@ -15,12 +15,12 @@
 
 #include "../session/room_log.h"
 #include "app_run.h"
+#include "map/trajectory/trajectory_file.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/time_stamp.h"
 #include "same_results.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
-#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

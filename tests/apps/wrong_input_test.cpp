@@ -6,9 +6,9 @@
 
 #include "../session/room_log.h"
 #include "app_run.h"
+#include "map/trajectory/trajectory_file.h"
 #include "rawlog_files.h"
 #include "temporary_folder.h"
-#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

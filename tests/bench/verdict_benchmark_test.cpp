@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "map/verdict/verdict_benchmark.h"
+#include "verdict/verdict_benchmark.h"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 #include "../verdict/two_passes.h"
 #include "simulate/simulated_log_file.h"
 #include "temporary_folder.h"
-#include "map/verdict/known_run.h"
+#include "verdict/known_run.h"
 
 namespace psi_slam {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "logs/carmen/carmen_stream.h"
 #include "fuzz_target.h"
+#include "logs/carmen/carmen_stream.h"
 #include "logs/rosbag/rosbag_stream.h"
 
 /// Reads a stream: CARMEN lines if the first byte is even, a bag that is being recorded if it is odd.

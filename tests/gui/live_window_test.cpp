@@ -5,9 +5,9 @@
 
 #include "../session/room_log.h"
 #include "gui_run.h"
+#include "map/report/output_folder.h"
 #include "message_bar.h"
 #include "psi_slam/mapping_session.h"
-#include "map/report/output_folder.h"
 #include "same_results.h"
 #include "sender.h"
 #include "session/settings.h"

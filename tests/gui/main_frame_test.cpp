@@ -9,20 +9,20 @@
 #include <fstream>
 
 #include "../session/room_log.h"
+#include "gui/palette.h"
 #include "gui_run.h"
 #include "loop_canvas.h"
 #include "loop_inspector.h"
+#include "map/report/output_folder.h"
 #include "map_canvas.h"
 #include "message_bar.h"
 #include "psi_slam/loop_record.h"
 #include "psi_slam/mapping_session.h"
-#include "map/report/output_folder.h"
 #include "same_results.h"
 #include "session/edit_journal.h"
 #include "session/settings.h"
 #include "settings_panel.h"
 #include "shared_logs.h"
-#include "gui/palette.h"
 
 namespace psi_slam {
 namespace {

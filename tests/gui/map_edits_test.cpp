@@ -5,10 +5,10 @@
 
 #include "../session/room_log.h"
 #include "gui_run.h"
+#include "map/report/output_folder.h"
 #include "map_canvas.h"
 #include "message_bar.h"
 #include "psi_slam/mapping_session.h"
-#include "map/report/output_folder.h"
 #include "same_results.h"
 #include "session/edit_journal.h"
 #include "speed_dialog.h"

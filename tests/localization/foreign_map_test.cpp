@@ -9,8 +9,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "map/exports/map_server_pair.h"
 #include "localization/reference_map.h"
+#include "map/exports/map_server_pair.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
 #include "test_files.h"

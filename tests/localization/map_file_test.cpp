@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "base/file_checksum.h"
 #include "base/compression/compressed_file.h"
+#include "base/file_checksum.h"
 #include "decompression_bombs.h"
 #include "map/exports/map_files.h"
 #include "map/exports/map_server_pair.h"

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <vector>
 
-#include "logs/frames/pose_operations.h"
 #include "localization/localizer_options.h"
 #include "localization/reference_map.h"
+#include "logs/frames/pose_operations.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/localizer.h"
 #include "simulation/simulated_log.h"

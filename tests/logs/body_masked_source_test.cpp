@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "base/text_parts.h"
-#include "logs/frames/log_reader.h"
 #include "log_files.h"
+#include "logs/frames/log_reader.h"
 #include "robot_body.h"
 #include "shared_logs.h"
 #include "simulated_run.h"

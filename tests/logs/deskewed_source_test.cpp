@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "bag_files.h"
-#include "logs/frames/pose_operations.h"
 #include "log_files.h"
+#include "logs/frames/pose_operations.h"
 #include "simulated_run.h"
 #include "temporary_folder.h"
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "frames_in_memory.h"
+#include "log_files.h"
 #include "logs/frames/deskewed_source.h"
 #include "logs/frames/log_reader.h"
 #include "logs/frames/pose_operations.h"
-#include "frames_in_memory.h"
-#include "log_files.h"
 #include "shared_logs.h"
 #include "simulated_run.h"
 #include "swinging_robot.h"

@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "map/trajectory/relations_metric.h"
-#include "map/exports/mapped_trajectory.h"
 #include "log_files.h"
+#include "map/exports/mapped_trajectory.h"
+#include "map/trajectory/relations_metric.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
 #include "same_map.h"

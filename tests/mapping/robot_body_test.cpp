@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "map/trajectory/relations_metric.h"
 #include "logs/frames/body_masked_source.h"
+#include "map/trajectory/relations_metric.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/open_log.h"

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "map/exports/run_summary.h"
 #include "logs/frames/discarded_ranges.h"
+#include "map/exports/run_summary.h"
 #include "psi_slam/mapper.h"
 #include "simulated_room.h"
 

@@ -10,10 +10,10 @@
 #include <sstream>
 
 #include "../session/room_log.h"
+#include "map/trajectory/trajectory_file.h"
 #include "simulated_rawlog.h"
 #include "temporary_folder.h"
 #include "test_files.h"
-#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

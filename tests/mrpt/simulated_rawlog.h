@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "logs/observations/mrpt_objects.h"
-#include "simulation/simulated_log.h"
 #include "map/trajectory/trajectory_file.h"
+#include "simulation/simulated_log.h"
 
 namespace psi_slam {
 

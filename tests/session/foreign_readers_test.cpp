@@ -19,10 +19,10 @@
 #include <vector>
 
 #include "foreign_program.h"
-#include "psi_slam/mapping_result.h"
-#include "psi_slam/mapping_session.h"
 #include "map/rendering/map_image.h"
 #include "map/report/output_folder.h"
+#include "psi_slam/mapping_result.h"
+#include "psi_slam/mapping_session.h"
 #include "session/drawn_map.h"
 #include "session/edit_journal.h"
 #include "session/plan_drawing.h"

@@ -10,11 +10,11 @@
 #include <limits>
 #include <string>
 
+#include "localization/reference_map.h"
 #include "map/exports/map_files.h"
 #include "map/exports/map_server_pair.h"
 #include "map/exports/mapped_trajectory.h"
 #include "map/exports/run_summary.h"
-#include "localization/reference_map.h"
 #include "psi_slam/configuration.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/mapping_session.h"

@@ -12,12 +12,13 @@
 
 #include "map/exports/mapped_trajectory.h"
 #include "map/exports/run_summary.h"
-#include "pose_graph/g2o_file.h"
-#include "psi_slam/frame_source.h"
-#include "psi_slam/grid_map.h"
 #include "map/rendering/map_image.h"
 #include "map/report/output_folder.h"
 #include "map/report/report_html.h"
+#include "map/trajectory/trajectory_file.h"
+#include "pose_graph/g2o_file.h"
+#include "psi_slam/frame_source.h"
+#include "psi_slam/grid_map.h"
 #include "room_log.h"
 #include "same_map.h"
 #include "same_results.h"
@@ -28,7 +29,6 @@
 #include "session/settings.h"
 #include "temporary_folder.h"
 #include "test_files.h"
-#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "../localization/simulated_runs.h"
-#include "psi_slam/mapping_session.h"
 #include "map/report/output_folder.h"
+#include "psi_slam/mapping_session.h"
 #include "same_results.h"
 #include "session/place_run.h"
 #include "session/session_file.h"

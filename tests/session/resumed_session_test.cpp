@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <sstream>
 
-#include "map/exports/run_summary.h"
-#include "logs/frames/discarded_ranges.h"
 #include "frames_in_memory.h"
+#include "logs/frames/discarded_ranges.h"
+#include "map/exports/run_summary.h"
+#include "map/report/output_folder.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
-#include "map/report/output_folder.h"
 #include "room_log.h"
 #include "same_results.h"
 #include "session/recorded_settings.h"

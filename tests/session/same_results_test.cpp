@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include "psi_slam/mapping_session.h"
 #include "map/report/output_folder.h"
+#include "psi_slam/mapping_session.h"
 #include "room_log.h"
 #include "session/settings.h"
 #include "temporary_folder.h"

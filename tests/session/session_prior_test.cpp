@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "map/report/output_folder.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam/user_error.h"
-#include "map/report/output_folder.h"
 #include "room_drawing.h"
 #include "room_log.h"
 #include "same_results.h"

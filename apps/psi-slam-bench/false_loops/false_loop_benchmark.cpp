@@ -13,8 +13,8 @@
 #include "base/random_draws.h"
 #include "false_loops/bent_path.h"
 #include "logs/frames/pose_operations.h"
-#include "mapping/loop_closure/outlier_loops.h"
 #include "mapping/carried_frames.h"
+#include "mapping/loop_closure/outlier_loops.h"
 #include "psi_slam/open_log.h"
 
 namespace psi_slam {

@@ -7,10 +7,10 @@
 #include "batch/kept_run.h"
 #include "common/bench_command.h"
 #include "interrupt_signals.h"
+#include "map/report/html_text.h"
 #include "mpi_option.h"
 #include "number_between.h"
 #include "psi_slam/user_error.h"
-#include "map/report/html_text.h"
 
 namespace psi_slam {
 namespace {

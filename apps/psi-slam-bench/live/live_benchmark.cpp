@@ -14,8 +14,8 @@
 
 #include "base/temporary_folder.h"
 #include "live_mapping.h"
-#include "mapping/loop_closure/keyframe_store.h"
 #include "mapping/carried_frames.h"
+#include "mapping/loop_closure/keyframe_store.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"

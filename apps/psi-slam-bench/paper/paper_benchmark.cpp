@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "map/trajectory/loop_judgement.h"
 #include "map/exports/mapped_trajectory.h"
+#include "map/trajectory/loop_judgement.h"
 #include "psi_slam/open_log.h"
 #include "sparse/node_costs.h"
 

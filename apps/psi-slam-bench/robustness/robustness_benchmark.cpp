@@ -13,9 +13,9 @@
 #include "base/degrees.h"
 #include "base/number_text.h"
 #include "base/portable_math.h"
-#include "map/trajectory/loop_judgement.h"
-#include "map/exports/unmatched_scans.h"
 #include "logs/frames/pose_operations.h"
+#include "map/exports/unmatched_scans.h"
+#include "map/trajectory/loop_judgement.h"
 #include "psi_slam/open_log.h"
 
 namespace psi_slam {

@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "base/compression/compression.h"
 #include "base/number_text.h"
 #include "common/bench_command.h"
-#include "base/compression/compression.h"
-#include "map/exports/corrected_log.h"
 #include "logs/frames/pose_operations.h"
+#include "map/exports/corrected_log.h"
 #include "psi_slam/user_error.h"
 #include "simulate/simulate_benchmark.h"
 

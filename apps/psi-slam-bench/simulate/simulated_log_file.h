@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "simulation/simulated_log.h"
 #include "map/trajectory/trajectory_file.h"
+#include "simulation/simulated_log.h"
 
 namespace psi_slam {
 

@@ -10,10 +10,10 @@
 #include "common/measured_map.h"
 #include "map/exports/mapped_trajectory.h"
 #include "map/exports/unmatched_scans.h"
+#include "map/rendering/map_image.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
-#include "map/rendering/map_image.h"
 
 namespace psi_slam {
 namespace {

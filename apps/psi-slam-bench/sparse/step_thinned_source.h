@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "psi_slam/frame_source.h"
 #include "map/trajectory/trajectory_file.h"
+#include "psi_slam/frame_source.h"
 
 namespace psi_slam {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "map/verdict/faulty_maps.h"
+#include "verdict/faulty_maps.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,13 +9,13 @@
 
 #include "base/random_draws.h"
 #include "common/aligned_error.h"
-#include "map/exports/mapped_trajectory.h"
 #include "false_loops/false_loop_benchmark.h"
 #include "logs/frames/pose_operations.h"
+#include "map/exports/mapped_trajectory.h"
 #include "mapping/carried_frames.h"
 #include "pose_graph/information_matrix.h"
 #include "pose_graph/sparse_pose_adjustment.h"
-#include "map/verdict/known_run.h"
+#include "verdict/known_run.h"
 
 namespace psi_slam {
 namespace {

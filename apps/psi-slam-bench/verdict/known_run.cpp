@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "map/verdict/known_run.h"
+#include "verdict/known_run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include "base/portable_math.h"
 #include "common/aligned_error.h"
-#include "map/exports/mapped_trajectory.h"
 #include "logs/frames/pose_operations.h"
+#include "map/exports/mapped_trajectory.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "map/verdict/verdict_benchmark.h"
+#include "verdict/verdict_benchmark.h"
 
 #include <algorithm>
 

@@ -11,8 +11,8 @@
 #include "batch/seeds.h"
 #include "batch/workers.h"
 #include "common/bench_report.h"
-#include "map/verdict/faulty_maps.h"
 #include "map/verdict/map_verdict.h"
+#include "verdict/faulty_maps.h"
 
 namespace psi_slam {
 

@@ -3,7 +3,7 @@
 
 #include "base/number_text.h"
 #include "batch/kept_run.h"
-#include "map/verdict/verdict_benchmark.h"
+#include "verdict/verdict_benchmark.h"
 
 namespace psi_slam {
 namespace {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "base/descriptor.h"
 #include "base/compression/byte_source.h"
 #include "base/compression/file_decoder.h"
+#include "base/descriptor.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

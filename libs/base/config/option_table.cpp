@@ -6,10 +6,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/config/nearest_name.h"
 #include "base/number_text.h"
 #include "base/quotable_text.h"
 #include "base/text_parts.h"
-#include "base/config/nearest_name.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -11,13 +11,13 @@
 
 #include "base/number_text.h"
 #include "base/portable_math.h"
-#include "logs/frames/pose_operations.h"
-#include "logs/frames/position_variance.h"
 #include "localization/global_search.h"
 #include "localization/reference_map.h"
+#include "logs/frames/pose_operations.h"
+#include "logs/frames/position_variance.h"
+#include "map/rendering/map_image.h"
 #include "matching/make_matcher.h"
 #include "psi_slam/user_error.h"
-#include "map/rendering/map_image.h"
 
 namespace psi_slam {
 namespace {
@@ -26,11 +26,9 @@ using Grid = mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-constexpr double kSmoothing_m = 0.03;
 constexpr double kLeastCoarse_m = 0.1;  // smallest cell of the grid in which the whole map is searched
 constexpr double kCoarseCells = 300;    // largest number of coarse cells along the larger map
 constexpr double kCoarseResponse = 0.3;
-constexpr double kFineCells = 1.5;  // half-width of the window in the fine grid, in coarse cells and steps
 // Neighbouring wall cells show the same surface. Points farther apart than this count as independent.
 constexpr double kPointSpacing_m = 0.2;
 constexpr std::size_t kMostPoints = 2000;  // of the fine match; a coarse match takes a quarter
@@ -91,7 +89,7 @@ class WallMatcher {
       : walls_(walls_of(cells, kMostPoints)), few_walls_(walls_of(cells, kMostPoints / 4)) {
     const double longer_m = std::max(static_cast<double>(map.getXMax() - map.getXMin()),
                                      static_cast<double>(map.getYMax() - map.getYMin()));
-    map_ = make_reference_map(map, std::max(kLeastCoarse_m, longer_m / kCoarseCells), kSmoothing_m);
+    map_ = make_reference_map(map, std::max(kLeastCoarse_m, longer_m / kCoarseCells), kFineSmoothing_m);
     few_walls_.points.farthest_m = std::max(few_walls_.points.farthest_m, coarse_m());
   }
 

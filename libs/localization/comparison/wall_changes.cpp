@@ -10,8 +10,8 @@
 
 #include "localization/comparison/moved_walls.h"
 #include "logs/frames/pose_operations.h"
-#include "matching/score_grid.h"
 #include "map/rendering/map_image.h"
+#include "matching/score_grid.h"
 
 namespace psi_slam {
 namespace {

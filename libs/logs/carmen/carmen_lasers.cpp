@@ -10,8 +10,8 @@
 #include <memory>
 #include <utility>
 
-#include "base/text_parts.h"
 #include "base/compression/line_reader.h"
+#include "base/text_parts.h"
 #include "logs/frames/laser_readings.h"
 #include "logs/frames/pose_operations.h"
 #include "logs/frames/pose_tolerance.h"

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "logs/doctor/pair_calibration.h"
+#include "logs/frame_pipeline.h"
 #include "logs/frames/laser_choice.h"
 #include "logs/frames/log_format.h"
 #include "logs/frames/log_reader.h"
 #include "logs/frames/pose_operations.h"
-#include "logs/frame_pipeline.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 

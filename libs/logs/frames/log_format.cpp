@@ -11,9 +11,9 @@
 #include <tuple>
 
 #include "base/byte_cursor.h"
+#include "base/compression/compressed_file.h"
 #include "base/text_parts.h"
 #include "base/yaml_directives.h"
-#include "base/compression/compressed_file.h"
 #include "logs/frames/foreign_file.h"
 #include "psi_slam/user_error.h"
 

@@ -29,11 +29,11 @@
 #include <system_error>
 #include <utility>
 
-#include "base/forked_child.h"
 #include "base/compression/compressed_file.h"
+#include "base/forked_child.h"
 #include "logs/observations/cloud_points.h"
-#include "psi_slam/user_error.h"
 #include "logs/rawlog/rawlog_stream.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

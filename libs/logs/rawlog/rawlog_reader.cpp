@@ -31,10 +31,10 @@
 #include "logs/observations/cloud_points.h"
 #include "logs/observations/mrpt_objects.h"
 #include "logs/observations/observation_frames.h"
-#include "psi_slam/user_error.h"
 #include "logs/rawlog/observation_stream.h"
 #include "logs/rawlog/rawlog_archive.h"
 #include "logs/rawlog/rawlog_stream.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

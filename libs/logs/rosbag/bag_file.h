@@ -13,9 +13,9 @@
 
 #include "base/byte_cursor.h"
 #include "base/compression/byte_source.h"
+#include "logs/rosbag/bag_recorder.h"
 #include "psi_slam/time_stamp.h"
 #include "psi_slam/user_error.h"
-#include "logs/rosbag/bag_recorder.h"
 
 namespace psi_slam {
 

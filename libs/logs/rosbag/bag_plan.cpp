@@ -14,10 +14,10 @@
 #include "logs/frames/height_slice.h"
 #include "logs/frames/laser_choice.h"
 #include "logs/frames/log_reader.h"
-#include "psi_slam/user_error.h"
 #include "logs/rosbag/bag_topics.h"
 #include "logs/rosbag/heard_odometry.h"
 #include "logs/rosbag/ros_messages.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

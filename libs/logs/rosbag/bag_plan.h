@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/log_options.h"
 #include "logs/rosbag/bag_file.h"
 #include "logs/rosbag/bag_topics.h"
 #include "logs/rosbag/transform_tree.h"
+#include "psi_slam/log_options.h"
 
 namespace psi_slam {
 

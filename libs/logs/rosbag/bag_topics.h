@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/log_options.h"
 #include "logs/rosbag/bag_file.h"
 #include "logs/rosbag/bag_robots.h"
+#include "psi_slam/log_options.h"
 
 namespace psi_slam {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/log_options.h"
 #include "logs/rosbag/bag_file.h"
+#include "psi_slam/log_options.h"
 
 namespace psi_slam {
 

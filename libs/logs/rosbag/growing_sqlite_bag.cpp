@@ -11,10 +11,10 @@
 #include <thread>
 #include <utility>
 
-#include "psi_slam/user_error.h"
 #include "logs/rosbag/bag_file.h"
 #include "logs/rosbag/growing_database.h"
 #include "logs/rosbag/sqlite_connection.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -36,7 +36,7 @@ struct Row {
   std::string data;
 };
 
-double seconds(Clock::duration time) {
+double elapsed_s(Clock::duration time) {
   return std::chrono::duration<double>(time).count();
 }
 
@@ -69,11 +69,11 @@ class GrowingSqliteBag : public BagFile {
       if (reading == Reading::kRows) last_row = now;
       if (reading == Reading::kRows || reading == Reading::kNoRows)
         last_readable = now;
-      else if (seconds(now - last_readable) >= recorder_.notice_after_s)
+      else if (elapsed_s(now - last_readable) >= recorder_.notice_after_s)
         notify_once(reading);
       if (reading == Reading::kRows) continue;
       const bool is_over = is_closed && reading != Reading::kBusy;
-      if (is_over || !recorder_.wait(seconds(now - last_row))) return false;
+      if (is_over || !recorder_.wait(elapsed_s(now - last_row))) return false;
     }
     row_ = std::move(rows_.front());
     rows_.pop_front();

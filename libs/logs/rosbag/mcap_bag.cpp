@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "psi_slam/user_error.h"
 #include "logs/rosbag/record_bag.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -15,8 +15,8 @@
 #include "base/byte_cursor.h"
 #include "base/compression/byte_source.h"
 #include "base/compression/compressed_file.h"
-#include "psi_slam/user_error.h"
 #include "logs/rosbag/bag_file.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/time_stamp.h"
 #include "logs/rosbag/bag_file.h"
+#include "psi_slam/time_stamp.h"
 
 namespace psi_slam {
 

@@ -25,11 +25,11 @@
 #include "logs/frames/log_reader.h"
 #include "logs/frames/look_over.h"
 #include "logs/frames/odometry_interpolator.h"
-#include "psi_slam/user_error.h"
 #include "logs/rosbag/bag_plan.h"
 #include "logs/rosbag/begun_bag.h"
 #include "logs/rosbag/odometry_agreement.h"
 #include "logs/rosbag/rosbag_stream.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

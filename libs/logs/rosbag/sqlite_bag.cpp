@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "psi_slam/user_error.h"
 #include "logs/rosbag/bag_file.h"
 #include "logs/rosbag/sqlite_connection.h"
 #include "logs/rosbag/unpacked_database.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -15,10 +15,10 @@
 #include <string>
 #include <thread>
 
-#include "psi_slam/grid_map.h"
-#include "psi_slam/mapper.h"
 #include "map/rendering/live_grid_map.h"
 #include "map/rendering/live_poses.h"
+#include "psi_slam/grid_map.h"
+#include "psi_slam/mapper.h"
 
 namespace psi_slam {
 

@@ -11,9 +11,9 @@
 
 #include "base/atomic_file.h"
 #include "base/compression/compression.h"
+#include "logs/observations/mrpt_objects.h"
 #include "map/exports/map_server_pair.h"
 #include "map/exports/mapped_trajectory.h"
-#include "logs/observations/mrpt_objects.h"
 #include "map/rendering/map_image.h"
 
 namespace psi_slam {

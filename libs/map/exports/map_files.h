@@ -11,10 +11,10 @@
 #include <string>
 
 #include "base/worker_pool.h"
-#include "psi_slam/mapping_result.h"
 #include "map/rendering/map_drawing.h"
 #include "map/rendering/map_edits.h"
 #include "map/trajectory/trajectory_file.h"
+#include "psi_slam/mapping_result.h"
 
 namespace psi_slam {
 

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "psi_slam/mapping_result.h"
 #include "map/trajectory/trajectory_file.h"
+#include "psi_slam/mapping_result.h"
 
 namespace psi_slam {
 

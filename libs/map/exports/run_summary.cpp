@@ -9,8 +9,8 @@
 
 #include "base/number_text.h"
 #include "base/portable_math.h"
-#include "map/exports/mapped_trajectory.h"
 #include "logs/frames/pose_operations.h"
+#include "map/exports/mapped_trajectory.h"
 
 namespace psi_slam {
 namespace {

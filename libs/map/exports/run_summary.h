@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "map/exports/unmatched_scans.h"
+#include "map/rendering/map_drawing.h"
+#include "map/verdict/map_verdict.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/mapping_result.h"
 #include "psi_slam/time_stamp.h"
-#include "map/rendering/map_drawing.h"
-#include "map/verdict/map_verdict.h"
 
 namespace psi_slam {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "map/verdict/map_verdict.h"
 #include "psi_slam/mapping_result.h"
 #include "psi_slam/time_stamp.h"
-#include "map/verdict/map_verdict.h"
 
 namespace psi_slam {
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "logs/frames/digital_line.h"
-#include "psi_slam/frame.h"
-#include "psi_slam/grid_map.h"
 #include "map/rendering/cell_box.h"
 #include "map/rendering/scan_rays.h"
+#include "psi_slam/frame.h"
+#include "psi_slam/grid_map.h"
 
 namespace psi_slam {
 

@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "logs/frames/pose_tolerance.h"
-#include "psi_slam/frame.h"
-#include "psi_slam/grid_map.h"
 #include "map/rendering/frame_cells.h"
 #include "map/rendering/grid_tiles.h"
+#include "psi_slam/frame.h"
+#include "psi_slam/grid_map.h"
 
 namespace psi_slam {
 

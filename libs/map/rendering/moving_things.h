@@ -46,12 +46,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "psi_slam/frame.h"
-#include "psi_slam/grid_map.h"
 #include "map/rendering/cell_box.h"
 #include "map/rendering/grid_layout.h"
 #include "map/rendering/obstacle_field.h"
 #include "map/rendering/scan_rays.h"
+#include "psi_slam/frame.h"
+#include "psi_slam/grid_map.h"
 
 namespace psi_slam {
 

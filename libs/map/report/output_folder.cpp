@@ -16,10 +16,10 @@
 #include "base/partial_files.h"
 #include "map/exports/corrected_log.h"
 #include "map/exports/csv_tables.h"
-#include "pose_graph/g2o_file.h"
-#include "psi_slam/user_error.h"
 #include "map/report/report_html.h"
 #include "map/trajectory/trajectory_file.h"
+#include "pose_graph/g2o_file.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

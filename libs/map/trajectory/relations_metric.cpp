@@ -12,8 +12,8 @@
 #include "base/number_text.h"
 #include "base/portable_math.h"
 #include "logs/frames/pose_operations.h"
-#include "psi_slam/user_error.h"
 #include "map/trajectory/text_lines.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -17,8 +17,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "psi_slam/time_stamp.h"
 #include "map/trajectory/trajectory_file.h"
+#include "psi_slam/time_stamp.h"
 
 namespace psi_slam {
 

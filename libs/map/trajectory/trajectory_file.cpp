@@ -13,8 +13,8 @@
 #include "base/portable_math.h"
 #include "base/text_parts.h"
 #include "logs/frames/pose_operations.h"
-#include "psi_slam/user_error.h"
 #include "map/trajectory/text_lines.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -11,10 +11,10 @@
 #include <optional>
 #include <vector>
 
-#include "psi_slam/mapping_result.h"
 #include "map/verdict/edit_effect.h"
 #include "map/verdict/map_views.h"
 #include "map/verdict/pass_checks.h"
+#include "psi_slam/mapping_result.h"
 
 namespace psi_slam {
 

@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "psi_slam/mapping_result.h"
 #include "map/verdict/map_views.h"
 #include "map/verdict/pass_checks.h"
 #include "map/verdict/path_suspects.h"
+#include "psi_slam/mapping_result.h"
 
 namespace psi_slam {
 

@@ -9,13 +9,13 @@
 #include <tuple>
 #include <utility>
 
-#include "mapping/scan_place.h"
-#include "pose_graph/aligned_uncertainty.h"
 #include "map/verdict/edit_advice.h"
 #include "map/verdict/interruption_checks.h"
 #include "map/verdict/loop_residuals.h"
 #include "map/verdict/path_suspects.h"
 #include "map/verdict/uncertain_stretches.h"
+#include "mapping/scan_place.h"
+#include "pose_graph/aligned_uncertainty.h"
 
 namespace psi_slam {
 namespace {

@@ -15,13 +15,13 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/loop_record.h"
-#include "psi_slam/mapping_result.h"
 #include "map/verdict/checked_path.h"
 #include "map/verdict/edit_effect.h"
 #include "map/verdict/open_directions.h"
 #include "map/verdict/pass_checks.h"
 #include "map/verdict/scene_changes.h"
+#include "psi_slam/loop_record.h"
+#include "psi_slam/mapping_result.h"
 
 namespace psi_slam {
 

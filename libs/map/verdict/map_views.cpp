@@ -10,8 +10,8 @@
 
 #include "logs/frames/discarded_ranges.h"
 #include "logs/frames/pose_operations.h"
-#include "mapping/local_maps/scan_filter.h"
 #include "map/verdict/open_directions.h"
+#include "mapping/local_maps/scan_filter.h"
 
 namespace psi_slam {
 namespace {

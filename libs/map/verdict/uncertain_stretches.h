@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "psi_slam/mapping_result.h"
 #include "map/verdict/map_views.h"
+#include "psi_slam/mapping_result.h"
 
 namespace psi_slam {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "map/verdict/map_verdict.h"
 #include "mapping/loop_closure/loop_edit_line.h"
 #include "mapping/scan_place.h"
-#include "map/verdict/map_verdict.h"
 
 namespace psi_slam {
 namespace {

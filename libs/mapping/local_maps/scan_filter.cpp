@@ -80,9 +80,7 @@ Beams drawing_beams(const LaserScan& scan, const TPose2D& map_T_robot, const Dra
   const BeamDirections directions = beam_directions(scan.bearings_rad);
   const std::vector<bool> joined =
       ends_on_one_surface(scan, options.max_range_m, options.min_surface_spacing_m);
-  const auto is_drawn = [&](float range_m) {
-    return range_m > 0 && std::isfinite(range_m);
-  };
+  const auto is_drawn = [&](float range_m) { return range_m > 0 && std::isfinite(range_m); };
   bool drew_last = !scan.ranges_m.empty() && is_drawn(scan.ranges_m.back());  // before the first beam
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);

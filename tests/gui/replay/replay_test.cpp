@@ -10,8 +10,8 @@
 
 #include "../session/room_log.h"
 #include "awaited_snapshot.h"
-#include "psi_slam/mapping_session.h"
 #include "map/report/output_folder.h"
+#include "psi_slam/mapping_session.h"
 #include "same_results.h"
 #include "session/edit_journal.h"
 #include "session/session_file.h"

@@ -9,10 +9,10 @@
 #include <memory>
 #include <vector>
 
-#include "replayed_room.h"
 #include "gui/map_camera.h"
 #include "gui/map_scene.h"
 #include "gui/palette.h"
+#include "replayed_room.h"
 
 namespace psi_slam {
 namespace {

@@ -10,9 +10,9 @@
 #include <memory>
 #include <vector>
 
-#include "replayed_room.h"
 #include "gui/layers.h"
 #include "gui/palette.h"
+#include "replayed_room.h"
 
 namespace psi_slam {
 namespace {

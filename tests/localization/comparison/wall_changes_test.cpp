@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "localization/comparison/map_alignment.h"
 #include "drawn_plan.h"
+#include "localization/comparison/map_alignment.h"
 
 namespace psi_slam {
 namespace {

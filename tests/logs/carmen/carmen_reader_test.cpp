@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "logs/frames/log_reader.h"
 #include "log_files.h"
+#include "logs/frames/log_reader.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
 

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "log_files.h"
 #include "logs/doctor/input_doctor.h"
 #include "logs/doctor/odometry_calibration.h"
 #include "logs/doctor/quick_check.h"
-#include "log_files.h"
 #include "psi_slam/open_log.h"
 #include "simulated_run.h"
 #include "temporary_folder.h"

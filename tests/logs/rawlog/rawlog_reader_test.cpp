@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "logs/frames/log_reader.h"
 #include "log_files.h"
+#include "logs/frames/log_reader.h"
 #include "rawlog_files.h"
 #include "temporary_folder.h"
 

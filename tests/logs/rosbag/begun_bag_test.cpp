@@ -6,8 +6,8 @@
 #include <string>
 
 #include "bag_files.h"
-#include "logs/frames/look_over.h"
 #include "log_files.h"
+#include "logs/frames/look_over.h"
 #include "logs/rosbag/rosbag_stream.h"
 #include "same_frames.h"
 #include "temporary_folder.h"

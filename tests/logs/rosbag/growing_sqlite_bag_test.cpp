@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "bag_files.h"
-#include "other_process.h"
 #include "logs/rosbag/bag_file.h"
+#include "other_process.h"
 #include "soon.h"
 #include "temporary_folder.h"
 #include "test_files.h"

@@ -10,8 +10,8 @@
 
 #include "bag_files.h"
 #include "base/compression/compressed_file.h"
-#include "logs/frames/look_over.h"
 #include "log_files.h"
+#include "logs/frames/look_over.h"
 #include "logs/rosbag/rosbag_stream.h"
 #include "same_frames.h"
 #include "temporary_folder.h"

@@ -11,10 +11,10 @@
 
 #include "bag_files.h"
 #include "base/compression/compressed_file.h"
-#include "logs/frames/log_reader.h"
 #include "log_files.h"
-#include "ros1_files.h"
+#include "logs/frames/log_reader.h"
 #include "logs/rosbag/rosbag_stream.h"
+#include "ros1_files.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {

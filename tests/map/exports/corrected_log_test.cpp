@@ -11,9 +11,9 @@
 
 #include "logs/frames/discarded_ranges.h"
 #include "logs/frames/log_reader.h"
+#include "map/trajectory/trajectory_file.h"
 #include "psi_slam/open_log.h"
 #include "temporary_folder.h"
-#include "map/trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

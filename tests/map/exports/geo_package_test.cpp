@@ -5,9 +5,9 @@
 #include <cmath>
 #include <thread>
 
+#include "foreign_program.h"
 #include "map/exports/map_files.h"
 #include "map/exports/mapped_trajectory.h"
-#include "foreign_program.h"
 #include "measured_room.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"

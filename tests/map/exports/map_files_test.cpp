@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "map/exports/mapped_trajectory.h"
 #include "foreign_program.h"
+#include "map/exports/mapped_trajectory.h"
 #include "measured_room.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"

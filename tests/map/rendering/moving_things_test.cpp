@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "map/exports/mapped_trajectory.h"
+#include "map/rendering/frame_cells.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/mapper.h"
-#include "map/rendering/frame_cells.h"
 #include "simulation/robot_path.h"
 #include "simulation/scan_simulator.h"
 #include "simulation/simulation_random.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "doubtful_map.h"
-#include "psi_slam/grid_map.h"
 #include "map/report/output_folder.h"
+#include "psi_slam/grid_map.h"
 #include "simulated_room.h"
 #include "well_formed.h"
 

@@ -135,7 +135,8 @@ TEST_F(EditAdviceTest, matches_a_scan_after_a_slip) {
   EXPECT_EQ(judge_map(map_).state, MapState::kGood);
 }
 
-// The slip is within a segment of the path. All scans of the segment after the slip move with the matched one.
+// The slip is within a segment of the path. All scans of the segment after the slip move with the matched
+// one.
 TEST_F(EditAdviceTest, a_tried_match_keeps_the_path_after_the_slip_together) {
   build({0.5, 0.3, 0.1}, 0.5, room_.log.size());
   const MapVerdict verdict = judge_map(map_);

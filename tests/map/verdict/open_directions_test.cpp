@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "simulated_room.h"
 #include "map/verdict/map_views.h"
+#include "simulated_room.h"
 
 namespace psi_slam {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "bag_files.h"
-#include "mapping/local_maps/front_end.h"
 #include "log_files.h"
+#include "mapping/local_maps/front_end.h"
 #include "simulated_drive.h"
 #include "temporary_folder.h"
 

@@ -80,8 +80,8 @@ TEST(MatchingPoints, the_farthest_is_measured_from_the_robot_not_from_the_laser)
 TEST(MatchingPoints, only_returns_up_to_the_largest_range) {
   ScanFilterOptions options = without_thinning();
   options.max_range_m = 10;
-  const ScanPoints scan = matching_points(
-      scan_of({kNan, 0.5F, 5, 10, 10.01F, kInfinity, -1, 0, -kInfinity, kNan}), options);
+  const ScanPoints scan =
+      matching_points(scan_of({kNan, 0.5F, 5, 10, 10.01F, kInfinity, -1, 0, -kInfinity, kNan}), options);
   ASSERT_EQ(scan.points.size(), 3U);
   EXPECT_NEAR(length(scan.points[0]), 0.5, 1e-6);
   EXPECT_NEAR(length(scan.points[1]), 5, 1e-6);

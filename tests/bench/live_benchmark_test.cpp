@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "../local_maps/simulated_drive.h"
+#include "../mapping/local_maps/simulated_drive.h"
 #include "command_fixture.h"
 
 namespace psi_slam {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "../local_maps/simulated_drive.h"
+#include "../mapping/local_maps/simulated_drive.h"
 #include "match/loop_cases.h"
 
 namespace psi_slam {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "../verdict/two_passes.h"
+#include "../map/verdict/two_passes.h"
 #include "simulate/simulated_log_file.h"
 #include "temporary_folder.h"
 #include "verdict/known_run.h"

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "../local_maps/simulated_drive.h"
+#include "local_maps/simulated_drive.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
 #include "same_map.h"

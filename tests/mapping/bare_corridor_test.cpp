@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "../local_maps/simulated_drive.h"
+#include "local_maps/simulated_drive.h"
 #include "psi_slam/mapper.h"
 
 namespace psi_slam {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../local_maps/simulated_drive.h"
+#include "local_maps/simulated_drive.h"
 #include "logs/frames/pose_operations.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"

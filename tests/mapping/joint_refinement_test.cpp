@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../local_maps/simulated_drive.h"
+#include "local_maps/simulated_drive.h"
 #include "base/random_draws.h"
 #include "mapping/local_maps/scan_filter.h"
 

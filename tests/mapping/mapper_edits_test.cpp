@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "../local_maps/simulated_drive.h"
+#include "local_maps/simulated_drive.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/loop_record.h"
 #include "psi_slam/mapper.h"

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "../local_maps/simulated_drive.h"
+#include "local_maps/simulated_drive.h"
 #include "logs/frames/pose_operations.h"
 #include "same_map.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "../local_maps/simulated_drive.h"
+#include "local_maps/simulated_drive.h"
 #include "psi_slam/mapper.h"
 
 namespace psi_slam {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "../local_maps/simulated_drive.h"
+#include "../mapping/local_maps/simulated_drive.h"
 #include "mapping/local_maps/scan_filter.h"
 
 namespace psi_slam {

@@ -22,7 +22,7 @@
 #include <thread>
 #include <type_traits>
 
-#include "../local_maps/simulated_drive.h"
+#include "../mapping/local_maps/simulated_drive.h"
 #include "logs/observations/mrpt_objects.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/open_log.h"

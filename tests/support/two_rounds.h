@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../local_maps/simulated_drive.h"
+#include "../mapping/local_maps/simulated_drive.h"
 #include "mapping/local_maps/front_end.h"
 #include "mapping/loop_closure/keyframe_store.h"
 #include "psi_slam/loop_record.h"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "../session/room_log.h"
+#include "../../session/room_log.h"
 #include "awaited_snapshot.h"
 #include "frames_in_memory.h"
 #include "map/report/output_folder.h"

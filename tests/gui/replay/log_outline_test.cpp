@@ -6,7 +6,7 @@
 #include <chrono>
 #include <thread>
 
-#include "../session/room_log.h"
+#include "../../session/room_log.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {

@@ -8,7 +8,7 @@
 #include <set>
 #include <thread>
 
-#include "../session/room_log.h"
+#include "../../session/room_log.h"
 #include "awaited_snapshot.h"
 #include "map/report/output_folder.h"
 #include "psi_slam/mapping_session.h"

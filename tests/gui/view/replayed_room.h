@@ -7,7 +7,7 @@
 #include <memory>
 #include <thread>
 
-#include "../session/room_log.h"
+#include "../../session/room_log.h"
 #include "gui/replay.h"
 #include "temporary_folder.h"
 

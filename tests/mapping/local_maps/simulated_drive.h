@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "../matching/simulated_walls.h"
+#include "../../matching/simulated_walls.h"
 #include "psi_slam/frame.h"
 
 namespace psi_slam {

@@ -176,7 +176,7 @@ void print_warnings_of_log(const GraphSlamRun& run, std::ostream& err) {
   if (2 * run.unmatched_scans() > run.scans())
     err << kName << ": " << run.unmatched_scans() << " of " << run.scans()
         << " scans could not be matched and are placed by odometry. If the ranges are noisy, raise "
-           "local_maps.smoothing_sigma_m to their noise and lower front_end.min_response_share\n";
+           "local_maps.smoothing_sigma_m to their noise\n";
   if (run.broken_off()) err << kName << ": " << broken_off_text(*run.broken_off(), run.scans()) << '\n';
 }
 

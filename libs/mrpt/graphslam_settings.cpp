@@ -20,8 +20,7 @@ struct Owner {
 const std::array<Owner, 3> kOwners{
     {{kNodeDeciderSection, {"log", "front_end", "local_maps"}},
      {kEdgeDeciderSection,
-      {"loop_closure", "psi", "genetic", "verification", "consensus", "final_search", "last_pass",
-       "joint_refinement", "run", "pose_graph.loop_sigma_m", "pose_graph.loop_sigma_theta_deg"}},
+      {"loop_closure", "psi", "genetic", "final_search", "last_pass", "joint_refinement", "run"}},
      {kOptimizerSection, {"pose_graph"}}}};
 
 /// Whether an option has no effect in the engine, which reads every scan and draws its own map. The choice of
@@ -62,7 +61,7 @@ void load_graphslam_settings(const std::filesystem::path& ini, BoundSettings& bo
   for (const IniValue& value : read_ini(ini).values) {
     const std::size_t dot = value.key.find('.');
     if (!is_deciders_section(value.section) || dot == std::string::npos) continue;
-    if (!bound.table.is_obsolete(value.key))
+    if (!bound.table.is_ignored(value.key))
       require_own_section(value, bound.table.option(value.key, value.where).name());
     options.values.push_back({value.key.substr(0, dot), value.key.substr(dot + 1), value.text, value.where});
   }

@@ -23,8 +23,8 @@ inline constexpr const char* kNodeDeciderSection = "NodeRegistrationDeciderParam
 inline constexpr const char* kEdgeDeciderSection = "EdgeRegistrationDeciderParameters";
 inline constexpr const char* kOptimizerSection = "OptimizerParameters";
 
-/// The section of an option such as "front_end.window_m". Empty for options without effect in the engine,
-/// such as those of the map's drawing.
+/// The section of an option such as "front_end.node_distance_m". Empty for options without effect in the
+/// engine, such as those of the map's drawing.
 std::string graphslam_section_of(const std::string& option);
 
 /// Reads all options of psi-slam in the file into `bound`. Throws UserError, with file and line, for an

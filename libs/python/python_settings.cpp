@@ -56,7 +56,7 @@ void load_python_settings(BoundSettings& bound, const py::object& config, const 
     for (const py::handle item : settings.attr("items")()) {
       const auto pair = item.cast<py::tuple>();
       const std::string name = py::str(pair[0]);
-      bound.table.set(name, option_text(name, pair[1]), "settings");
+      bound.table.set_any(name, option_text(name, pair[1]), "settings");
     }
   }
   check(bound.settings);

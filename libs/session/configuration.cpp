@@ -45,12 +45,12 @@ void Configuration::load(const std::filesystem::path& ini) {
 }
 
 void Configuration::set(std::string_view name, std::string_view value) {
-  implementation_->bound.table.set(name, value, "Configuration::set");
+  implementation_->bound.table.set_any(name, value, "Configuration::set");
   implementation_->update();
 }
 
 std::string Configuration::value(std::string_view name) const {
-  return implementation_->bound.table.option(name, "Configuration::value").text();
+  return implementation_->bound.table.option_or_constant(name, "Configuration::value").text();
 }
 
 std::string Configuration::text() const {

@@ -103,6 +103,8 @@ RunInfo MappingSession::run_info() const {
   RunInfo info{PSI_SLAM_VERSION, names_of(m_->logs), {}, {}};
   for (const OptionSection& section : bound.table.sections())
     for (const Option& option : section.options) info.settings[option.name()] = option.text();
+  for (const auto& [name, constant] : bound.table.constants())
+    if (constant.text() != constant.default_text) info.settings[name] = constant.text();
   info.warnings = warnings();
   for (const RecordedLog& log : m_->logs) {
     if (!log.calibration) continue;

@@ -38,8 +38,8 @@ std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts&
   std::string obsolete;
   for (const IniValue& value : parse_ini(facts.settings, file).values) {
     const std::string name = value.section + '.' + value.key;
-    if (bound.table.knows(name))
-      bound.table.set(name, value.text, value.where);
+    if (bound.table.knows(name) || bound.table.is_constant(name))
+      bound.table.set_any(name, value.text, value.where);
     else
       obsolete += (obsolete.empty() ? "" : ", ") + name;
   }
@@ -59,6 +59,8 @@ std::map<std::string, std::string> kept_settings(const OptionTable& table) {
   for (const OptionSection& section : table.sections())
     for (const Option& option : section.options)
       if (!is_free(option)) kept[option.name()] = option.text();
+  for (const auto& [name, constant] : table.constants())
+    if (!is_free(constant)) kept[name] = constant.text();
   return kept;
 }
 

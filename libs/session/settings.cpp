@@ -34,7 +34,7 @@ void describe_log(OptionTable& table, Settings& settings) {
           "Readings at or beyond this range count as no return. auto: the code for no return that the "
           "readings show, otherwise the log's value, or 50 m. State the range of the laser "
           "if far walls are missing, or if the map shows fans of free space beyond the walls.")
-      .number("min_range_m", log.min_range_m, at_least(0), "m",
+      .number("min_range_m", log.min_range_m, between(0, 100), "m",
               "Readings below this range are neither matched nor drawn. Raise it if the laser sees the robot "
               "itself.")
       .flag("mirrored", log.mirrored,
@@ -207,11 +207,8 @@ void describe_run(OptionTable& table, RunOptions& run) {
 struct Named {
   const char* name;
   double value;
-  bool is_angle = false;
 
-  std::string words() const {
-    return std::string(name) + " = " + (is_angle ? exact_degrees_text(value) : exact_text(value));
-  }
+  std::string words() const { return std::string(name) + " = " + exact_text(value); }
 };
 
 void require_below(const Named& smaller, const Named& larger) {
@@ -225,7 +222,10 @@ void require_at_most(const Named& smaller, const Named& larger) {
 }
 
 // Options that once set numbers of the method. A settings file that still has them is accepted.
-constexpr const char* kObsoleteOptions[] = {"front_end.min_range_m",
+constexpr const char* kObsoleteOptions[] = {"front_end.max_strain_m",
+                                            "front_end.strain_travel_m",
+                                            "consensus.max_rival_share",
+                                            "front_end.min_range_m",
                                             "front_end.refine_max_iterations",
                                             "front_end.refine_max_shift_m",
                                             "front_end.prior_sigma_m",
@@ -281,11 +281,7 @@ void describe(OptionTable& table, Settings& settings) {
   describe_localization(table, settings.localization);
   describe_live(table, settings);
   describe_run(table, settings.run);
-  table.alias("last_pass", "final_search")
-      .alias("log.odometry_topic", "log.odometry")
-      .alias("front_end.max_strain_m", "front_end.max_doubtful_correction_m")
-      .alias("front_end.strain_travel_m", "front_end.doubtful_correction_travel_m")
-      .alias("consensus.max_rival_share", "consensus.max_other_place_share");
+  table.alias("last_pass", "final_search").alias("log.odometry_topic", "log.odometry");
   for (const char* name : kObsoleteOptions) table.obsolete(name);
 }
 
@@ -311,32 +307,9 @@ void check_values(const Settings& settings) {
   const Named log_min{"log.min_range_m", settings.log.min_range_m};
   const Named log_max{"log.max_range_m",
                       settings.log.max_range_m.value_or(std::numeric_limits<double>::infinity())};
-  const FrontEndOptions& front_end = settings.mapper.front_end;
-  const Named matched_max{"front_end.max_range_m", front_end.scan.max_range_m};
+  const PsiOptions& psi = settings.mapper.back_end.psi;
   require_below(log_min, log_max);
-  require_below(log_min, matched_max);
-  require_at_most({"front_end.window_m", front_end.window_m},
-                  {"front_end.max_window_m", front_end.max_window_m});
-  require_at_most({"front_end.window_theta_deg", front_end.window_rad, true},
-                  {"front_end.max_window_theta_deg", front_end.max_window_rad, true});
-  const BackEndOptions& back_end = settings.mapper.back_end;
-  const LoopCandidateOptions& loops = back_end.loop_closure.candidates;
-  require_at_most({"loop_closure.min_window_m", loops.min_window_m},
-                  {"loop_closure.window_x_m", loops.max_window.x_m});
-  require_at_most({"loop_closure.min_window_m", loops.min_window_m},
-                  {"loop_closure.window_y_m", loops.max_window.y_m});
-  require_at_most({"loop_closure.min_window_theta_deg", loops.min_window_rad, true},
-                  {"loop_closure.window_theta_deg", loops.max_window.theta_rad, true});
-  require_at_most({"final_search.window_m", back_end.final_search.window_m},
-                  {"verification.wide_window_m", back_end.loop_closure.verification.wide_window_m});
-  require_at_most({"loop_closure.min_sigma_m", back_end.loop_matcher.min_sigma_m},
-                  {"loop_closure.max_sigma_m", back_end.loop_matcher.max_sigma_m});
-  // Otherwise each waiting match would be dropped before the next one comes.
-  const LoopConsensusOptions& consensus = back_end.loop_consensus;
-  require_at_most({"consensus.min_span_m", consensus.min_span_m}, {"consensus.memory_m", consensus.memory_m});
-  require_at_most({"loop_closure.attempt_distance_m", back_end.loop_closure.attempt_distance_m},
-                  {"consensus.memory_m", consensus.memory_m});
-  require_at_most({"psi.psi_1", back_end.psi.psi_1}, {"psi.psi_2", back_end.psi.psi_2});
+  require_at_most({"psi.psi_1", psi.psi_1}, {"psi.psi_2", psi.psi_2});
   check_log_options(log_options(settings));
   const std::string& align = settings.map_frame.align;
   if (align != MapFrameOptions::kNone && align != MapFrameOptions::kWalls && !parse_degrees(align))

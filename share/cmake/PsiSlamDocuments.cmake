@@ -27,12 +27,16 @@ function(psi_slam_install_documents)
       DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT ${component})
   endforeach()
   psi_slam_write_document(psi-slam --settings-man-page ${man}/psi-slam.ini.5.gz)
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/ini)
+  psi_slam_write_document(psi-slam --dump-config ${PROJECT_BINARY_DIR}/ini/psi-slam.ini)
   add_custom_target(psi_slam_program_documents ALL DEPENDS ${documents})
 
   list(JOIN programs " " PROGRAMS)
   target_compile_definitions(psi_slam_documents PRIVATE PSI_SLAM_PROGRAMS="${PROGRAMS}")  # for the section SEE ALSO
   configure_file(${PROJECT_SOURCE_DIR}/share/cmake/zsh-completion.in ${PROJECT_BINARY_DIR}/_psi-slam @ONLY)
 
+  install(FILES ${PROJECT_BINARY_DIR}/ini/psi-slam.ini DESTINATION ${CMAKE_INSTALL_DATADIR}/psi-slam/ini
+    COMPONENT programs)
   install(FILES ${man}/psi-slam.ini.5.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man5 COMPONENT programs)
   install(FILES ${PROJECT_BINARY_DIR}/_psi-slam
     DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT programs)

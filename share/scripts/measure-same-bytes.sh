@@ -22,13 +22,15 @@ trap 'rm -rf "$outputs"' EXIT
 
 variants=("threads=1" "threads=1" "threads=1" "threads=2" "threads=4" "threads=8" "set=baseline" "set=avx2" "set=avx512")
 
-# checksum_of_run LOG INI VARIANT: maps a log and prints the checksum of all files without times.
+# checksum_of_run LOG VARIANT [-c INI]: maps a log and prints the checksum of all files without times.
 checksum_of_run() {
   local threads=2 set=avx512
-  local "${3?}"  # sets one of the two
+  local log=$1 variant=$2
+  shift 2
+  local "$variant"  # sets one of the two
   rm -rf "$outputs/map"
-  PSI_SLAM_MAX_INSTRUCTIONS=$set "$program" -c "$2" "$1" -o "$outputs/map" --threads "$threads" --quiet </dev/null \
-    2>"$outputs/words" || { echo "$0: $1 with $3 failed: $(cat "$outputs/words")" >&2; exit 1; }
+  PSI_SLAM_MAX_INSTRUCTIONS=$set "$program" "$@" "$log" -o "$outputs/map" --threads "$threads" --quiet </dev/null \
+    2>"$outputs/words" || { echo "$0: $log with $variant failed: $(cat "$outputs/words")" >&2; exit 1; }
   # The files left out contain times, or are computed by MRPT when it writes them (map.simplemap.gz).
   (cd "$outputs/map" && find . -type f ! -name frames.csv ! -name loops.csv ! -name report.html ! -name summary.json \
     ! -name map.simplemap.gz | LC_ALL=C sort | xargs sha256sum | sha256sum | cut -c1-16)
@@ -41,11 +43,11 @@ for log; do
   file=$folder/$log.clf.gz
   [ -r "$file" ] || file=$folder/sparse/$log.clf.gz
   [ -r "$file" ] || { echo "$0: $folder has no $log.clf.gz, so this log is skipped" >&2; continue; }
-  ini=ini/$log.ini
-  [ -r "$ini" ] || ini=ini/psi-slam.ini
+  settings=()
+  [ -r "ini/$log.ini" ] && settings=(-c "ini/$log.ini")
   first= different=0
   for variant in "${variants[@]}"; do
-    checksum=$(checksum_of_run "$file" "$ini" "$variant")
+    checksum=$(checksum_of_run "$file" "$variant" "${settings[@]}")
     : "${first:=$checksum}"
     if [ "$checksum" != "$first" ]; then
       echo "$0: $log with $variant gives other files" >&2

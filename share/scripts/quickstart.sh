@@ -13,5 +13,5 @@ if [ ! -r "$log" ]; then
   echo "quickstart.sh: $log is missing. Restore it with sudo apt-get install --reinstall mrpt-common" >&2
   exit 1
 fi
-build/release/apps/psi-slam/psi-slam -c ini/psi-slam.ini "$log" -o "$output" --force
+build/release/apps/psi-slam/psi-slam "$log" -o "$output" --force
 echo "The map is $PWD/$output/map.png. The report is $PWD/$output/report.html."

@@ -185,14 +185,13 @@ TEST_F(MergeApp, warns_of_changed_settings_of_a_session) {
     ASSERT_EQ(run_app(arguments).code, 0);
   };
   save("first", {"map.resolution_m=0.1", "run.threads=1"});
-  save("second", {"front_end.window_theta_deg=7.5", "log.min_range_m=0.05", "run.seed=9",
-                  "verification.max_ambiguity=0.8"});
+  save("second", {"front_end.node_rotation_deg=7.5", "log.min_range_m=0.05", "run.seed=9", "psi.psi_2=2"});
   const AppRun run = merge({"first.session", "second.session"}, "out");
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(run.err, "psi-slam: " + file("second.session") +
                          " was mapped with other settings and is mapped again with the current settings: "
-                         "front_end.window_theta_deg was 7.5 and is " +
-                         default_text("front_end.window_theta_deg") + ", log.min_range_m was 0.05 and is " +
+                         "front_end.node_rotation_deg was 7.5 and is " +
+                         default_text("front_end.node_rotation_deg") + ", log.min_range_m was 0.05 and is " +
                          default_text("log.min_range_m") + ", run.seed was 9 and is " +
                          default_text("run.seed") + ", and 1 more\n");
 }

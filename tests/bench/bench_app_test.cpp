@@ -138,8 +138,6 @@ TEST_F(BenchApp, commands_name_missing_logs_and_relations) {
 TEST_F(BenchApp, wrong_usage_and_input_give_one_sentence_and_exit_code_2) {
   EXPECT_THAT(refusal({}), HasSubstr("there is no log in " + data_.string()));
   write_lines(data_ / "other.log", room_log_lines(2));
-  EXPECT_THAT(refusal({}), AllOf(HasSubstr("other.log has no settings"), HasSubstr("other.ini")));
-  write_file(ini_ / "other.ini", "[log]\n");
   EXPECT_THAT(refusal({"--bogus"}), HasSubstr("--bogus"));
   EXPECT_THAT(refusal({"--cases", "0"}), HasSubstr("--cases"));
   EXPECT_THAT(refusal({"--cases", "many"}), HasSubstr("--cases"));

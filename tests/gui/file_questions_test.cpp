@@ -88,14 +88,14 @@ TEST_F(FileQuestionsTest, a_session_saved_half_way_can_be_opened_and_resumed) {
   });
   command(kSaveSession, path("half.session"));
   until_it_says("Session saved in");
-  gui_.then([](MainFrame& frame) { frame.settings_panel().enter("front_end.window_m", "0.7"); });
+  gui_.then([](MainFrame& frame) { frame.settings_panel().enter("front_end.node_distance_m", "0.7"); });
   command(kOpenLog, path("half.session"))
       .when("25 scans again",
             [](MainFrame& frame) {
               return frame.replay()->stamps_us() && frame.replay()->stamps_us()->size() == 25;
             })
       .then([](MainFrame& frame) {
-        EXPECT_NE(frame.settings_panel().shown("front_end.window_m"), "0.7")
+        EXPECT_NE(frame.settings_panel().shown("front_end.node_distance_m"), "0.7")
             << "the session has its own settings";
         EXPECT_THAT(std::string(frame.GetTitle().utf8_string()), HasSubstr("half.session"));
       });
@@ -110,13 +110,13 @@ TEST_F(FileQuestionsTest, a_session_saved_half_way_can_be_opened_and_resumed) {
       .when_phase(ReplayPhase::kFinished)
       .then([](MainFrame& frame) {
         EXPECT_EQ(frame.replay()->snapshot()->frames.size(), 40U);
-        frame.settings_panel().enter("front_end.window_m", "0.7");
+        frame.settings_panel().enter("front_end.node_distance_m", "0.7");
       })
       .command(kRestart);
-  until_it_says("front_end.window_m is");
+  until_it_says("front_end.node_distance_m is");
   write_file(path("my.edits"), "delete scan=3 local_map=0\n");
   gui_.then([this](MainFrame& frame) { frame.messages().dismiss(), frame.open_edits(path("my.edits")); });
-  until_it_says("front_end.window_m is");
+  until_it_says("front_end.node_distance_m is");
   EXPECT_EQ(gui_.run({}), 0);
 }
 
@@ -162,10 +162,10 @@ TEST_F(FileQuestionsTest, a_damaged_session_is_reported_and_the_map_stays) {
 }
 
 TEST_F(FileQuestionsTest, settings_are_opened_and_saved_over_a_file) {
-  write_file(path("my.ini"), "[front_end]\nwindow_m = 0.7\n");
+  write_file(path("my.ini"), "[front_end]\nnode_distance_m = 0.7\n");
   command(kOpenSettings, path("my.ini")).then([](MainFrame& frame) {
-    EXPECT_EQ(frame.settings_panel().shown("front_end.window_m"), "0.7");
-    EXPECT_TRUE(frame.settings_panel().enter("front_end.window_m", "0.4"));
+    EXPECT_EQ(frame.settings_panel().shown("front_end.node_distance_m"), "0.7");
+    EXPECT_TRUE(frame.settings_panel().enter("front_end.node_distance_m", "0.4"));
   });
   command(kSaveSettings, path("my.ini"));
   until_it_says("Settings saved in");
@@ -173,7 +173,7 @@ TEST_F(FileQuestionsTest, settings_are_opened_and_saved_over_a_file) {
   command(kOpenSettings, path("wrong.ini"));
   until_it_says("window_metres");
   EXPECT_EQ(gui_.run({}), 0);
-  EXPECT_THAT(read_file(path("my.ini")), HasSubstr("window_m = 0.4"));
+  EXPECT_THAT(read_file(path("my.ini")), HasSubstr("node_distance_m = 0.4"));
 }
 
 TEST_F(FileQuestionsTest, the_folder_of_a_bag_is_opened_as_a_log) {

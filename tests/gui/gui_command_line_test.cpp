@@ -31,9 +31,9 @@ TEST(GuiCommandLine, prints_version_and_help_without_a_window) {
 }
 
 TEST(GuiCommandLine, rejects_wrong_arguments_with_the_messages_of_psi_slam) {
-  EXPECT_EQ(run({"--set", "front_end.window_m=abc"}).code, 2);
-  EXPECT_THAT(run({"--set", "front_end.window_m=abc"}).err,
-              HasSubstr("--set: front_end.window_m = abc: expected a number of metres"));
+  EXPECT_EQ(run({"--set", "front_end.node_distance_m=abc"}).code, 2);
+  EXPECT_THAT(run({"--set", "front_end.node_distance_m=abc"}).err,
+              HasSubstr("--set: front_end.node_distance_m = abc: expected a number of metres"));
   EXPECT_THAT(run({"--confg", "x.ini"}).err, HasSubstr("did you mean \"--config\"?"));
   EXPECT_THAT(run({"a.log", "b.log"}).err, HasSubstr("unexpected argument \"b.log\""));
   EXPECT_THAT(run({"-c", "/missing.ini"}).err, HasSubstr("/missing.ini"));

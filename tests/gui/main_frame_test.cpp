@@ -460,28 +460,30 @@ TEST_F(MainFrameTest, settings_are_checked_saved_and_used) {
   const std::filesystem::path ini = gui_.folder() / "my.ini";
   gui_.when_phase(ReplayPhase::kPaused).then([](MainFrame& frame) {
     SettingsPanel& panel = frame.settings_panel();
-    EXPECT_EQ(panel.shown("front_end.window_m"), "0.2") << "given on the command line";
-    EXPECT_TRUE(panel.enter("front_end.window_m", "0.3"));
-    EXPECT_FALSE(panel.enter("front_end.window_m", "abc"));
-    EXPECT_EQ(frame.settings().settings.mapper.front_end.window_m, 0.3);
+    EXPECT_EQ(panel.shown("front_end.node_distance_m"), "0.2") << "given on the command line";
+    EXPECT_TRUE(panel.enter("front_end.node_distance_m", "0.3"));
+    EXPECT_FALSE(panel.enter("front_end.node_distance_m", "abc"));
+    EXPECT_EQ(frame.settings().settings.mapper.front_end.node_distance_m, 0.3);
   });
-  when_says("front_end.window_m = abc: expected a number of metres");
+  when_says("front_end.node_distance_m = abc: expected a number of metres");
   gui_.screenshot("settings")
       .then([&](MainFrame& frame) {
-        EXPECT_TRUE(frame.settings_panel().enter("front_end.window_theta_deg", "12"));
+        EXPECT_TRUE(frame.settings_panel().enter("front_end.node_rotation_deg", "12"));
         frame.save_settings(ini);
         EXPECT_TRUE(frame.settings_panel().enter("loop_closure.enabled", "false"));
         EXPECT_TRUE(frame.settings_panel().enter("loop_closure.matcher", "ga"));
         frame.settings_panel().reset_all();
-        EXPECT_EQ(frame.settings_panel().shown("front_end.window_theta_deg"), "7");
+        EXPECT_EQ(frame.settings_panel().shown("front_end.node_rotation_deg"), "7");
         frame.open_settings(ini);
-        EXPECT_EQ(frame.settings_panel().shown("front_end.window_m"), "0.3");
+        EXPECT_EQ(frame.settings_panel().shown("front_end.node_distance_m"), "0.3");
       })
       .command(kRestart)
       .when_phase(ReplayPhase::kPaused)
-      .then([](MainFrame& frame) { EXPECT_EQ(frame.replay()->settings().mapper.front_end.window_m, 0.3); });
-  EXPECT_EQ(gui_.run({room_log(20), "--set", "front_end.window_m=0.2"}), 0);
-  EXPECT_THAT(read_file(ini), HasSubstr("window_theta_deg = 12"));
+      .then([](MainFrame& frame) {
+        EXPECT_EQ(frame.replay()->settings().mapper.front_end.node_distance_m, 0.3);
+      });
+  EXPECT_EQ(gui_.run({room_log(20), "--set", "front_end.node_distance_m=0.2"}), 0);
+  EXPECT_THAT(read_file(ini), HasSubstr("node_rotation_deg = 12"));
 }
 
 TEST_F(MainFrameTest, the_view_can_be_changed_and_saved_as_a_picture) {

@@ -152,7 +152,7 @@ TEST(GraphSlamApp, reports_scans_that_cannot_be_matched) {
   const auto log = write_rawlog(folder.path() / "drive.rawlog", frames, 1);
   std::string settings = read_file(kIni);
   const std::string distance = "front_end.node_distance_m = 0.15";
-  settings.replace(settings.find(distance), distance.size(), distance + "\nfront_end.max_range_m = 0.2");
+  settings.replace(settings.find(distance), distance.size(), distance + "\nlog.max_range_m = 0.2");
   write_file(folder.path() / "my.ini", settings);
   const AppRun run = run_app({"-i", (folder.path() / "my.ini").string(), "-r", log.string(),
                               "--disable-visuals", "--output-dir", (folder.path() / "results").string()});

@@ -45,8 +45,8 @@ TEST(GraphSlamSettings, errors_name_file_and_line) {
   EXPECT_THAT(sentence_of([&] { read(node + "loop_closure.matcher = ga\n"); }),
               HasSubstr("belongs in section [EdgeRegistrationDeciderParameters]"));
   EXPECT_THAT(sentence_of([&] { read(node + "map.resolution_m = 0.1\n"); }), HasSubstr("has no effect"));
-  EXPECT_THAT(sentence_of([&] { read(node + "front_end.window_m = 0.5\nfront_end.max_window_m = 0.2\n"); }),
-              HasSubstr("must not be more than"));
+  EXPECT_THAT(sentence_of([&] { read(node + "log.min_range_m = 5\nlog.max_range_m = 4\n"); }),
+              HasSubstr("must be less than"));
 }
 
 TEST(GraphSlamSettings, lists_every_option_in_at_most_one_section_as_readable_settings) {

@@ -47,7 +47,7 @@ TEST(Configuration, passes_values_to_the_part_that_uses_them) {
 TEST(Configuration, is_restored_from_its_text) {
   const TemporaryFolder folder;
   Configuration configuration;
-  configuration.set("front_end.window_theta_deg", "12.5");
+  configuration.set("front_end.node_rotation_deg", "12.5");
   std::ofstream(folder.path() / "my.ini") << configuration.text();
   Configuration restored;
   restored.load(folder.path() / "my.ini");
@@ -65,8 +65,8 @@ TEST(Configuration, copies_are_independent) {
 
 TEST(Configuration, warns_about_old_names) {
   Configuration configuration;
-  configuration.set("last_pass.window_m", "1");
-  EXPECT_EQ(configuration.value("final_search.window_m"), "1");
+  configuration.set("last_pass.passes", "1");
+  EXPECT_EQ(configuration.value("final_search.passes"), "1");
   ASSERT_EQ(configuration.warnings().size(), 1U);
   EXPECT_THAT(configuration.warnings().front(), HasSubstr("final_search"));
 }
@@ -77,9 +77,10 @@ TEST(Configuration, names_the_mistake) {
   EXPECT_THAT(message_of([&] { configuration.set("map.resolution_m", "wide"); }), HasSubstr("wide"));
   EXPECT_THAT(message_of([&] { configuration.value("map.colour"); }),
               HasSubstr("unknown key \"colour\" in [map]"));
-  configuration.set("front_end.window_m", "3");
-  configuration.set("front_end.max_window_m", "2");
-  EXPECT_THAT(message_of([&] { configuration.check(); }), HasSubstr("front_end.max_window_m"));
+  EXPECT_THAT(message_of([&] { configuration.set("front_end.window_m", "wide"); }), HasSubstr("wide"));
+  configuration.set("psi.psi_1", "3");
+  configuration.set("psi.psi_2", "2");
+  EXPECT_THAT(message_of([&] { configuration.check(); }), HasSubstr("psi.psi_2"));
   EXPECT_THROW(static_cast<void>(static_cast<const MapperOptions&>(configuration)), UserError);
 }
 

@@ -321,13 +321,13 @@ TEST_F(MappingSessionTest, warns_of_unmatched_scans_when_finished_and_resumed) {
 TEST_F(MappingSessionTest, checks_settings_and_log_before_mapping) {
   EXPECT_THAT(sentence_of([&] { MappingSession("/missing/room.log", settings_); }),
               HasSubstr("/missing/room.log does not exist"));
-  settings_.mapper.back_end.loop_closure.candidates.min_window_m = 50;
+  settings_.mapper.back_end.psi.psi_1 = 50;
   EXPECT_THAT(sentence_of([&] { MappingSession("/missing/room.log", settings_); }),
-              HasSubstr("loop_closure.min_window_m = 50 must not be more than"));
+              HasSubstr("psi.psi_1 = 50 must not be more than"));
 }
 
 TEST_F(MappingSessionTest, exports_the_graph_and_the_figures_of_the_whole_run) {
-  settings_.mapper.front_end.window_m = 0.2;
+  settings_.mapper.front_end.node_distance_m = 0.2;
   settings_.run.threads = 1;  // with more, stages overlap and may add up to more than wall_s
   MappingSession session(log(room_log_lines(60)), settings_);
   session.run(go_on_);
@@ -347,7 +347,7 @@ TEST_F(MappingSessionTest, exports_the_graph_and_the_figures_of_the_whole_run) {
   EXPECT_EQ(stages.back(), "write results");
   EXPECT_LT(stages_s, summary.wall_s);
   EXPECT_EQ(session.run_info().log_name, "room.log");
-  EXPECT_EQ(session.run_info().settings.at("front_end.window_m"), "0.2");
+  EXPECT_EQ(session.run_info().settings.at("front_end.node_distance_m"), "0.2");
 }
 
 TEST_F(MappingSessionTest, draws_and_reads_what_it_exports_without_writing) {

@@ -549,37 +549,38 @@ TEST_F(ResumedSession, rejects_a_log_that_does_not_continue_it) {
 TEST_F(ResumedSession, restores_settings_and_keeps_those_that_shape_the_map) {
   BoundSettings recorded;
   recorded.load(
-      {}, {"front_end.window_theta_deg=7.3", "log.max_range_m=40", "map.resolution_m=0.1", "run.seed=5"});
+      {}, {"front_end.node_rotation_deg=7.3", "log.max_range_m=40", "map.resolution_m=0.1", "run.seed=5"});
   SessionFacts facts;
   facts.settings = settings_file_text(recorded.settings);
   BoundSettings bound;
   EXPECT_THAT(load_recorded(bound, facts, "my.session"), IsEmpty());
   EXPECT_EQ(kept_settings(bound.table), kept_settings(recorded.table));
-  EXPECT_EQ(bound.settings.mapper.front_end.window_rad, recorded.settings.mapper.front_end.window_rad);
+  EXPECT_EQ(bound.settings.mapper.front_end.node_rotation_rad,
+            recorded.settings.mapper.front_end.node_rotation_rad);
   EXPECT_EQ(bound.settings.map.resolution_m, 0.1);
 
   const auto kept = kept_settings(bound.table);
-  bound.load({}, {"map.write_png=false", "run.threads=3", "front_end.window_theta_deg=7.3"});
+  bound.load({}, {"map.write_png=false", "run.threads=3", "front_end.node_rotation_deg=7.3"});
   EXPECT_NO_THROW(require_kept(kept, bound.table, "my.session"));
-  bound.load({}, {"front_end.window_theta_deg=8"});
+  bound.load({}, {"front_end.node_rotation_deg=8"});
   EXPECT_THAT(sentence_of([&] { require_kept(kept, bound.table, "my.session"); }),
-              HasSubstr("front_end.window_theta_deg is 7.3 in the session my.session and cannot become 8"));
+              HasSubstr("front_end.node_rotation_deg is 7.3 in the session my.session and cannot become 8"));
 }
 
 TEST_F(ResumedSession, ignores_obsolete_options_with_a_warning) {
   SessionFacts facts;
-  facts.settings = "[front_end]\nwindow_m = 0.2\nmagic = 3\n[gone]\nkey = 1\n";
+  facts.settings = "[front_end]\nwindow_m = 0.2\nnode_distance_m = 0.2\nmagic = 3\n[gone]\nkey = 1\n";
   BoundSettings bound;
   EXPECT_THAT(load_recorded(bound, facts, "old.session"),
               ElementsAre("old.session: ignores obsolete options: front_end.magic, gone.key"));
-  EXPECT_EQ(bound.settings.mapper.front_end.window_m, 0.2);
-  facts.settings = "[front_end]\nmax_strain_m = 0.3\n[last_pass]\npasses = 1\n";
+  EXPECT_EQ(bound.settings.mapper.front_end.node_distance_m, 0.2);
+  EXPECT_EQ(bound.settings.mapper.front_end.window_m, 0.2) << "constants of the recorded run are restored";
+  facts.settings = "[last_pass]\npasses = 1\n";
   EXPECT_THAT(load_recorded(bound, facts, "old.session"), IsEmpty());
-  EXPECT_EQ(bound.settings.mapper.front_end.doubtful_corrections.max_sum_m, 0.3);
   EXPECT_EQ(bound.settings.mapper.back_end.final_search.passes, 1);
-  facts.settings = "[front_end]\nwindow_m = -1\n";
+  facts.settings = "[front_end]\nnode_distance_m = -1\n";
   EXPECT_THAT(sentence_of([&] { load_recorded(bound, facts, "old.session"); }),
-              HasSubstr("old.session:2: front_end.window_m"));
+              HasSubstr("old.session:2: front_end.node_distance_m"));
 }
 
 TEST_F(ResumedSession, warns_of_another_version_of_the_program) {

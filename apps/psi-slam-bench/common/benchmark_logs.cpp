@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "base/config/settings_text.h"
 #include "batch/kept_run.h"
 #include "map/exports/mapped_trajectory.h"
 #include "psi_slam/user_error.h"
@@ -38,10 +39,6 @@ std::vector<BenchmarkLog> find_benchmark_logs(const fs::path& data, const fs::pa
   if (logs.empty())
     throw UserError("there is no log in " + data.string() +
                     ": expected NAME.clf.gz, NAME.log or NAME.rawlog with NAME.relations beside it");
-  for (const BenchmarkLog& log : logs)
-    if (log.ini.empty())
-      throw UserError(log.log.string() + " has no settings: expected " +
-                      (ini / (log.name + ".ini")).string() + " with the parameters of its sensor");
   return logs;
 }
 
@@ -51,7 +48,7 @@ std::optional<fs::path> shipped_ini_folder() {
   while (!failed && folder.has_relative_path()) {
     folder = folder.parent_path();
     for (const fs::path& ini : {folder / "share" / "psi-slam" / "ini", folder / "ini"})
-      if (fs::exists(ini / "psi-slam.ini", failed)) return ini;
+      if (fs::exists(ini / "aces.ini", failed)) return ini;
   }
   return std::nullopt;
 }
@@ -59,7 +56,8 @@ std::optional<fs::path> shipped_ini_folder() {
 Settings benchmark_settings(const fs::path& ini, const std::vector<std::string>& assignments,
                             std::vector<std::string>* warnings) {
   BoundSettings bound;
-  bound.load(ini, assignments);
+  bound.load(ini, {});
+  for (const std::string& assignment : assignments) apply_override(assignment, bound.table, true);
   check(bound.settings);
   if (warnings != nullptr)
     for (std::string& warning : bound.table.take_warnings()) warnings->push_back(std::move(warning));

@@ -30,7 +30,7 @@ struct BenchmarkLog {
 /// empty if `ini` has no NAME.ini. Throws UserError when `data` is not a folder.
 std::vector<BenchmarkLog> logs_in_folder(const std::filesystem::path& data, const std::filesystem::path& ini);
 
-/// Calls logs_in_folder(). Throws UserError if there is no log, or if a log has no settings.
+/// Calls logs_in_folder(). Throws UserError if there is no log.
 std::vector<BenchmarkLog> find_benchmark_logs(const std::filesystem::path& data,
                                               const std::filesystem::path& ini);
 

@@ -127,6 +127,7 @@ std::string settings_text(const Settings& settings) {
   std::string text;
   for (const OptionSection& section : bound.table.sections())
     for (const Option& option : section.options) text += option.name() + " = " + option.text() + '\n';
+  for (const auto& [name, constant] : bound.table.constants()) text += name + " = " + constant.text() + '\n';
   return text;
 }
 

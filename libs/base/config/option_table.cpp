@@ -59,11 +59,6 @@ std::optional<std::string> parse_line(std::string_view text) {
   return std::string(text);
 }
 
-bool names_degrees(std::string_view key) {
-  constexpr std::string_view kSuffix = "_deg";
-  return key.size() > kSuffix.size() && key.substr(key.size() - kSuffix.size()) == kSuffix;
-}
-
 template <class Items>
 std::vector<std::string> names_of(const Items& items, std::string Items::value_type::*name) {
   std::vector<std::string> names;
@@ -109,7 +104,41 @@ std::string file_of(std::string_view where) {
   return std::string(where.substr(0, where.rfind(':')));
 }
 
+/// Binds a number or an angle. `Number` is double, or std::optional<double> for an option that can be "auto".
+template <class Number>
+Option number_or_angle(Option option, Number& member, bool is_angle) {
+  if (!is_angle && option.unit == "deg")
+    throw std::logic_error(option.key + ": angles are described by angle_deg");
+  option.may_be_auto = std::is_same_v<Number, std::optional<double>>;
+  const auto parse = [may_be_auto = option.may_be_auto, range = option.range,
+                      is_angle](std::string_view text) -> std::optional<Number> {
+    if (may_be_auto && text == kAuto) return Number();
+    const std::optional<double> value = parse_number(text);
+    if (!value || !range.contains(*value)) return {};
+    return Number(*(is_angle ? parse_degrees(text) : value));
+  };
+  const auto format = [is_angle](const std::optional<double>& value) {
+    if (!value) return std::string(kAuto);
+    return is_angle ? exact_degrees_text(*value) : exact_text(*value);
+  };
+  return bound(std::move(option), member, parse, format);
+}
+
 }  // namespace
+
+bool names_degrees(std::string_view name) {
+  constexpr std::string_view kSuffix = "_deg";
+  return name.size() > kSuffix.size() && name.substr(name.size() - kSuffix.size()) == kSuffix;
+}
+
+Option bound_number(Option option, double& member, bool is_angle) {
+  return number_or_angle(std::move(option), member, is_angle);
+}
+
+Option bound_flag(Option option, bool& member) {
+  return bound(std::move(option), member, parse_flag,
+               [](bool value) -> std::string { return value ? "true" : "false"; });
+}
 
 bool NumberRange::contains(double value) const {
   if (!std::isfinite(value)) return false;
@@ -159,7 +188,7 @@ OptionTable& OptionTable::section(std::string name, std::string title) {
   return *this;
 }
 
-OptionTable& OptionTable::add_bound(Option option) {
+OptionTable& OptionTable::add(Option option) {
   if (sections_.empty()) throw std::logic_error(option.key + " is described outside any section");
   OptionSection& section = sections_.back();
   option.section = section.name;
@@ -176,57 +205,45 @@ OptionTable& OptionTable::add_bound(Option option) {
   return *this;
 }
 
-/// Adds a number or an angle. `Number` is double, or std::optional<double> for an option that can be "auto".
-template <class Number>
-OptionTable& OptionTable::add_number(Option option, Number& member, bool is_angle) {
-  if (!is_angle && option.unit == "deg")
-    throw std::logic_error(option.key + ": angles are described by angle_deg");
-  option.may_be_auto = std::is_same_v<Number, std::optional<double>>;
-  const auto parse = [option, is_angle](std::string_view text) -> std::optional<Number> {
-    if (option.may_be_auto && text == kAuto) return Number();
-    const std::optional<double> value = parse_number(text);
-    if (!value || !option.range.contains(*value)) return {};
-    return Number(*(is_angle ? parse_degrees(text) : value));
-  };
-  const auto format = [is_angle](const std::optional<double>& value) {
-    if (!value) return std::string(kAuto);
-    return is_angle ? exact_degrees_text(*value) : exact_text(*value);
-  };
-  return add(std::move(option), member, parse, format);
+OptionTable& OptionTable::add_constant(std::string_view name, Option option) {
+  option.section = name.substr(0, name.find('.'));
+  option.default_text = option.text();
+  if (knows(name) || is_ignored(name)) throw std::logic_error("constant " + std::string(name) + " is in use");
+  constants_.emplace(name, std::move(option));
+  return *this;
 }
 
 OptionTable& OptionTable::flag(std::string key, bool& member, std::string help) {
-  return add({std::move(key), OptionType::kFlag, std::move(help)}, member, parse_flag,
-             [](bool value) -> std::string { return value ? "true" : "false"; });
+  return add(bound_flag({std::move(key), OptionType::kFlag, std::move(help)}, member));
 }
 
 OptionTable& OptionTable::number(std::string key, double& member, NumberRange range, std::string unit,
                                  std::string help) {
-  return add_number({std::move(key), OptionType::kNumber, std::move(help), std::move(unit), range}, member,
-                    false);
+  return add(number_or_angle({std::move(key), OptionType::kNumber, std::move(help), std::move(unit), range},
+                             member, false));
 }
 
 OptionTable& OptionTable::angle_deg(std::string key, double& member_rad, NumberRange range_deg,
                                     std::string help) {
-  return add_number({std::move(key), OptionType::kNumber, std::move(help), "deg", range_deg}, member_rad,
-                    true);
+  return add(number_or_angle({std::move(key), OptionType::kNumber, std::move(help), "deg", range_deg},
+                             member_rad, true));
 }
 
 OptionTable& OptionTable::optional_number(std::string key, std::optional<double>& member, NumberRange range,
                                           std::string unit, std::string help) {
-  return add_number({std::move(key), OptionType::kNumber, std::move(help), std::move(unit), range}, member,
-                    false);
+  return add(number_or_angle({std::move(key), OptionType::kNumber, std::move(help), std::move(unit), range},
+                             member, false));
 }
 
 OptionTable& OptionTable::optional_angle_deg(std::string key, std::optional<double>& member_rad,
                                              NumberRange range_deg, std::string help) {
-  return add_number({std::move(key), OptionType::kNumber, std::move(help), "deg", range_deg}, member_rad,
-                    true);
+  return add(number_or_angle({std::move(key), OptionType::kNumber, std::move(help), "deg", range_deg},
+                             member_rad, true));
 }
 
 OptionTable& OptionTable::text(std::string key, std::string& member, std::string help) {
-  return add({std::move(key), OptionType::kText, std::move(help)}, member, parse_line,
-             [](const std::string& value) { return value; });
+  return add(bound({std::move(key), OptionType::kText, std::move(help)}, member, parse_line,
+                   [](const std::string& value) { return value; }));
 }
 
 OptionTable& OptionTable::alias(std::string old_name, std::string new_name) {
@@ -242,7 +259,7 @@ OptionTable& OptionTable::alias(std::string old_name, std::string new_name) {
 }
 
 OptionTable& OptionTable::obsolete(std::string name) {
-  if (knows(name)) throw std::logic_error("obsolete option " + name + " is in use");
+  if (knows(name) || is_constant(name)) throw std::logic_error("obsolete option " + name + " is in use");
   obsolete_.insert(std::move(name));
   return *this;
 }
@@ -266,6 +283,8 @@ bool OptionTable::knows(std::string_view name) const {
 
 void OptionTable::require_section(std::string_view name, std::string_view where) const {
   if (find(sections_, name) != nullptr || aliases_.count(name) > 0) return;
+  for (const auto& [full_name, constant] : constants_)
+    if (constant.section == name) return;
   std::string sentence = std::string(where) + ": unknown section [" + quotable(name) + "]; ";
   if (const auto near = nearest_name(name, names_of(sections_, &OptionSection::name))) {
     sentence += "did you mean [" + *near + "]?";
@@ -288,8 +307,13 @@ const Option& OptionTable::option(std::string_view name, std::string_view where)
                   proposal(sections_, section, key));
 }
 
+const Option& OptionTable::option_or_constant(std::string_view name, std::string_view where) const {
+  const auto constant = constants_.find(current_name(name));
+  return constant == constants_.end() ? option(name, where) : constant->second;
+}
+
 void OptionTable::check(std::string_view name, std::string_view text, std::string_view where) const {
-  if (is_obsolete(name)) return;
+  if (is_ignored(name)) return;
   const Option& target = option(name, where);
   if (target.accepts(text)) return;
   throw UserError(std::string(where) + ": " + target.name() + " = " + quotable(text) + ": expected " +
@@ -298,15 +322,26 @@ void OptionTable::check(std::string_view name, std::string_view text, std::strin
 
 void OptionTable::set(std::string_view name, std::string_view text, std::string_view where) {
   check(name, text, where);
-  if (is_obsolete(name)) {
+  const auto constant = constants_.find(current_name(name));
+  if (constant != constants_.end() && text == constant->second.text()) return;
+  if (is_ignored(name)) {
     ObsoleteOptions& found = obsolete_of_[file_of(where)];
     if (found.names.empty()) found.where = where;
-    found.names.emplace_back(name);
+    found.names.push_back(std::string(name) +
+                          (constant == constants_.end() ? "" : " (always " + constant->second.text() + ")"));
     return;
   }
   const Option& target = option(name, where);
   target.assign(text);
   if (target.name() != name) warn_of_old_name(name, target.name(), where);
+}
+
+void OptionTable::set_any(std::string_view name, std::string_view text, std::string_view where) {
+  const auto constant = constants_.find(current_name(name));
+  if (constant == constants_.end()) return set(name, text, where);
+  if (!constant->second.assign(text))
+    throw UserError(std::string(where) + ": " + std::string(name) + " = " + quotable(text) + ": expected " +
+                    constant->second.expectation());
 }
 
 void OptionTable::warn_of_old_name(std::string_view old_name, const std::string& new_name,

@@ -7,6 +7,8 @@
 //           .angle_deg("window_deg", options.window_rad, above(0).at_most(180), "half-width of headings")
 //           .choice("matcher", options.matcher, {{"csm", Matcher::kCsm}, {"ga", Matcher::kGa}}, "search");
 //     }
+//
+// Constants of the method are named, too. Programs of research change them; files and command lines do not.
 #pragma once
 
 #include <charconv>
@@ -26,6 +28,9 @@ struct RangeEnd {
   double value = 0;
   bool inclusive = true;
 };
+
+/// Whether the name of an option ends in "_deg".
+bool names_degrees(std::string_view name);
 
 /// The numbers that an option accepts: at_least(0), above(0).at_most(20), at_least(0).below(360),
 /// any_number(). No range contains NaN or an infinity.
@@ -129,6 +134,17 @@ class OptionTable {
   /// Describes an option that accepts any text of one line.
   OptionTable& text(std::string key, std::string& member, std::string help);
 
+  /// Names a constant of the method, "section.key". Only set_any() changes it. `Number` is double, an integer
+  /// type or bool. The member of a name that ends in "_deg" is in radians, and its text in degrees.
+  template <class Number>
+  OptionTable& constant(std::string_view name, Number& member);
+
+  /// Returns whether constant() has the name.
+  bool is_constant(std::string_view name) const { return constants_.count(current_name(name)) > 0; }
+
+  /// The constants, by name. Their `key` is the name without its section.
+  const std::map<std::string, Option, std::less<>>& constants() const { return constants_; }
+
   /// Makes the table accept an old name of an option ("old_section.old_key", "section.key") or of a whole
   /// section ("old_section", "section"). Throws std::logic_error if the new name is not described yet, or if
   /// the old name is in use.
@@ -137,6 +153,9 @@ class OptionTable {
   /// Makes the table accept an option, "section.key", that exists no more. Its values have no effect, and
   /// set() adds a warning. Throws std::logic_error if the name is in use.
   OptionTable& obsolete(std::string name);
+
+  /// Returns whether the values of an option in files have no effect: it is obsolete or a constant.
+  bool is_ignored(std::string_view name) const { return is_obsolete(name) || is_constant(name); }
 
   /// Returns whether obsolete() has the option.
   bool is_obsolete(std::string_view name) const { return obsolete_.count(name) > 0; }
@@ -153,28 +172,34 @@ class OptionTable {
   /// ("my.ini:12", "--set") and proposes the nearest name if the option is unknown.
   const Option& option(std::string_view name, std::string_view where) const;
 
-  /// Throws UserError that begins with `where` unless a section is or was called `name`.
+  /// Returns the option or the constant that is called `name`, "section.key". Throws UserError as option()
+  /// does.
+  const Option& option_or_constant(std::string_view name, std::string_view where) const;
+
+  /// Throws UserError that begins with `where` unless a section is or was called `name`, or a constant is in
+  /// it.
   void require_section(std::string_view name, std::string_view where) const;
 
-  /// Throws UserError that begins with `where` if the option is unknown or does not accept the text. An
-  /// obsolete option accepts any text.
+  /// Throws UserError that begins with `where` if the option is unknown or does not accept the text. Obsolete
+  /// options and constants accept any text.
   void check(std::string_view name, std::string_view text, std::string_view where) const;
 
-  /// Sets an option to the value of the text. Adds a warning if `name` is an old name. Throws UserError as
-  /// check() does, and then changes nothing.
+  /// Sets an option to the value of the text. Adds a warning if `name` is an old name. A constant keeps its
+  /// value, and another value leaves a warning. Throws UserError as check() does, and then changes nothing.
   void set(std::string_view name, std::string_view text, std::string_view where);
+
+  /// Sets a constant to the value of the text, and an option as set() does. For programs of research. Throws
+  /// UserError that begins with `where` if the text is no value of the constant.
+  void set_any(std::string_view name, std::string_view text, std::string_view where);
 
   /// Returns the warnings since the last call and clears them. Each file gets one warning, a sentence without
   /// full stop, for each old name that set() received from it: "my.ini:12: section [last_pass] was renamed;
-  /// write [final_search]". All obsolete options of a file share one warning.
+  /// write [final_search]". All obsolete options and constants of a file share one warning.
   std::vector<std::string> take_warnings();
 
  private:
-  template <class T, class Parse, class Format>
-  OptionTable& add(Option option, T& member, Parse parse, Format format);
-  OptionTable& add_bound(Option option);
-  template <class Number>
-  OptionTable& add_number(Option option, Number& member, bool is_angle);
+  OptionTable& add(Option option);
+  OptionTable& add_constant(std::string_view name, Option option);
 
   void warn_of_old_name(std::string_view old_name, const std::string& new_name, std::string_view where);
 
@@ -182,6 +207,7 @@ class OptionTable {
   /// Maps old names to new names; names of sections have no dot.
   std::map<std::string, std::string, std::less<>> aliases_;
   std::set<std::string, std::less<>> obsolete_;
+  std::map<std::string, Option, std::less<>> constants_;
   struct ObsoleteOptions {
     std::string where;  ///< place of the first one
     std::vector<std::string> names;
@@ -191,8 +217,10 @@ class OptionTable {
   std::set<std::string> warned_;  ///< warnings without line numbers, to warn once per file
 };
 
+/// Returns the option, bound to `member`. `parse` returns an optional value of a text, `format` the text of a
+/// value.
 template <class T, class Parse, class Format>
-OptionTable& OptionTable::add(Option option, T& member, Parse parse, Format format) {
+Option bound(Option option, T& member, Parse parse, Format format) {
   option.text = [&member, format] { return format(member); };
   option.accepts = [parse](std::string_view text) { return std::optional<T>(parse(text)).has_value(); };
   option.assign = [&member, parse](std::string_view text) {
@@ -201,13 +229,16 @@ OptionTable& OptionTable::add(Option option, T& member, Parse parse, Format form
     member = *std::move(value);
     return true;
   };
-  return add_bound(std::move(option));
+  return option;
 }
 
+Option bound_number(Option option, double& member, bool is_angle);
+Option bound_flag(Option option, bool& member);
+
 template <class Integer>
-OptionTable& OptionTable::integer(std::string key, Integer& member, NumberRange range, std::string unit,
-                                  std::string help) {
+Option bound_integer(Option option, Integer& member) {
   static_assert(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>);
+  NumberRange& range = option.range;
   if (std::is_unsigned_v<Integer> && !range.min) range.min = RangeEnd{0, true};
   const auto parse = [range](std::string_view text) -> std::optional<Integer> {
     Integer value = 0;
@@ -216,8 +247,32 @@ OptionTable& OptionTable::integer(std::string key, Integer& member, NumberRange 
     if (!range.contains(static_cast<double>(value))) return {};
     return value;
   };
-  return add(Option{std::move(key), OptionType::kInteger, std::move(help), std::move(unit), range}, member,
-             parse, [](Integer value) { return std::to_string(value); });
+  return bound(std::move(option), member, parse, [](Integer value) { return std::to_string(value); });
+}
+
+template <class Integer>
+OptionTable& OptionTable::integer(std::string key, Integer& member, NumberRange range, std::string unit,
+                                  std::string help) {
+  return add(
+      bound_integer({std::move(key), OptionType::kInteger, std::move(help), std::move(unit), range}, member));
+}
+
+template <class Number>
+OptionTable& OptionTable::constant(std::string_view name, Number& member) {
+  Option option{std::string(name.substr(name.find('.') + 1))};
+  option.range = at_least(0);
+  if constexpr (std::is_same_v<Number, bool>) {
+    option.type = OptionType::kFlag;
+    return add_constant(name, bound_flag(std::move(option), member));
+  } else if constexpr (std::is_integral_v<Number>) {
+    option.type = OptionType::kInteger;
+    return add_constant(name, bound_integer(std::move(option), member));
+  } else {
+    option.type = OptionType::kNumber;
+    const bool is_angle = names_degrees(name);
+    option.unit = is_angle ? "deg" : "";
+    return add_constant(name, bound_number(std::move(option), member, is_angle));
+  }
 }
 
 template <class Enum>
@@ -235,7 +290,7 @@ OptionTable& OptionTable::choice(std::string key, Enum& member,
       if (value == member_value) return name;
     return "(a value without name)";
   };
-  return add(std::move(option), member, parse, format);
+  return add(bound(std::move(option), member, parse, format));
 }
 
 }  // namespace psi_slam

@@ -2,6 +2,7 @@
 #include "base/config/settings_text.h"
 
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -31,6 +32,16 @@ std::string values_and_default(const Option& option) {
   return option.values() + "; default " + ini_value_text(option.default_text);
 }
 
+/// Lines for the constants of a section that do not have their default values.
+std::string changed_constants(const OptionTable& table, const std::string& section) {
+  std::string lines;
+  for (const auto& [name, constant] : table.constants())
+    if (constant.section == section && constant.text() != constant.default_text)
+      lines += "\n; A constant of the method. Only programs change it.\n" + constant.key + " = " +
+               ini_value_text(constant.text()) + '\n';
+  return lines;
+}
+
 /// Escapes a text for a cell of a Markdown table.
 std::string cell(const std::string& text) {
   std::string escaped;
@@ -52,12 +63,13 @@ void apply(const IniFile& file, OptionTable& table) {
     table.set(value.section + '.' + value.key, value.text, value.where);
 }
 
-void apply_override(std::string_view assignment, OptionTable& table) {
+void apply_override(std::string_view assignment, OptionTable& table, bool with_constants) {
   const std::size_t equals = assignment.find('=');
   const std::string_view name = trimmed(assignment.substr(0, equals));
   if (equals == std::string_view::npos || name.find('.') == std::string_view::npos)
     throw UserError("--set: expected section.key=value, not \"" + quotable(assignment) + '"');
-  table.set(name, trimmed(assignment.substr(equals + 1)), "--set");
+  const std::string_view text = trimmed(assignment.substr(equals + 1));
+  with_constants ? table.set_any(name, text, "--set") : table.set(name, text, "--set");
 }
 
 std::string commented(const Option& option, const std::string& name) {
@@ -76,7 +88,15 @@ std::string dump(const OptionTable& table) {
         throw std::logic_error(option.name() + " holds " + value + ", which is not " + option.expectation());
       text += commented(option, option.key);
     }
+    text += changed_constants(table, section.name);
   }
+  // Sections of constants alone.
+  std::set<std::string> others;
+  for (const auto& [name, constant] : table.constants()) others.insert(constant.section);
+  for (const OptionSection& section : table.sections()) others.erase(section.name);
+  for (const std::string& section : others)
+    if (const std::string lines = changed_constants(table, section); !lines.empty())
+      text += "\n[" + section + "]\n" + lines;
   return text;
 }
 

@@ -18,17 +18,17 @@ namespace psi_slam {
 /// warning for each old name.
 void apply(const IniFile& file, OptionTable& table);
 
-/// Sets one value as given on the command line: "section.key=value". Throws UserError that begins with
-/// "--set".
-void apply_override(std::string_view assignment, OptionTable& table);
+/// Sets one value as given on the command line: "section.key=value". `with_constants`: by set_any(). Throws
+/// UserError that begins with "--set".
+void apply_override(std::string_view assignment, OptionTable& table, bool with_constants = false);
 
 /// Returns an option as lines of a settings file, under the key `name`: its help, range, default and current
 /// value.
 std::string commented(const Option& option, const std::string& name);
 
-/// Returns the text of a settings file with the help, range, default and current value of every option.
-/// Loading this file restores the current values bit for bit. Throws std::logic_error if a member has a value
-/// that its option does not accept.
+/// Returns the text of a settings file with the help, range, default and current value of every option, and
+/// with the constants that were changed. Loading this file restores the values of options bit for bit. Throws
+/// std::logic_error if a member has a value that its option does not accept.
 std::string dump(const OptionTable& table);
 
 /// Returns the options that `selects` accepts with their help, range and default, for a terminal. Empty if

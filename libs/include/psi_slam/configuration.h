@@ -43,15 +43,16 @@ class Configuration {
   void load(const std::filesystem::path& ini);
 
   /// Sets one option: set("map.resolution_m", "0.1"). Write the value as in a settings file: angles in
-  /// degrees, "auto", "true". Throws UserError if the option does not accept the value, or does not exist;
+  /// degrees, "auto", "true". Programs of research set the constants of the method in the same way; settings
+  /// files cannot. Throws UserError if the option does not accept the value, or does not exist;
   /// the message then suggests the nearest name. After an error, all options keep their values.
   void set(std::string_view name, std::string_view value);
 
-  /// Returns the current value of an option as text. Throws UserError if the option does not exist.
+  /// Returns the current value of an option or constant as text. Throws UserError if it does not exist.
   std::string value(std::string_view name) const;
 
   /// Returns the text of a settings file with all options: help, unit, range, default and current value.
-  /// Loading this text restores the current values exactly.
+  /// Loading this text restores the values of all options exactly.
   std::string text() const;
 
   /// Returns one warning, a sentence without full stop, for each outdated option name used so far.

@@ -206,7 +206,7 @@ class OdometryJudge : public FindingList {
              ", " + fixed(reversals.reversed_m, 1) + " of the " + fixed(reversals.checked_m, 0) +
              " m compared, the scans move backwards where odometry moves forwards, first " +
              moment(reversals.pairs.front().first),
-         "enlarge front_end.window_m to twice the step between scans, or repair the odometry");
+         "repair the odometry, or map without it: log.odometry = none");
   }
 
   void judge_jumps() {

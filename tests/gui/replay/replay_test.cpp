@@ -211,9 +211,9 @@ TEST_F(ReplayTest, reports_why_a_log_cannot_be_mapped) {
   Replay corrupt(log({"FLASER 181 1.0 2.0", "FLASER 181 1.0"}), settings_);
   corrupt.play();
   EXPECT_THAT(wait_for(corrupt, ReplayPhase::kFailed)->failure, HasSubstr("room.log:1:"));
-  settings_.mapper.back_end.loop_closure.candidates.min_window_m = 50;
+  settings_.mapper.back_end.psi.psi_1 = 50;
   const Replay contradicting(log(room_log_lines(5)), settings_);
-  EXPECT_THAT(wait_for(contradicting, ReplayPhase::kFailed)->failure, HasSubstr("loop_closure.min_window_m"));
+  EXPECT_THAT(wait_for(contradicting, ReplayPhase::kFailed)->failure, HasSubstr("psi.psi_1"));
 }
 
 TEST_F(ReplayTest, writes_to_a_folder_that_is_not_empty_only_on_request) {

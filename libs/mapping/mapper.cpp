@@ -58,6 +58,7 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   if (has_map) straighten_last_scan(frame, step);
   bent_last_.reset();
   if (step.straightened) bent_last_ = std::exchange(frame, *std::exchange(step.straightened, std::nullopt));
+  frame.is_misplaced = step.misplaced;
   result_.log.push_back(std::move(frame));
   thin_standstill(step);
   result_.frames.push_back(record);

@@ -55,6 +55,9 @@ struct Frame {
   /// Heading of the robot by a gyroscope, radians, relative to an unknown start and not wrapped; empty: none.
   std::optional<double> imu_heading_rad{};
   std::vector<CompanionScan> companions{};  ///< scans of other lasers, sorted by LaserScan::laser
+  /// Set by the mapper: the scan matched nothing, and contradicts the map at the pose by odometry. Drawings
+  /// leave it out.
+  bool is_misplaced = false;
 };
 
 /// Returns the robot's pose at the time of a companion scan. The parameter `map_T_robot` is the robot's pose

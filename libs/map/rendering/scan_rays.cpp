@@ -44,6 +44,7 @@ const std::vector<const Fan*>& RayMaker::fans(const Frame& frame, const TPose2D&
   for_each_scan(frame, map_T_robot, [&](const LaserScan& scan, const TPose2D& map_T_robot_then) {
     while (lasers_.size() <= scan.laser) lasers_.emplace_back();
     cast(scan, map_T_robot_then, lasers_[scan.laser]);
+    if (frame.is_misplaced) lasers_[scan.laser].rays.clear();
     fans_.push_back(&lasers_[scan.laser]);
   });
   return fans_;

@@ -36,8 +36,9 @@ class RayMaker {
  public:
   explicit RayMaker(const GridMapOptions& options) : options_(options) {}
 
-  /// Returns the rays of all scans of a frame. The pointers are valid until the next call. Throws
-  /// std::invalid_argument if the numbers of ranges and bearings differ or a pose is not finite.
+  /// Returns the rays of all scans of a frame, none of them for Frame::is_misplaced. The pointers are valid
+  /// until the next call. Throws std::invalid_argument if the numbers of ranges and bearings differ or a pose
+  /// is not finite.
   const std::vector<const Fan*>& fans(const Frame& frame, const mrpt::math::TPose2D& map_T_robot);
 
  private:

@@ -88,6 +88,8 @@ FrontEndStep FrontEnd::track(const Frame& frame, bool may_be_lost) {
   last_predicted_motion_ = motion.predicted;
   last_local_T_robot_ = step.local_T_robot;
   misses_ = step.matched ? 0 : misses_ + 1;
+  step.misplaced = !active_.empty() && !step.matched && !has_left_local_maps() &&
+                   contradicts(*step.points, step.local_T_robot, kLeastAgreement);
   if (becomes_node(step)) step.node = next_node_++;
   standstill_.add(frame, step.local_T_robot, step.matched);
   return step;
@@ -241,13 +243,8 @@ bool FrontEnd::moved_enough(const TPose2D& local_T_robot) const {
          std::abs(mrpt::math::wrapToPi(motion.phi)) >= options_.node_rotation_rad;
 }
 
-// A scan that matches nothing and contradicts what the map has observed is misplaced: it would spoil the map,
-// and later scans would match it.
 bool FrontEnd::becomes_node(const FrontEndStep& step) const {
-  if (active_.empty()) return true;
-  if (!moved_enough(step.local_T_robot)) return false;
-  return step.matched || has_left_local_maps() ||
-         !contradicts(*step.points, step.local_T_robot, kLeastAgreement);
+  return active_.empty() || (moved_enough(step.local_T_robot) && !step.misplaced);
 }
 
 bool FrontEnd::has_left_local_maps() const {

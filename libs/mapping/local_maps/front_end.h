@@ -115,7 +115,10 @@ struct FrontEndStep {
   /// still, and that it continued as before. The scan was not inserted.
   bool lost = false;
   bool matched = false;  ///< false: no local map, no points, or a response that is too low
-  bool stands = false;   ///< the robot has stood still for long, and the pose is its place
+  /// The scan is unmatched and contradicts what the older active map has observed. It becomes no node,
+  /// because it would spoil the map and later scans would match it.
+  bool misplaced = false;
+  bool stands = false;  ///< the robot has stood still for long, and the pose is its place
   /// The robot stands, and the scan is not needed to represent the standstill. The front end's later steps
   /// are the same without its ranges if the next Standstill::kRecentScans scans stand, too.
   bool repeats = false;

@@ -162,6 +162,38 @@ TEST_F(OptionTableTest, rejects_contradictory_aliases) {
   EXPECT_THROW(table_.alias("old", "log"), std::logic_error);
 }
 
+TEST_F(OptionTableTest, only_set_any_changes_constants) {
+  double reach_rad = 1;
+  int count = 3;
+  bool on = true;
+  table_.constant("matching.reach_deg", reach_rad)
+      .constant("matching.count", count)
+      .constant("front_end.on", on);
+  EXPECT_TRUE(table_.is_constant("matching.count"));
+  EXPECT_FALSE(table_.knows("matching.count"));
+  EXPECT_THROW(table_.constant("matching.count", count), std::logic_error);
+  EXPECT_THROW(table_.obsolete("matching.count"), std::logic_error);
+  EXPECT_NO_THROW(table_.require_section("matching", "my.ini:1"));
+  table_.set("matching.count", "3", "my.ini:2");
+  EXPECT_THAT(table_.take_warnings(), testing::IsEmpty()) << "the value is that of the constant";
+  table_.set("matching.count", "4", "my.ini:2");
+  table_.set("front_end.on", "false", "my.ini:3");
+  EXPECT_EQ(count, 3);
+  EXPECT_TRUE(on);
+  EXPECT_THAT(table_.take_warnings(),
+              testing::ElementsAre("my.ini:2: front_end.on (always true), matching.count (always 3) have no "
+                                   "effect any more; remove them"));
+  table_.set_any("matching.reach_deg", "90", "test");
+  table_.set_any("matching.count", "4", "test");
+  table_.set_any("front_end.on", "no", "test");
+  EXPECT_DOUBLE_EQ(reach_rad, M_PI / 2);
+  EXPECT_EQ(count, 4);
+  EXPECT_FALSE(on);
+  EXPECT_EQ(table_.option_or_constant("matching.reach_deg", "test").text(), "90");
+  EXPECT_THROW(table_.set_any("matching.count", "-4", "test"), UserError);
+  EXPECT_THROW(table_.set_any("matching.count", "many", "test"), UserError);
+}
+
 TEST_F(OptionTableTest, accepts_obsolete_options_with_one_warning_for_each_file) {
   table_.obsolete("front_end.gone").obsolete("old.gone");
   EXPECT_FALSE(table_.knows("front_end.gone"));

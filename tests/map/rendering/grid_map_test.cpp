@@ -113,6 +113,18 @@ TEST(GridMap, ignores_invalid_readings_and_draws_long_beams_as_free_space) {
   for (double y = 0.1; y < 10.5; y += 0.05) EXPECT_FALSE(is_wall(*grid, 0.01, y));
 }
 
+TEST(GridMap, a_misplaced_scan_draws_nothing) {
+  const SimulatedRoom room{-2.02, 4.03, -1.02, 3.03};
+  const TPose2D pose(0.5, 0.5, 0);
+  const Frame frame = room.scan_from(pose, even_bearings(-M_PI, M_PI, 721));
+  Frame misplaced = frame;
+  misplaced.is_misplaced = true;
+  const TPose2D wrong(0.5, 0.5, 0.4);
+  const auto with = draw_grid_map({frame, misplaced}, {pose, wrong});
+  const auto without = draw_grid_map({frame}, {pose});
+  EXPECT_EQ(with->getRawMap(), without->getRawMap());
+}
+
 TEST(GridMap, beams_without_return_free_the_unknown_cells_on_their_way_and_no_others) {
   // The last two scans have no returns. They only give all maps the same size.
   const std::vector<TPose2D> poses = {

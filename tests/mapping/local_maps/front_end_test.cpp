@@ -233,6 +233,7 @@ TEST(FrontEnd, a_scan_that_contradicts_the_local_map_becomes_no_node) {
   for (std::size_t i = 1; i < outcome.steps.size(); ++i) {
     EXPECT_EQ(outcome.steps[i].matched, i != foreign) << "scan " << i;
     EXPECT_EQ(outcome.steps[i].node.has_value(), i != foreign) << "scan " << i;
+    EXPECT_EQ(outcome.steps[i].misplaced, i == foreign) << "scan " << i;
   }
   EXPECT_LT(errors_of(outcome, drive).largest_m, 0.05);
 }

@@ -5,8 +5,9 @@
     site-pages.py SOURCE WORK SITE
 
 Writes the pages to WORK/pages and the navigation to WORK/layout.xml, empties the folder SITE of the site and copies the
-pictures there. Each page gets the name of its file: share/doc/tutorial.md becomes tutorial.html. Links to pages, headings,
-public headers and source files become links within the site. Doxygen 1.9.4 resolves none of the links to headings by itself.
+pictures there. Each page gets the name of its file: share/doc/tutorial.md becomes tutorial.html. File names
+must differ between folders. Links to pages, headings, public headers and source files become links within the site. Doxygen
+1.9.4 resolves none of the links to headings by itself.
 """
 import os
 import re
@@ -36,7 +37,7 @@ class Site:
     def __init__(self, source):
         self.source = source
         names = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"]
-        names += sorted(path.relative_to(source).as_posix() for path in (source / "share/doc").glob("*.md"))
+        names += sorted(path.relative_to(source).as_posix() for path in (source / "share/doc").rglob("*.md"))
         self.pages = {name: self.page_name(name) for name in names}
         self.files = {}  # linked source files and the names of their pages
         self.pictures = set()

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs the commands of the README and of the pages in share/doc. The ```sh blocks of a page run in order, in a new folder
-# with small simulated logs. Blocks that cannot run are ```console blocks, with the reason in the line above. Each filter of
-# tests on a page must select a test.
+# Runs the commands of the README and of the pages in share/doc and its folder history. The ```sh blocks of a page run in
+# order, in a new folder with small simulated logs. Blocks that cannot run are ```console blocks, with the reason in the line
+# above. Each filter of tests on a page must select a test.
 #
 #     documentation_test.sh SOURCE BUILD [PAGE...]     # default: all pages with sh or console blocks
 set -euo pipefail
@@ -64,7 +64,7 @@ run_page() {
 }
 
 if [ "$#" -eq 0 ]; then
-  mapfile -t pages < <(cd "$source" && grep -lE '^```(sh|console)$' README.md CONTRIBUTING.md share/doc/*.md)
+  mapfile -t pages < <(cd "$source" && grep -lE '^```(sh|console)$' README.md CONTRIBUTING.md share/doc/*.md share/doc/history/*.md)
   set -- "${pages[@]}"
 fi
 write_logs

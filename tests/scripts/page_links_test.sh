@@ -26,7 +26,7 @@ links() {
     grep -vE $'\t(https?|mailto):' || true
 }
 
-pages=(README.md CONTRIBUTING.md CHANGELOG.md share/doc/*.md)
+pages=(README.md CONTRIBUTING.md CHANGELOG.md share/doc/*.md share/doc/history/*.md)
 for page in "${pages[@]}"; do
   while IFS=$'\t' read -r text target; do
     file=$page

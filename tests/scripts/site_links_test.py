@@ -56,7 +56,7 @@ def main():
         if name in pages and name not in reached:
             reached.add(name)
             waiting += [urldefrag(link)[0] for link in pages[name].links if is_local(link)]
-    written = [path.stem.lower() for path in (source / "share/doc").glob("*.md") if path.name != "index.md"]
+    written = [path.stem.lower() for path in (source / "share/doc").rglob("*.md") if path.name != "index.md"]
     for name in ["all-pages", "contributing", "changelog", *sorted(written)]:
         if f"{name}.html" not in pages:
             wrong.append(f"the site lacks {name}.html")

@@ -10,7 +10,7 @@
 namespace psi_slam {
 
 /// Locks an open file or folder until its descriptor is closed. Returns false if another descriptor holds the
-/// lock, in any process. Returns true without a lock on file systems that know none.
+/// lock, in any process. On file systems without locks, returns true and locks nothing.
 inline bool try_lock_file(const Descriptor& file) {
   return ::flock(file.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }

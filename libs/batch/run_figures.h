@@ -64,8 +64,8 @@ struct RunFigures {
   double real_time_factor() const { return wall_s > 0 ? duration_s / wall_s : 0; }
 };
 
-/// Evaluates a path against the true relations. Wall time, processor time and memory stay 0. Throws UserError
-/// as evaluate_relations() does.
+/// Computes the errors of a path over known relations; wall time, processor time and memory stay 0. Throws
+/// the errors of evaluate_relations().
 RunFigures evaluate_path(const Trajectory& path, const std::vector<Relation>& relations);
 
 /// JSON object with a member for each figure.

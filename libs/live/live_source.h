@@ -27,10 +27,10 @@ struct LiveInput {
   std::uint16_t port = 0;             ///< kTcp: port; 0: the system chooses one
   std::string address = "127.0.0.1";  ///< kTcp: IPv4 address of this computer that is listened on
   std::string file;                   ///< kFollow: the log or folder; kSensors: the settings file
-  std::optional<double> idle_s;       ///< ends the frames after so many seconds without data; empty: never
-  /// Seconds of the stream, by its time stamps, after its first scan. They decide what a log is looked over
-  /// for: the lasers, their mounts and maximum range, whether there is odometry, and the robot's own body.
-  /// Frames wait for these decisions.
+  std::optional<double> idle_s;       ///< ends the frames after this time without data; empty: never
+  /// Duration of the part of the stream, from its first scan on and by its time stamps, that decides which
+  /// lasers there are, their mounts and maximum ranges, whether there is odometry, and which readings are of
+  /// the robot's own body. Frames wait for these decisions.
   double look_over_s = kUsualLookOver_s;
 };
 

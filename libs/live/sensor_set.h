@@ -20,12 +20,11 @@ namespace psi_slam {
 /// Reads the sensors of a settings file as rawlog-grabber and icp-slam-live do: each section with a key
 /// `driver` is a sensor, whose driver is a class of mrpt::hwdrivers, and is read in a thread of its own.
 /// Yields scans, odometry, robot actions and readings of IMUs in the order of their arrival; other
-/// observations are dropped. At most 10,000 objects wait to be taken. If more come, the oldest readings of
-/// IMUs are dropped, or without any the oldest objects; dropped() counts them, and a notice reports the
-/// first.
+/// observations are dropped. At most 10,000 objects wait to be taken. If more come, drops the oldest readings
+/// of IMUs, or else the oldest objects; dropped() counts them, and a notice reports the first.
 ///
-/// A driver that fails, sends empty scans or, for a laser, sends nothing for five seconds, is started again
-/// every second until it works. Notices say so.
+/// Restarts a driver every second, with a notice, if it fails or sends empty scans, or if a laser sends
+/// nothing for five seconds.
 class SensorSet : public ObjectSource {
  public:
   /// Loads the settings of all sensors. next() starts them. `idle_s`: see LiveInput. Throws UserError if the

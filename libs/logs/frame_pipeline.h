@@ -28,9 +28,9 @@ std::unique_ptr<FrameSource> frames_to_map(std::unique_ptr<LogReader> reader, Lo
                                            const LogOptions& options,
                                            const std::function<MaxRanges()>& max_ranges);
 
-/// Returns the frames of a stream for mapping. They wait at most `look_over_s` seconds of the stream while
-/// codes for "no return" and the robot's own body are searched. Sweeps have the direction that options or
-/// scans state.
+/// Returns the frames of a stream for mapping. At most the first `look_over_s` seconds of the stream are held
+/// back to find codes for "no return" and readings of the robot's own body. The order of the beams in a sweep
+/// is that stated by the options or the scans.
 std::unique_ptr<FrameSource> frames_to_map(std::unique_ptr<LogReader> reader, LogFormat format,
                                            const LogOptions& options, double look_over_s);
 

@@ -21,8 +21,8 @@ namespace psi_slam {
 /// Evidence for one order of the beams.
 struct SweepFit {
   double mean_distance_m = 0;  ///< mean distance from points to walls, over all pairs of scans
-  double worse_by_m = 0;       ///< mean_distance_m minus the smallest of the three orders
-  /// Mean relative difference from the distances of the best order, in standard errors.
+  double worse_by_m = 0;       ///< mean_distance_m minus that of the best of the three orders
+  /// Mean relative increase of the distance over that of the best order, in standard errors.
   double significance = 0;
   bool ruled_out = false;
 };

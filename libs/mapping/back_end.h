@@ -51,7 +51,7 @@ struct BackEndOptions {
 
 /// Result of a node's search for loops.
 struct NodeLoops {
-  MatcherKind matcher = MatcherKind::kCsm;  ///< matcher chosen by Psi, also if the node does not search
+  MatcherKind matcher = MatcherKind::kCsm;  ///< matcher that Psi selects, also if the node does not search
   bool searched = false;                    ///< whether the node searched for loops
   LoopEffort effort;
   std::map<MatcherKind, LoopEffort> effort_of;  ///< the same effort, divided by matcher

@@ -35,8 +35,8 @@ class BoundLevel {
   int layers() const { return static_cast<int>(layers_.size()); }
 
   /// Adds the bounds of the blocks [first.x, first.x + width) x [first.y, first.y + height) of a layer to
-  /// `bounds`, row by row, `bounds_row` elements apart. The blocks must be in the window. As the sum kernel,
-  /// it changes elements up to the next multiple of kSumLanes from `width` on.
+  /// `bounds`, row by row, `bounds_row` elements apart. The blocks must be in the window. Writes in groups of
+  /// kSumLanes elements, so it also changes elements from `width` up to the next multiple of kSumLanes.
   void add_bounds(int layer, Cell first, int width, int height, std::uint32_t* bounds,
                   std::ptrdiff_t bounds_row);
 

@@ -25,10 +25,11 @@ class TileSpace {
 
   virtual std::int64_t size() const = 0;  ///< number of tiles
   virtual int bits() const = 0;
-  /// Decodes any bits() bits. Replaces a number that is too large by its remainder (modulus).
+  /// Returns the tile of a chromosome, a number of bits() bits. A number that is too large is replaced by its
+  /// remainder (modulus).
   virtual Tile tile(Chromosome chromosome) const = 0;
-  /// Returns the unique code of the tile that the chromosome decodes to. The code differs from `chromosome`
-  /// if decoding repairs `chromosome`.
+  /// Returns the unique valid chromosome of the tile that `chromosome` decodes to. It differs from
+  /// `chromosome` if that number is too large.
   virtual Chromosome repaired(Chromosome chromosome) const = 0;
   /// Returns the chromosome of the tile turned by `steps` angular steps; empty if that tile is outside the
   /// space.

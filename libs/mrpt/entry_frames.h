@@ -18,7 +18,7 @@ namespace psi_slam {
 class EntryFrames {
  public:
   /// Prepares to read the lasers that `options` choose. Error messages start with `speaker`. Throws UserError
-  /// if an option is invalid, or corrects odometry or time stamps.
+  /// if an option is invalid, or if `options` ask for corrections of odometry or time stamps.
   explicit EntryFrames(const LogOptions& options, std::string speaker = "entries");
 
   /// Takes one entry; each argument may be null. Throws UserError if a scan has no time stamp or no rays, or

@@ -25,7 +25,8 @@ class InitialMap {
   InitialMap(const mrpt::maps::CSimpleMap& map, const LogOptions& log, const GridMapOptions& options,
              const LoopConsensusOptions& consensus);
 
-  /// Searches only near this pose of the robot before its first scan.
+  /// States the approximate pose of the robot at its first scan, so that the search covers only its
+  /// surroundings.
   void start_at(const mrpt::math::TPose2D& initial_T_start) { initial_T_run_ = {initial_T_start, 0.1, 0.1}; }
 
   /// Looks for the newest node in the map. Returns the pose of the mapper's frame in the map if this node

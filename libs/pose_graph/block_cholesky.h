@@ -77,7 +77,8 @@ class BlockCholesky {
   std::vector<Eigen::Matrix3d> inverse_diagonal_blocks() const;
 
   std::size_t size() const { return parent_.size(); }
-  /// Number of block products of a factorisation. A better order of elimination needs fewer.
+  /// Number of block products of a factorisation, which measures its cost and depends on the order of
+  /// elimination.
   std::size_t num_products() const { return num_products_; }
   /// Number of block products of the last factorisation, less than num_products() if it kept columns.
   std::size_t num_last_products() const { return num_last_products_; }

@@ -61,11 +61,11 @@ class KnownLandmarks {
   /// nothing if no place is known.
   void move_to_site(PoseGraph& graph) const;
 
-  // The following functions need a call of select().
+  // Call select() before the following functions.
 
-  /// Returns whether the place of a landmark is switched on. The landmark must have a place.
+  /// Returns whether the graph uses the known place of a landmark. The landmark must have a place.
   bool uses_place(std::size_t landmark, const PoseGraph& graph) const;
-  /// Returns whether a sighting of a landmark is switched on.
+  /// Returns whether the graph uses a sighting of a landmark.
   bool uses_sighting(std::size_t landmark, std::size_t sighting, const PoseGraph& graph) const;
 
   /// Residual of the place of a landmark. The landmark must have a place.

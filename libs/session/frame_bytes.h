@@ -27,7 +27,8 @@ void append_number(std::string& bytes, Number number) {
   bytes.append(raw, sizeof raw);
 }
 
-/// Writes frames one after the other. Describes a sensor again only if it changes.
+/// Serialises frames one after the other. Writes the description of a sensor only with the first frame and
+/// when it changes.
 class FrameWriter {
  public:
   /// Appends the bytes of a frame, without its number.

@@ -64,10 +64,10 @@ struct MappingSession::Members {
   std::string settings_text;  ///< text of a settings file with all of `settings`
   std::vector<std::string> settings_warnings;
   std::unique_ptr<FrameSource> source;
-  /// Frames without odometry as the log states them, by their numbers. The mapper removes the motion during
-  /// the sweep from its own copies. Lacks frames whose ranges the mapper has discarded, except recent ones.
+  /// Frames without odometry as the log states them, by their numbers: the mapper deskews its own copies.
+  /// Frames whose ranges the mapper has discarded are removed after a while.
   std::map<std::size_t, Frame> bent;
-  std::size_t most_bent = 1000;    ///< number of entries of `bent` at which discarded frames are looked for
+  std::size_t most_bent = 1000;    ///< size of `bent` at which discarded frames are removed
   std::unique_ptr<Mapper> mapper;  ///< null after finish() without stay_open()
   Mapper::AfterFinish after_finish = Mapper::AfterFinish::kNothing;
   EditJournal edits;

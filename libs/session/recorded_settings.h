@@ -14,9 +14,9 @@
 
 namespace psi_slam {
 
-/// Takes all settings of a recording that was read from `file`. Ignores obsolete options and returns a
-/// warning that names them, a sentence without full stop; empty without obsolete options. Accepts old names
-/// of options without warning. Throws UserError for a value that is not accepted.
+/// Loads all settings of the recording that was read from `file`. Ignores obsolete options and returns a
+/// warning that names them, as a sentence without full stop. Returns nothing if there are none. Accepts old
+/// names of options without warning. Throws UserError for an invalid value.
 std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts& facts,
                                        const std::filesystem::path& file);
 

@@ -23,7 +23,7 @@ void write_session_file(const std::filesystem::path& path, const SessionFacts& f
                         const std::vector<Frame>& frames);
 
 /// Reads a session or a journal. Throws UserError, naming the file, if it is neither, is damaged, or has a
-/// newer version. A journal may end with an incomplete chunk, see SessionRecording::lost_end.
+/// newer version. Ignores an incomplete chunk at the end of a journal, see SessionRecording::lost_end.
 SessionRecording read_session_file(const std::filesystem::path& path);
 
 }  // namespace psi_slam

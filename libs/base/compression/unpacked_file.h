@@ -17,7 +17,7 @@ namespace psi_slam {
 /// ends, even if the program is killed.
 class UnpackedFile {
  public:
-  /// Throws UserError as CompressedFile does, and if no temporary file can be created.
+  /// Throws UserError if the file is unreadable (see CompressedFile) or no temporary file can be created.
   explicit UnpackedFile(const std::filesystem::path& path);
 
   /// Reads `size` decompressed bytes at `offset` and returns their number, which is smaller only at the end

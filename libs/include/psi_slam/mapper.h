@@ -146,8 +146,8 @@ class Mapper {
   std::optional<Eigen::Matrix3d> newest_covariance() const;
   /// Number of calls of add() that waited for a result of the back end before the pose was known.
   std::size_t missed_deadlines() const;
-  /// Waits until the back end has worked off all frames, and completes their records. graph(), loops(),
-  /// keyframes(), judge(), edit(), begin_run() and end_log() wait likewise.
+  /// Waits until the back end has processed all frames, and completes their records. graph(), loops(),
+  /// keyframes(), judge(), edit(), begin_run() and end_log() call this first.
   void wait() const;
   /// Pose graph so far.
   const PoseGraph& graph() const;

@@ -23,8 +23,8 @@ namespace psi_slam {
 /// Outcome of matching a scan with a local map in the front end.
 enum class ScanMatch {
   kNoMap,      ///< no local map existed yet: the first scan of a run
-  kMatched,    ///< the match gives the pose
-  kUnmatched,  ///< odometry, or constant velocity without odometry, gives the pose
+  kMatched,    ///< the scan matches; its pose is that of the match
+  kUnmatched,  ///< the scan does not match; its pose is predicted by odometry, or else by constant velocity
 };
 
 /// Poses, matches, loops and times of one scan of the log.

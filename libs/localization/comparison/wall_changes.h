@@ -22,7 +22,7 @@ namespace psi_slam {
 struct WallChangeOptions {
   double tolerance_m = 0.15;   ///< walls within this distance of each other are the same wall
   double min_length_m = 0.3;   ///< shorter changes are noise
-  double farthest_move_m = 1;  ///< walls farther apart than this are different walls
+  double farthest_move_m = 1;  ///< maximum distance between the old and the new place of a moved wall
 };
 
 /// A wall, or a part of one, that has changed. Points are in the frame of map A, in metres.

@@ -128,7 +128,7 @@ class CarmenLasers {
   /// ones a stream lacks so far.
   const std::vector<std::string>& assumptions() const { return assumptions_; }
 
-  /// Names of each laser, see LogContents::laser_names.
+  /// Returns the names of each selected laser, as in LogContents::laser_names.
   std::vector<std::vector<std::string>> names() const;
 
  private:

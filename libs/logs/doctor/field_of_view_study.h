@@ -43,8 +43,8 @@ struct FieldOfViewEvidence {
 FieldOfViewEvidence choose_field_of_view_evidence(const std::vector<FrameMark>& marks);
 
 /// Compares the stated field of view with its double and half. `library` must hold the frames of `evidence`,
-/// with the bearings that the log states. Without result for fewer than 15 pairs of a kind, and for bearings
-/// that are not symmetric: log.field_of_view_deg cannot correct these.
+/// with the bearings that the log states. The study is empty if a kind has fewer than 15 pairs, or if the
+/// bearings are not symmetric, which log.field_of_view_deg cannot correct.
 FieldOfViewStudy study_field_of_view(const std::vector<FrameMark>& marks, const FieldOfViewEvidence& evidence,
                                      const ScanLibrary& library);
 

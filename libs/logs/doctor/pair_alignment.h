@@ -82,8 +82,8 @@ struct OdometryJumps {
 OdometryJumps confirm_jumps(const std::vector<FrameMark>& marks, const std::vector<FramePair>& suspects,
                             const ScanLibrary& library);
 
-/// Agreement of odometry with the scans at revisited places. Very good agreement shows that a mapper has
-/// corrected the odometry.
+/// Agreement of odometry with the scans at revisited places. If it is very good, a mapper has corrected the
+/// odometry, because the drift of wheel odometry would show here.
 struct RevisitAgreement {
   std::size_t revisits = 0;    ///< pairs at one place by odometry, but far apart along the path
   std::size_t agreeing = 0;    ///< revisits that the scans confirm to 5 cm and 1 degree

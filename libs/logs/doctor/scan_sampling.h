@@ -26,7 +26,7 @@ struct FramePair {
   std::size_t second = 0;
 };
 
-/// Returns `most` of the items, evenly, or all if there are fewer.
+/// Returns `most` evenly spaced items, or all items if there are fewer.
 template <class Item>
 std::vector<Item> thinned(const std::vector<Item>& items, std::size_t most) {
   if (items.size() <= most) return items;
@@ -84,7 +84,7 @@ class ScanLibrary {
   void fetch(const std::filesystem::path& path, const LogOptions& options,
              const ShareObserver& progress = {});
 
-  /// Keeps the wanted ones of all scans of a log.
+  /// Takes all scans of a log and keeps the wanted ones. Replaces fetch() if the scans are in memory.
   void take(const std::vector<const LaserScan*>& scans);
 
   /// Replaces the mount of all scans.

@@ -67,9 +67,10 @@ void mirror(std::vector<float>& bearings_rad);
 void mark_no_returns(std::vector<float>& ranges_m, double min_range_m, double max_range_m);
 
 /// Sets the maximum range of a scan and marks its readings without a return. The user's options override the
-/// maximum that the log states; `stated_max_range_m` is 0 if it states none. Without both, the maximum range
-/// of the scan is 0, until MaxRangeSource sets it by the readings. The larger of `stated_min_range_m` and the
-/// minimum in `options` applies. Readings of 1 km or more are no returns in any case.
+/// maximum that the log states; `stated_max_range_m` is 0 if the log states none. If neither states a
+/// maximum, the maximum range of the scan stays 0, and MaxRangeSource later determines it from the readings.
+/// The minimum range is the larger of `stated_min_range_m` and that in `options`. Readings of 1 km or more
+/// are always no returns.
 void limit_ranges(LaserScan& scan, const LogOptions& options, double stated_max_range_m,
                   double stated_min_range_m = 0);
 

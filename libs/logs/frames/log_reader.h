@@ -79,8 +79,8 @@ class LogReader : public FrameSource {
 
   std::size_t frames_given_ = 0;
   RepeatedScans repeated_;
-  std::deque<Ahead> ahead_;           // frames that next() gives or leaves out
-  std::set<std::size_t> unchanging_;  // lasers whose readings LookOver::kMostScans frames did not change
+  std::deque<Ahead> ahead_;           // frames read in advance, which next() returns or omits
+  std::set<std::size_t> unchanging_;  // lasers with equal readings in LookOver::kMostScans frames
   bool is_at_end_ = false;            // of the log, while there are frames ahead
   std::exception_ptr failure_;        // thrown after the frames ahead
 };

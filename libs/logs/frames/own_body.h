@@ -8,10 +8,10 @@
 // heading is unknown, three quarters of these readings changed.
 //
 // A beam sees the body at range r if kLeastSeen key scans show r (kLeastSeenWithoutHeading if the heading is
-// unknown), and if these are kLeastShare of all key scans in which the beam measured less than 2 r. The
-// second condition excludes walls: a wall beside the robot has range r / cos(turn) after a turn, so a beam
-// that keeps a constant distance from walls measures all ranges from r to 2 r at each corner. The condition
-// allows for beams that see past the body at times, because it ignores long ranges.
+// unknown), and if these are at least kLeastShare of all key scans in which the beam measured less than 2 r.
+// The second condition excludes walls. If a robot passes walls at a constant distance r, a beam measures
+// r / cos(turn) while the robot turns, so it measures all ranges from r to 2 r at each corner. Ranges beyond
+// 2 r do not count, because some beams see past the body at times.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -36,8 +36,8 @@ struct BodySector {
   double from_rad = 0;  ///< bearing of the first beam
   double to_rad = 0;    ///< bearing of the last beam
   double width_rad = 0;
-  double nearest_m = 0;   ///< smallest range of the body in these beams
-  double farthest_m = 0;  ///< largest range of the body in these beams
+  double nearest_m = 0;   ///< minimum range of the body in these beams
+  double farthest_m = 0;  ///< maximum range of the body in these beams
 };
 
 /// Sectors as text: "8 beams from 40.0 to 47.0 degrees at 0.35 m, 1 beam at -20.0 degrees at 0.50 m". Names

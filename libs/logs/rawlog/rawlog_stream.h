@@ -10,8 +10,8 @@
 
 namespace psi_slam {
 
-/// Makes MRPT know the classes of all observations in logs, although psi-slam refers to few of these. Waits
-/// if another thread is doing so.
+/// Registers the classes of all observations in rawlogs with MRPT, also those that psi-slam does not use, so
+/// that MRPT can read them. Thread-safe.
 void register_rawlog_classes();
 
 /// Reads the objects of an MRPT rawlog in this process. MRPT trusts the sizes that objects state, and some

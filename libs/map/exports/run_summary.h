@@ -31,7 +31,7 @@ struct CalibratedOption {
   bool is_fault = false;  ///< replaces a wrong statement of the log, also without log.calibrate
 };
 
-/// Facts about a run that are not part of its result.
+/// Inputs and circumstances of a run: versions, settings, warnings and the like.
 struct RunInfo {
   std::string program_version;                  ///< version of the program: "0.1.0"
   std::string log_name;                         ///< name of the log for display: "intel.clf.gz"

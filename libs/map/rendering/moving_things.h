@@ -1,39 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the newest confirmed state of each place of a map: removes people, carts and doors that moved, and
-// keeps what came and stays.
+// Finds the newest confirmed state of each place of a map. Removes dynamic objects (people, carts and doors
+// that moved), and keeps objects that came and stayed.
 //
-// The scans are divided into intervals: the robot moves 0.08 m, or a second passes. In each interval, an
-// occupied cell of the map is seen occupied if any beam ended within 0.12 m or 1.5 cells of it. Otherwise it
-// is seen free if beams crossed it and ended beyond, and so did the beams within 0.12 m of them and at least
-// one on either side: a beam that grazes a surface sees nothing free. The tolerances absorb errors of poses
-// and ranges. Three beams within 5 m weigh 1 in cells of 0.05 m; fewer beams or beams from farther away weigh
-// less. A beam counts once for each obstacle within the tolerance that it crosses, so more beams speak about
-// a person than about a post. A visit of the robot to the cell weighs at most 12, because its poses share
-// their errors.
+// Observations. The scans are divided into intervals; a new interval begins when the robot has moved 0.08 m
+// or a second has passed. An interval sees an occupied cell of the map as occupied if a beam ended within
+// 0.12 m or 1.5 cells of it. Otherwise it sees the cell as free if beams crossed the cell and ended beyond
+// it. All beams within 0.12 m of these beams, and at least one on either side, must also end beyond the cell,
+// because a beam that grazes a surface does not show free space. The tolerances allow for errors of poses and
+// ranges.
 //
-// A cell is refuted if the free weight is at least 1, plus 0.7 for each further visit that saw the cell
-// occupied, plus 1 for each time that it was seen occupied again after it was seen free; up to four times as
-// much if beams hit the cell as part of a large surface. Less than 0.9 between two sightings of the obstacle
-// does not count: beams miss thin things. So how long a person stands does not matter, while a table leg that
-// many beams miss stays. The cells within 0.25 m that were seen occupied throughout the same time are judged
-// together.
+// Weights. Three beams within 5 m have the weight 1 in cells of 0.05 m; fewer or longer beams have less. A
+// beam counts once for each obstacle within the tolerance that it crosses, so a person gets more weight than
+// a post. The weight of one visit of the robot is at most 12, because the poses of a visit share their
+// errors.
 //
-// A cell within 0.15 m of a refuted one vanishes, too, if it was occupied only during the same time and if
-// its free weight reaches 0.3 of what refutes it, or if the beams that crossed it before the first beam and
-// after the last beam that ended in the cell itself weigh 1 in sum. So the ends of a door beside its frame
-// vanish. A cell in which beams ended also vanishes if at least 35 % of all obstacles within 0.25 m do and
-// were hit as long as it.
+// Removal. A cell is refuted if its free weight is at least 1, plus 0.7 for each further visit that saw the
+// cell occupied, plus 1 for each time that it was seen occupied again after it was seen free. The threshold
+// is up to four times as high if beams hit the cell as part of a large surface. A free weight below 0.9
+// between two sightings of the obstacle does not count, because beams miss thin objects. So a table leg that
+// many beams miss stays, and the time for which a person stands does not matter. Cells within 0.25 m that
+// were seen occupied throughout the same time are judged together.
 //
-// A cell that this refutes is gone if what was seen after its last hit refutes it, or if two passes saw it
-// free since then at poses that are right, and more than ever before it was seen occupied again. Otherwise it
-// was free only before, and stays if two passes saw enough of the obstacles around it: the robot drove 8 m or
-// more, and half a minute later saw them again from where it had seen them first. Else it is doubtful, and
-// unknown. So is a cell that only the newest scans show occupied, unless two passes saw it.
+// Neighbours. A cell within 0.15 m of a refuted cell vanishes, too, if it was occupied only during the same
+// time and one of two conditions holds. Either its free weight reaches 0.3 of the threshold. Or the beams
+// that crossed it before the first and after the last beam that ended in it have a total weight of 1. So the
+// ends of a door beside its frame vanish. A cell in which beams ended also vanishes if at least 35 % of all
+// obstacles within 0.25 m vanish and were hit for as long.
 //
-// Obstacles longer than 1.5 m stay if the beams hit them as one surface: a wall in two places after an
-// error of the poses, or a barrier that beams hit only from some directions. They are gone if two passes saw
-// most of them free at poses that are right: of the obstacles that were known before, beams met more than
-// they crossed, in each direction that the obstacles face.
+// Newest state. A refuted cell is gone in two cases. Either the observations after its last hit refute it. Or
+// two passes at correct poses saw it free since then, and these are more free passes than in any earlier
+// period after which it was seen occupied again. Otherwise the cell was free only before its last hit. Then
+// it stays if two passes saw enough of the obstacles around it: the robot travelled 8 m or more, and half a
+// minute later saw them again from the same place. Else the cell is doubtful and becomes unknown. A cell that
+// only the newest scans show as occupied becomes unknown, too, unless two passes saw it.
+//
+// Large surfaces. Obstacles longer than 1.5 m stay if beams hit them as one surface. Examples are a wall that
+// wrong poses draw at two places, or a barrier that beams hit only from some directions. They are gone if two
+// passes at correct poses saw most of them free. The poses of a pass are correct if its beams hit more of the
+// obstacles known before than they crossed, in each direction that the obstacles face.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -134,7 +138,7 @@ class MovingThings {
     kStays,
     kConfirmed,  ///< seen free before, and occupied afterwards by two passes
     kGone,       ///< seen free afterwards
-    kDoubtful,   ///< seen free before, and occupied afterwards, but not by two passes
+    kDoubtful,   ///< seen free before, and occupied afterwards by one pass only
   };
 
   static constexpr double kLargeSurface_m = 1.5;  ///< length of a surface that may be a wall

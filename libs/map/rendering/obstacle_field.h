@@ -30,7 +30,7 @@ class ObstacleField {
 
   void measure_distances(std::ptrdiff_t width, std::ptrdiff_t height);
 
-  std::vector<std::uint8_t> distances_;        ///< of each cell; 0: occupied
+  std::vector<std::uint8_t> distances_;  ///< distance of each cell from the next occupied cell; 0: occupied
   std::vector<std::uint32_t> first_of_block_;  ///< number of occupied cells before each block of cells
 };
 

@@ -40,7 +40,9 @@ struct JudgedLoop {
   std::size_t relation = 0;  ///< index in the relations
   double error_m = 0;        ///< translational error of the relation that the loop predicts
   double error_rad = 0;
-  double way_m = 0;  ///< distances along the path from the relation's ends to the node and the anchor, summed
+  /// Distance along the path from one end of the relation to the node, plus that from the other end to the
+  /// anchor.
+  double way_m = 0;
   bool is_false = false;
 };
 

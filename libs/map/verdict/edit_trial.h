@@ -44,14 +44,15 @@ class EditTrial {
   EditTrial(const MappingResult& result, const std::vector<MapView>& views,
             const std::vector<PassCheck>& checks, const PassCheckOptions& options);
 
-  /// The map without an accepted loop. Empty if the graph has no such constraint, or if its constraints do
-  /// not link all nodes.
+  /// Returns the map without an accepted loop. Empty if the graph has no such constraint, or if its
+  /// constraints do not link all nodes.
   std::optional<TriedEdit> without_loop(const LoopRecord& loop) const;
 
-  /// The map with a forced loop that was switched off: without a robust kernel. Empty as above.
+  /// Returns the map with a rejected loop that is accepted by force, so it has no robust kernel. Empty as
+  /// without_loop() is.
   std::optional<TriedEdit> with_loop(const LoopRecord& loop) const;
 
-  /// The map with a match that holds, if the path is wrong between two frames.
+  /// Returns the map with a new match, if the path between the frames of `doubtful` is assumed to be wrong.
   std::optional<TriedEdit> with_match(const TriedMatch& match, const FrameSpan& doubtful) const;
 
  private:

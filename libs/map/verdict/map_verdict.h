@@ -119,14 +119,14 @@ struct MapVerdict {
       hot_spots;  ///< at most VerdictOptions::most_hot_spots; those that scans show first, by their error
   std::size_t more_hot_spots = 0;  ///< hot spots beyond those, which are left out of the list
   double largest_error_m = 0;      ///< of all hot spots, metres; 0 without any
-  /// Stretches of unmatched scans, in the order of the log, across which other scans fit and which are the
-  /// suspect of no hot spot.
+  /// Path segments of unmatched scans, in the order of the log, that are not doubtful: the scans before and
+  /// after a segment fit, and the segment is the suspect of no hot spot.
   std::vector<FrameSpan> confirmed_stretches;
-  /// Stretches that no other pass was compared with, the most uncertain first: the robot should pass them
+  /// Path segments that no second pass has checked, the most uncertain first. The robot should pass them
   /// again.
   std::vector<UncheckedStretch> unchecked_stretches;
-  /// Stretches of VerdictOptions::unconfirmed_m and more whose scans leave a direction open, in the order of
-  /// the log. Those without odometry are hot spots.
+  /// Path segments, at least VerdictOptions::unconfirmed_m long and in the order of the log, whose scans do
+  /// not determine the motion in one direction. Those without odometry are hot spots.
   std::vector<OpenStretch> open_stretches;
   /// Places where the building changed between passes, the place of most comparisons first. Empty for a
   /// broken map, whose poses may be the cause.

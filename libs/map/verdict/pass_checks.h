@@ -33,10 +33,10 @@ struct PassCheck {
   /// Whether the scans fit after the alignment, so that the displacement was measured. False if the views see
   /// different scenes: the displacement is too large, or the scene changed.
   bool fits_if_moved = false;
-  /// Whether the scene changed between both views rather than the pose: no motion makes the scans fit, and in
-  /// every direction most points confirm the poses of the map. check_passes() also requires that other views
-  /// of both passes fit within pass_apart_m of path, and sets error_m to 0. Such a check says nothing about
-  /// the poses.
+  /// Whether the scans differ because the scene changed between both views, not because of wrong poses: no
+  /// motion makes the scans fit, and in every direction most points confirm the poses of the map.
+  /// check_passes() also requires that other views of both passes fit within pass_apart_m of path. It then
+  /// sets error_m to 0, because such a pair of views says nothing about the poses.
   bool scene_changed = false;
 };
 

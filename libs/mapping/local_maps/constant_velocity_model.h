@@ -39,7 +39,8 @@ class ConstantVelocityModel {
   /// Adds the pose of a scan, in any fixed frame. If `matched` is false, the pose is only a prediction and
   /// does not change the speed. The first pose always counts as matched. `imu_heading_rad` is the heading of
   /// the scan by a gyroscope, see Frame::imu_heading_rad. `in_mid_sweep` says that the pose is that in the
-  /// middle of the sweep: speeds are measured between poses of one kind only.
+  /// middle of the sweep, not at its stamp. The model measures speeds only between two poses of the same
+  /// kind.
   void moved(TimeUs time_us, const mrpt::math::TPose2D& local_T_robot, bool matched,
              std::optional<double> imu_heading_rad = std::nullopt, bool in_mid_sweep = false);
 

@@ -61,9 +61,10 @@ std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore
                                            const PoseGraph& graph, const LoopCandidateOptions& options,
                                            const SigmasOfNodes& sigmas_of_nodes);
 
-/// Returns local maps that the largest window may not hold: those whose uncertainty, `window_sigmas` times as
-/// large, exceeds it, and that this distance may bring within reach. The window covers the whole local map,
-/// because the robot may be near any of its nodes. Calls `sigmas_of_nodes` at most once.
+/// Returns the local maps whose position is so uncertain that the largest search window may miss the robot:
+/// `window_sigmas` standard deviations exceed the window, but may bring the local map within reach. The
+/// window of such a candidate covers the whole local map, because the robot may be near any of its nodes.
+/// Calls `sigmas_of_nodes` at most once.
 std::vector<LoopCandidate> far_candidates(std::size_t node, const KeyframeStore& keyframes,
                                           const PoseGraph& graph, const LoopCandidateOptions& options,
                                           const SigmasOfNodes& sigmas_of_nodes);

@@ -25,9 +25,9 @@ namespace psi_slam {
 
 struct LoopConsensusOptions {
   double memory_m = 4.0;                                 ///< path length after which a match no longer counts
-  double same_place_m = 0.5;                             ///< largest distance between poses that agree
-  double same_heading_rad = radians_from_degrees(3.5L);  ///< largest turn between poses that agree
-  /// Shortest path between the first and the last match that agree and have a weight.
+  double same_place_m = 0.5;                             ///< maximum distance between poses that agree
+  double same_heading_rad = radians_from_degrees(3.5L);  ///< maximum turn between poses that agree
+  /// Minimum path length between the first and the last agreeing match that have a weight.
   double min_span_m = 1.0;
   /// Minimum sum of agreeing weights. A weight is 1 - ambiguity, or 0 if that is below 0.05. A response
   /// below 0.6 multiplies it by (response / 0.6)^2.

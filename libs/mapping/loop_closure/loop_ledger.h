@@ -66,15 +66,15 @@ class LoopLedger {
   // Edits by hand. Each edit also applies to later attempts of the same node and local map.
 
   void remove(const LoopPair& pair, PoseGraph& graph);
-  /// Accepts the newest match of the pair. Returns false if there is no match yet; then a later match is
-  /// forced. If `of_final_search` is true, only matches of the final search count.
+  /// Accepts the newest match of the pair by force. If there is no match yet, returns false and forces the
+  /// next match of the pair. If `of_final_search` is true, only matches of the final search count.
   bool force(const LoopPair& pair, bool of_final_search, PoseGraph& graph);
   /// Replaces the earlier attempts of the pair by `loop`, the result of a match by hand.
   void replace(LoopRecord loop, PoseGraph& graph);
   /// Undoes remove(), force() and replace() of the pair. Returns false if there was no such edit.
   bool restore(const LoopPair& pair, PoseGraph& graph);
 
-  /// Returns the forced pairs without an accepted loop.
+  /// Returns the pairs passed to force() that have no accepted loop, because no match was found.
   std::vector<LoopPair> forced_in_vain() const;
 
   /// Returns the newest attempt of the pair, or null. The pointer is valid until the ledger changes.

@@ -15,12 +15,13 @@
 
 namespace psi_slam {
 
-/// Optimises the graph with all the constraints `loops`. If a residual exceeds kInlierChi, minimises the
-/// error sum with a kernel that bounds the cost of each loop, see optimize_graduated(), and disables the
-/// loops whose residual exceeds kInlierChi there: with a doubtful path, and again from the result with a
-/// certain one. Then optimises the graph with the others, and enables loops again that fit it. Loops with a
-/// kernel of their own, which a person stated, are not among `loops` and bend the path. Returns the residuals
-/// in the order of `loops`, in standard deviations.
+/// Rejects outlier loops. First optimises the graph with all constraints `loops`, and keeps all of them if no
+/// residual exceeds kInlierChi. Otherwise minimises the error sum with a kernel that bounds the cost of each
+/// loop, see optimize_graduated(), and disables the loops whose residual then exceeds kInlierChi. Does so
+/// twice: with an uncertain path, and from this result with a certain path. Then optimises the graph with the
+/// remaining loops, and enables disabled loops that fit the result. Loops by hand have kernels of their own;
+/// they are not among `loops` and always act on the path. Returns the residuals in the order of `loops`, in
+/// standard deviations.
 std::vector<double> reject_outlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
                                          const std::vector<std::size_t>& loops);
 

@@ -53,8 +53,8 @@ struct LocalizerOptions {
   double start_window_m = 1.0;
   double start_window_rad = radians_from_degrees(15.0L);
   double min_response = 0.3;
-  double min_observed_share = 0.5;  ///< smallest share of a scan's points in space that the map shows
-  double min_agree = 0.6;           ///< smallest share of the points in mapped space that lie on walls
+  double min_observed_share = 0.5;  ///< minimum share of a scan's points in observed space of the map
+  double min_agree = 0.6;           ///< minimum share of the points in observed space that lie on walls
   double max_misfit_m = 2.0;        ///< the robot counts as lost after more travel without a fitting scan
   double max_misfit_s = 5.0;        ///< the robot counts as lost after more time without a fitting scan
 };

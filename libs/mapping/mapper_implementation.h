@@ -51,7 +51,7 @@ class Mapper::Implementation {
     std::vector<Interruption> interruptions;
   };
 
-  /// Correction of the map by the loops of one node. `map_T_node` is empty if only newer nodes move.
+  /// Correction of the map by the loops of one node. `map_T_node` is empty if it moves only newer nodes.
   struct Correction {
     std::size_t node = 0;
     mrpt::math::TPose2D map_T_local;

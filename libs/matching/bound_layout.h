@@ -17,9 +17,9 @@ struct BoundLayout {
   std::uint32_t plane_bytes = 0;
   std::uint32_t table_bytes = 0;
 
-  /// Returns the offset of the square that begins at half cell (x, y), with sides of `half_cells`: half a
-  /// stride to one stride + 1, the sizes that points need which move by up to a stride. Returns -1 if no
-  /// block of a window of `window_columns` x `window_rows` blocks from this square on has scores. Always
+  /// Returns the offset of the square that begins at half cell (x, y) and has sides of `half_cells`. Points
+  /// that move by up to a stride need sides from half a stride to one stride + 1. Returns -1 if a window of
+  /// `window_columns` x `window_rows` blocks that begins at this square contains no scores. Always
   /// inlined, because kernels for other instruction sets use it.
   __attribute__((always_inline)) std::int32_t offset(int x, int y, int half_cells, int window_columns,
                                                      int window_rows) const {

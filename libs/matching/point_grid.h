@@ -17,8 +17,8 @@ namespace psi_slam {
 class PointGrid {
  public:
   /// The points must be finite and less than 2^62 cells from the origin; an empty vector is valid. `cell_m`
-  /// is above 0 and affects the speed only. It is best near half the distance of the searches: those of 32
-  /// cells or more look at all points.
+  /// must be positive and affects only the speed. Half the distance of the searches is best. Searches of 32
+  /// cells or more compare all points.
   PointGrid(std::vector<mrpt::math::TPoint2Df> points, double cell_m);
 
   const std::vector<mrpt::math::TPoint2Df>& points() const { return points_; }

@@ -80,7 +80,8 @@ struct PointKernels {
   /// Sets offsets[i] to the offset of cells[i] from cell (0, 0) in bytes, or to kClipped.
   void (*find_offsets)(const UnclippedCells& unclipped, const Cell* cells, std::size_t count,
                        std::int32_t* offsets);
-  /// Merges the keys of points, as seen from a place, into `nearest`, and drops the largest keys.
+  /// Computes a key from the distance of each point to (x_m, y_m), inserts the keys into `nearest`, and keeps
+  /// only the smallest.
   void (*merge_nearest)(float x_m, float y_m, const IndexedPoints& points, const NeighbourKeys& nearest);
 };
 

@@ -43,13 +43,13 @@ struct KnownResidual {
 
 struct SeenMark;
 
-/// Part of a pose graph that holds landmarks. No nodes may be added to the graph after them.
+/// The landmarks of a pose graph. Add no further nodes to the graph after the landmarks.
 class KnownLandmarks {
  public:
   /// Adds the nodes of the landmarks to the graph, without their constraints. The graph stays connected.
   KnownLandmarks(std::vector<Landmark> landmarks, PoseGraph& graph);
 
-  /// Switches all constraints of the landmarks off.
+  /// Disables all constraints of the landmarks.
   void switch_off(PoseGraph& graph) const;
 
   /// Places the landmarks by the graph's poses, which must not depend on the landmarks. Adds the constraints,

@@ -24,7 +24,7 @@ struct PathCovarianceOptions {
   /// The cost of a chain, in m^2, is the trace of its position covariance, plus its heading variance times
   /// the square of this length. Heading errors become position errors along the chain.
   double heading_lever_m = 2;
-  /// The search leaves out nodes whose cost exceeds the square of this length.
+  /// The search does not visit nodes whose cost exceeds the square of this length.
   double max_sigma_m = std::numeric_limits<double>::infinity();
   /// If not empty, the search ends when it has reached all these nodes.
   std::vector<std::size_t> targets;

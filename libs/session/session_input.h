@@ -40,10 +40,11 @@ class SessionInput {
   /// unreadable or is an earlier log of the recording.
   explicit SessionInput(std::shared_ptr<const SessionRecording> recording, std::filesystem::path log = {});
 
-  /// Reads a recording, and then a stream. The stream is opened with the recording, and read after it.
+  /// Reads a recording and then a stream. The stream is opened at once, and read after the recording.
   SessionInput(std::shared_ptr<const SessionRecording> recording, const std::string& name, OpenStream open);
 
-  /// Returns the session in a file, or a log for any other file. Throws UserError as read_session_file().
+  /// Returns the session in a file, or a log if the file is no session. Throws the errors of
+  /// read_session_file().
   static SessionInput of_file(const std::filesystem::path& path);
 
   /// Returns this input with `edits` instead of its own edits.

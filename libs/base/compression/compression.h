@@ -10,8 +10,8 @@
 namespace psi_slam {
 
 /// Decompresses data to exactly `size` bytes. `name` is the compression: "bz2", "lz4" (frames) or "zstd".
-/// Memory grows with the decompressed bytes, not with `size`, which may be wrong. Throws MalformedBytes for
-/// any other compression, for damaged data, and for data of another size.
+/// Allocates memory as bytes are decompressed, not `size` bytes at once, because `size` may be wrong. Throws
+/// MalformedBytes for any other compression, for damaged data, and for data of another size.
 std::string decompress(std::string_view name, std::string_view compressed, std::uint64_t size);
 
 /// Decompresses a zstd frame, with or without a stated size, to at most `most` bytes. Throws MalformedBytes

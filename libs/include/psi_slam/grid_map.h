@@ -29,13 +29,13 @@ namespace psi_slam {
 /// Options of draw_grid_map(): section [map] of settings files.
 struct GridMapOptions {
   double resolution_m = 0.05;  ///< side of a cell, metres
-  double max_range_m = 200;    ///< longer beams only clear free space, up to this range
+  double max_range_m = 200;    ///< ends of longer beams are not drawn, only free space up to this range
   /// Beams without return make unknown cells free up to this length, but not beyond the sensor's maximum
-  /// range. Glass and black surfaces give no return either, so such beams never outvote a hit. 0: beams
-  /// without return draw nothing.
+  /// range. They never clear occupied cells, because glass and black surfaces give no return either. 0:
+  /// beams without return draw nothing.
   double no_return_clears_m = 5;
   double margin_m = 0.5;  ///< width of the unknown border around all observed cells, at least two cells
-  /// Largest number of cells. Larger maps get cells of twice the size, if necessary repeatedly. A cell takes
+  /// Maximum number of cells. Larger maps get cells of twice the size, if necessary repeatedly. A cell takes
   /// about six bytes while drawing and one byte afterwards. The limit keeps a badly distorted map from
   /// exhausting the memory.
   std::size_t max_cells = 100'000'000;

@@ -38,7 +38,7 @@ struct FoundPlace {
   mrpt::math::TPose2D map_T_robot;  ///< robot pose in the map
   double response = 0;              ///< response of the scans at this pose, in [0, 1]
   double ambiguity = 0;             ///< response of the next best place, divided by `response`
-  double observed_share = 0;        ///< share of the scans' points in space that the map shows
+  double observed_share = 0;        ///< share of the scans' points that lie in observed space of the map
   double agree = 0;                 ///< share of points in observed space that lie on or beside walls
   double clear_share = 0;           ///< share of the scans' beams that cross no wall of the map
   std::string objection;            ///< why the place was rejected, as a clause; empty if accepted

@@ -159,8 +159,8 @@ std::vector<FrameSpan> runs_of(std::size_t frames, const std::vector<std::size_t
 /// interruption belong to the log before them.
 std::vector<FrameSpan> logs_of(const MappingResult& result);
 
-/// Returns the number of the first log, as in logs_of(), that no chain of accepted loops joins to log 0;
-/// empty if all logs are joined. Runs after an interruption count as logs of their own, but are not returned.
+/// Returns the index, as in logs_of(), of the first log that no chain of accepted loops joins to log 0; empty
+/// if all logs are joined. A chain may not pass through an interruption without a loop across it.
 std::optional<std::size_t> unjoined_log(const MappingResult& result);
 
 }  // namespace psi_slam

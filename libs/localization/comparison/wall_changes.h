@@ -30,7 +30,7 @@ struct WallChange {
   enum class Kind {
     kAppeared,  ///< only map B has the wall
     kVanished,  ///< only map A has the wall
-    kMoved,     ///< map B has the wall beside its place in map A
+    kMoved,     ///< map B has the wall at another place, beside that in map A
   };
 
   Kind kind = Kind::kAppeared;

@@ -82,8 +82,9 @@ struct LasersOfLog {
   std::vector<SingleLaser> lasers;
 };
 
-/// Returns the lasers that `options` select and that have appeared in the beginning of the log, at least one.
-/// Leaves out lasers with names that no option can list. Throws UserError if the log is unreadable.
+/// Returns the lasers that `options` select and that send scans at the beginning of the log, at least one.
+/// Omits lasers whose names cannot be written in a list of log.laser. Throws UserError if the log is
+/// unreadable.
 LasersOfLog single_lasers(const std::filesystem::path& path, const LogOptions& options);
 
 /// Derives findings from the measurements, warnings first. diagnose() calls this function.

@@ -45,8 +45,8 @@ struct OdometryAgreement {
   /// if the headings of odometry do not match the positions of odometry.
   double odometry_slip_rad = 0;
   std::vector<ScanTurn> turns{};  ///< turns between consecutive frames of all tracks
-  /// Difference of the clocks of scans and odometry. Odometry agrees with the scans if it is removed, and not
-  /// as recorded, which is what the other members describe.
+  /// Difference between the clocks of scans and odometry, if there is one. Odometry then agrees with the
+  /// scans only after it is corrected. The other members describe odometry as recorded.
   std::optional<ScanDelay> clock_offset{};
 };
 

@@ -33,10 +33,10 @@ struct ScanDelay {
 };
 
 /// Estimates the delay, at most kMostEstimatedDelay_s. Also estimates the ratio of turns by odometry to turns
-/// by scans, so that a wrong wheel base does not disturb. Where the robot turns at a constant rate, no delay
-/// shows; the deviation is then up to a second. Empty for fewer than 40 turns, if no delay of less than a
-/// second explains the turns, and if odometry mostly has fewer than two poses in a second: it is a
-/// guess between them, and a delay of that length cannot be distinguished from it.
+/// by scans, so that a wrong wheel base does not affect the delay. A constant turn rate does not show the
+/// delay; the standard deviation is then up to a second. Empty in three cases: fewer than 40 turns; no delay
+/// below one second explains the turns; or odometry mostly has fewer than two poses per second, so that
+/// interpolation errors look like a delay.
 std::optional<ScanDelay> estimate_scan_delay(const std::vector<FrameMark>& marks,
                                              const std::vector<ScanTurn>& turns);
 

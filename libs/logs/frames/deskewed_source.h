@@ -24,9 +24,9 @@ LaserScan deskewed(const LaserScan& scan, const mrpt::math::TPose2D& motion);
 /// How long the sweeps of a log take, and in which order the beams are measured.
 struct SweepTiming {
   std::optional<double> time_s;  ///< replaces the sweep time of all scans, seconds; the sign is kept
-  SweepDirection direction = SweepDirection::kAuto;  ///< direction of all lasers, as the user states it
-  /// Directions by the number of the laser, for kAuto. A laser with kAuto or beyond the end keeps the sign of
-  /// the sweep time that its scans state.
+  SweepDirection direction = SweepDirection::kAuto;  ///< order of the beams of all lasers, set by the user
+  /// Order of the beams of each laser, by its number; used if `direction` is kAuto. If the entry of a laser
+  /// is kAuto or missing, the sign of the sweep time in its scans applies.
   std::vector<SweepDirection> directions{};
   std::vector<std::string> assumptions{};  ///< see FrameSource::assumptions()
 

@@ -39,8 +39,8 @@ void leap_line(const DigitalLine& line, const Visit& visit) {
   }
 }
 
-/// Walks along lines that start at one point. Neighbouring lines cross the same cells near that point; these
-/// are skipped.
+/// Visits the cells along several lines that start at one point. Visits each cell only once, although
+/// neighbouring lines cross the same cells near that point.
 class LineFan {
  public:
   void clear() {

@@ -53,7 +53,8 @@ class BearingBins {
   double step_rad() const { return step_rad_; }
   double bearing_rad(std::size_t bin) const { return first_rad_ + step_rad_ * static_cast<double>(bin); }
 
-  /// Returns the nearest bin; empty for a bearing outside the first scan.
+  /// Returns the bin nearest to a bearing; empty if the bearing is outside the field of view of the first
+  /// scan.
   std::optional<std::size_t> bin_of(float bearing_rad) const;
 
   /// Returns the bins beside a bin and the bin itself. In a full circle, the first and the last bin are side

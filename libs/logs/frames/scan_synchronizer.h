@@ -6,11 +6,11 @@
 // motion exceeds `kMaxMotion_m` or `kMaxTurn_rad`, odometry has jumped, and the scan is dropped. Without
 // odometry, the robot is taken to turn by the gyroscope between the two scans, or else to stand still.
 //
-// A scan belongs to the frame nearest in time. Several scans of one laser may belong to one frame; this is
-// usual if lasers scan half a period apart. Such scans that are about half-way to the next frame are passed
-// on to the next frame, although it is farther in time. These extra time distances of successive scans must
-// not sum to more than `kMaxDetour_s`. The nearest of the remaining scans joins the frame. The other
-// remaining scans are dropped, such as the surplus scans of a laser that is faster than the first.
+// A scan belongs to the frame nearest in time. If lasers scan half a period apart, two scans of one laser
+// often belong to the same frame. Then a scan about half-way to the next frame joins the next frame instead,
+// although that frame is farther in time. The sum of these extra time distances over successive scans is at
+// most `kMaxDetour_s`. Of the other scans of a laser, the nearest joins the frame, and the rest are dropped,
+// such as the surplus scans of a laser that is faster than the first.
 //
 // A scan opens a frame itself if no scan of a laser with a smaller number is within `kMaxApart_s`. If the
 // first laser stops, the other lasers continue without it. Lasers that rarely scan together open frames in

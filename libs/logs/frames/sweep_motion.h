@@ -16,9 +16,9 @@ namespace psi_slam {
 std::optional<mrpt::math::TPose2D> motion_during_sweep(const mrpt::math::TPose2D& motion, double duration_s,
                                                        double sweep_s);
 
-/// Removes the robot's motion during the sweeps from all scans of a frame, see deskewed(). The robot made
-/// `motion` in `duration_s` seconds. Leaves scans unchanged whose motion_during_sweep() is unknown. Returns
-/// whether any scan was straightened.
+/// Deskews all scans of a frame, see deskewed(). `motion` is the motion of the robot within `duration_s`
+/// seconds. Leaves scans unchanged whose motion_during_sweep() is unknown. Returns whether it deskewed any
+/// scan.
 bool straighten(Frame& frame, const mrpt::math::TPose2D& motion, double duration_s);
 
 }  // namespace psi_slam

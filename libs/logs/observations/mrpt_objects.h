@@ -33,9 +33,9 @@ mrpt::obs::CActionCollection robot_action(const mrpt::math::TPose2D& motion, Tim
 
 /// Returns the frame's first scan with evenly spread rays from the first to the last beam, as MRPT stores
 /// scans. Uneven beams, such as GMapping's 180 beams without the one straight ahead, are assigned to finer
-/// rays. Takes the fewest rays that meet each bearing within a milliradian, but at most four times as many as
-/// beams. Rays without a beam and beams without a return are invalid. The sensor's pose includes the mean
-/// bearing.
+/// rays. Uses the minimum number of rays that represents each bearing to a milliradian, but at most four
+/// times the number of beams. Rays without a beam and beams without a return are invalid. The sensor's pose
+/// includes the mean bearing.
 mrpt::obs::CObservation2DRangeScan::Ptr range_observation(const Frame& frame);
 
 /// Returns the scans of all lasers of the frame, each with its own label and time stamp. Sensor poses are

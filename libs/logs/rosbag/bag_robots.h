@@ -10,19 +10,20 @@
 
 namespace psi_slam {
 
-/// Robots by the namespaces of their topics. A namespace, the first word of a topic of several, is a robot if
-/// it has scans, and odometry or transforms. Topics without a namespace are a robot on the same condition.
+/// Robots by the namespaces of their topics. A namespace is the first part of a topic that has several parts.
+/// It belongs to a robot if it has scans, and odometry or transforms. Topics without a namespace form a robot
+/// under the same condition.
 class BagRobots {
  public:
   explicit BagRobots(const std::vector<BagTopic>& topics);
 
   bool are_several() const { return names_.size() > 1; }
 
-  /// Returns whether a topic is the robot's whose scans are on `scan_topic`, or shared by all robots.
+  /// Returns whether a topic belongs to the robot that scans on `scan_topic`, or is shared by all robots.
   bool may_share(const std::string& topic, const std::string& scan_topic) const;
 
-  /// Returns the topics that the robot of a topic of scans may use. Leaves out topics without a namespace,
-  /// such as /tf, if they are those of another robot and this robot has its own.
+  /// Returns the topics that the robot of a topic of scans may use. Omits topics without a namespace, such
+  /// as /tf, if they belong to another robot and this robot has such topics in its own namespace.
   std::vector<std::string> of_robot(const std::vector<std::string>& topics,
                                     const std::string& scan_topic) const;
 

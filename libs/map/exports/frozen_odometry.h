@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stretches of a log during which odometry stayed exactly the same although the robot moved, as text for
-// users. The front end predicts the motion there as without odometry.
+// Messages about frozen odometry: parts of a log where odometry stayed exactly the same although the robot
+// moved. The front end predicts the motion there as without odometry.
 #pragma once
 
 #include <optional>

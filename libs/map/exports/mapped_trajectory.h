@@ -19,7 +19,7 @@ inline Trajectory trajectory_of(const std::vector<FrameRecord>& frames) {
   return trajectory;
 }
 
-/// Returns the elements of each run from those of all frames.
+/// Splits a list with one element for each frame into one list for each run.
 template <class Element>
 std::vector<std::vector<Element>> split_by_runs(const std::vector<Element>& of_frames,
                                                 const MappingResult& result) {

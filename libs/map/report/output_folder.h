@@ -31,10 +31,10 @@ namespace psi_slam {
 /// A folder that exists and can be written to.
 class OutputFolder {
  public:
-  /// Creates the folder and its parents. An existing folder must be empty unless `force` is given, which
-  /// replaces the files of a run and keeps all others. Temporary files that a killed program left do not
-  /// count. Throws UserError if the folder is not empty, is a file, or cannot be created or written to, and
-  /// while another OutputFolder of this path exists, in any process. Call it before mapping, so that the user
+  /// Creates the folder and its parents. An existing folder must be empty, apart from temporary files of a
+  /// killed program. If `force` is true, it need not be empty: the files of a run are replaced and all others
+  /// kept. Throws UserError if the folder is not empty, is a file, or cannot be created or written to, or if
+  /// any process has another OutputFolder of this path. Call it before mapping, so that the user
   /// sees the error at once. `force_text` tells the user how to give `force`.
   static OutputFolder prepare(const std::filesystem::path& path, bool force,
                               const std::string& force_text = "--force");

@@ -65,7 +65,7 @@ struct HotSpot {
     kRunsDisagree,     ///< different runs saw a wall at different places
     kMisfit,           ///< successive scans of one pass do not fit
     kLoopConflict,     ///< the map contradicts an accepted loop
-    kUnmatched,        ///< no match and no other pass confirms the motion
+    kUnmatched,        ///< unmatched scans whose motion no other pass confirms
     kUnplacedRun,      ///< the place of a run in the map was never found
     kGapDisagrees,     ///< scans before and after a gap of the log saw different walls
     kUncertain,        ///< the pose graph predicts a large error

@@ -3,14 +3,14 @@
 // who walk with the robot cause such corrections. A doubtful correction is applied only if errors of odometry
 // can explain it, by itself and together with the doubtful corrections before it.
 //
-// By itself: the correction is at most `max_sigmas` standard deviations of the motion by odometry. Motion
-// adds up as long as corrections are refused, so the map can correct an error of odometry that persists.
-// Robots differ, so the standard deviation is multiplied by a scale. The scale is the root mean square ratio
-// of supported corrections to their standard deviation, at least 1.
+// Limit of a single correction: it is at most `max_sigmas` standard deviations of the motion by odometry. The
+// motion is that since the last applied correction, so the map can correct an error of odometry that
+// persists. Robots differ, so the standard deviation is multiplied by a scale. The scale is the root mean
+// square ratio of supported corrections to their standard deviation, at least 1.
 //
-// Together: the sum of the applied corrections decays with travel. It is at most `max_sum_m` times the scale,
-// or as large as the largest correction that the errors of one step explain. So the limit grows with the
-// distance between scans.
+// Limit of the sum of corrections, which decays with travel: it is at most `max_sum_m` times the scale, or
+// the limit of a single correction over one step if that is larger. So the limit grows with the distance
+// between scans.
 #pragma once
 
 #include <Eigen/Core>

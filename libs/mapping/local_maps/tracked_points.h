@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points of a scan for the match with the local map that the front end draws.
 //
-// Such a match along a bare corridor must not tie the robot to the place of an earlier scan. Two properties
-// of matching_points() would tie it:
+// In a bare corridor, such a match must not hold the robot at the place of an earlier scan. Two properties of
+// matching_points() would do so:
 //  - Far ahead, neighbouring beams graze a wall metres apart, too far apart for a normal. The beams hit the
-//    walls at the same ranges wherever the robot stands. Matched as single objects, these points would lie
-//    best on their own earlier ends, at the place of the earlier scan.
-//  - A point that lies off its wall by noise turns its own normal. The distance of the point from the wall
-//    then pulls along the wall, for all points in the same direction.
+//    walls at the same ranges wherever the robot stands. If these points count as single objects, they fit
+//    best at the place of the earlier scan.
+//  - Noise that moves a point away from its wall also turns the normal of the point. The distance from the
+//    wall then acts along the wall, for all points in the same direction.
 #pragma once
 
 #include "matching/scan_points.h"

@@ -40,7 +40,7 @@ struct UnplacedRun {
 /// Covariance of a node of the path relative to an earlier one, along the axes of the earlier one.
 struct PathCovariance {
   Eigen::Matrix3d drift = Eigen::Matrix3d::Zero();      ///< errors that may repeat along the path
-  Eigen::Matrix3d unmatched = Eigen::Matrix3d::Zero();  ///< of odometry, where no scan matched
+  Eigen::Matrix3d unmatched = Eigen::Matrix3d::Zero();  ///< errors of odometry where no scan matched
 };
 
 struct KeyframeStore {
@@ -53,8 +53,8 @@ struct KeyframeStore {
   std::size_t last_matched_node = 0;  ///< newest node that matched, or that began a run
 };
 
-/// A turn of 1 rad counts as this much travel: by default, after both of them the front end adds about
-/// equally many nodes.
+/// Travel that is equivalent to a turn of 1 rad: with the default options, the front end adds about the same
+/// number of nodes for both.
 inline constexpr double kTravelOfTurn_m = 1.5;
 
 /// Returns the distance between two poses, plus their turn as travel.
@@ -73,11 +73,11 @@ KeyframeStore make_keyframe_store();
 /// Appends the node of a front-end step. `frame` is the index of the scan in MappingResult::frames.
 void remember_node(const FrontEndStep& step, std::size_t frame, KeyframeStore& keyframes);
 
-/// Errors of the path that the front end measures: a random walk.
+/// Standard deviations of the errors of the path by the front end, modelled as a random walk.
 struct PathNoise {
-  /// Share of the standard deviations that the front end states for a step. The next scan is matched with the
-  /// same local map and takes most of the error of a step back. Steps without a match have all of it, until
-  /// a scan matches a local map that is older than they are.
+  /// Share of a step's error, as stated by the front end, that remains in the path. The next scan is matched
+  /// with the same local map, which corrects most of the error. The whole error of unmatched steps remains,
+  /// until a scan matches a local map that is older than these steps.
   double stated_share = 0.2;
   /// Drift that successive scans share, as standard deviations.
   double sigma_m_per_sqrt_m = 0.002;  ///< of the position, after one metre
@@ -90,18 +90,19 @@ struct PathNoise {
   double scan_sigma_rad = radians_from_degrees(0.12L);
 };
 
-/// How many times as wrong as the random walk states the path may be, where places are searched and loops are
-/// rejected: errors that repeat, such as a wrong scale of the bearings, add up along the path. Where no scan
-/// matched, the path states its whole error, without doubt.
+/// Factor by which the standard deviations of the random walk are increased to search places and to reject
+/// loops. Errors that repeat, such as a wrong scale of the bearings, add up along the path and exceed those
+/// of a random walk. The factor does not apply where no scan matched, because the whole error is stated
+/// there.
 inline constexpr double kPathDoubt = 5;
 
-/// Length of a path segment, metres. Short enough to bend with the path, long enough that the scans of a
-/// segment, which see the same walls, are one place.
+/// Length of a path segment in metres. It is short, so that rigid segments can follow the drift of the path,
+/// and long enough that the scans of a segment, which see the same walls, count as one place.
 inline constexpr double kSegment_m = 3;
 
 /// Adds the constraint of the newest node, which remember_node() added, from the first node of its path
-/// segment; or, if it begins a segment, from the first node of the segment before. A node that no local map
-/// holds begins a run, and gets no constraint.
+/// segment. If the node begins a segment, the constraint starts at the first node of the previous segment. A
+/// node in no local map begins a run and gets no constraint.
 void constrain_to_path(const FrontEndStep& step, const PathNoise& noise, KeyframeStore& keyframes,
                        PoseGraph& graph);
 

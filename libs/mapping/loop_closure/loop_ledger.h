@@ -52,8 +52,9 @@ class LoopLedger {
     double chi = 0;  ///< see contradiction()
   };
   /// Returns the forced loops whose contradiction() by the rest of the graph exceeds kInlierChi, in the order
-  /// of their pairs. Settles the rest for each forced loop by itself, because loops that agree with the path
-  /// may have been rejected for the forced one. Leaves out a loop whose contradiction() cannot be computed.
+  /// of their pairs. For each forced loop, decides anew which other loops are outliers, because loops that
+  /// agree with the path may have been rejected because of the forced loop. Omits a loop whose
+  /// contradiction() cannot be computed.
   std::vector<ContradictedForce> contradicted_forces(const PoseGraph& graph,
                                                      SparsePoseAdjustment& solver) const;
 

@@ -7,8 +7,9 @@
 
 namespace psi_slam {
 
-/// Returns the sentence, without full stop, about a file that could not be written the last time and that is
-/// written again later. `file`: what is written, such as "the journal". `why`: a sentence without full stop.
+/// Returns a message about a file that could not be written and that psi-slam will try to write again later,
+/// as a sentence without full stop. `file`: what is written, such as "the journal". `why`: a sentence without
+/// full stop.
 inline std::string unwritten_text(const std::string& file, const std::string& why) {
   return file + " is not written for now, and psi-slam tries again: " + why;
 }

@@ -8,7 +8,8 @@
 
 namespace psi_slam {
 
-/// Returns all bytes of a file, or the first ones, more than `most_bytes`, of a larger file. Throws
+/// Returns all bytes of a file. If the file is larger than `most_bytes`, may return only its beginning, which
+/// then has more than `most_bytes` bytes, so that the caller notices. Throws
 /// std::system_error, whose code says why, if the file cannot be opened, or if reading it fails part-way
 /// through.
 std::string file_bytes(const std::filesystem::path& path,

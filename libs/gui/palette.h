@@ -41,7 +41,7 @@ mrpt::img::TColor map_edit_colour(MapEdit::Kind kind);
 /// Colour from green (0) over yellow to red (1); values outside [0, 1] are clamped.
 mrpt::img::TColor heat_colour(double share);
 
-/// Whether a match was refused or deleted. Such matches are drawn only with LoopStyle::refused.
+/// Returns whether a match was rejected or deleted. Scenes draw such matches only with LoopStyle::refused.
 bool was_no_loop(LoopVerdict verdict);
 
 /// Colour in which a scene with this style draws a loop.

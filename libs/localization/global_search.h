@@ -52,9 +52,9 @@ struct WholeMapMatch {
   double centre_rad = 0;  ///< heading at the centre of the window in which the match was found
 };
 
-/// Matches a scan in a whole map, with its ambiguity. If the best heading is near the ends of the window,
-/// both ends contain it, and the match seems ambiguous. The search is then repeated with the opposite heading
-/// at the centre. `options` are those of `matcher`.
+/// Matches a scan with a whole map and computes the ambiguity of the match. If the best heading is near the
+/// ends of the window, both ends contain it, and the match seems ambiguous. The search is then repeated with
+/// the opposite heading at the centre. `options` are those of `matcher`.
 WholeMapMatch match_whole_map(const Matcher& matcher, const WholeMapProblem& problem,
                               const MatcherOptions& options);
 
@@ -62,8 +62,8 @@ class GlobalSearch {
  public:
   GlobalSearch(ReferenceMap map, const GlobalSearchOptions& options);
 
-  /// Finds the pose of the robot at `node` from the scan of the node and the scans before it. Also returns a
-  /// rejected place; FoundPlace::objection then says why.
+  /// Finds the pose of the robot at `node` from the scan of the node and the scans before it. If the
+  /// best place is rejected, still returns it; FoundPlace::objection then says why it is rejected.
   FoundPlace find(std::size_t node, const KeyframeStore& memory, const MatchSeed& seed) const;
 
   const ReferenceMap& map() const { return map_; }

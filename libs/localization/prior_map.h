@@ -52,9 +52,9 @@ class PriorMap {
  public:
   PriorMap(const mrpt::maps::COccupancyGridMap2D& map, PriorMapOptions options);
 
-  /// Finds the places of a run. Deterministic. With `start`, the pose of a node in the prior map, the whole
-  /// map is not searched. `progress` gets the completed share of the work, in [0, 1]. If it returns false,
-  /// the search stops. The mapper must not have landmarks in its graph.
+  /// Finds the places of a run. Deterministic. `start`, the pose of a node in the prior map, replaces
+  /// the search of the whole map. `progress` gets the completed share of the work, in [0, 1]. If it returns
+  /// false, the search stops. The mapper must not have landmarks in its graph.
   PriorPlaces places(const Mapper& mapper, const std::optional<PriorStart>& start = {},
                      const std::function<bool(double)>& progress = {}) const;
 

@@ -37,10 +37,11 @@ struct SweepDirectionStudy {
   SweepFit backward;               ///< the last beam is measured first
   SweepFit at_once;                ///< all beams are measured at the same time
 
-  /// Returns the direction that aligns the scans best, if they rule out the reverse direction and fit less
-  /// well without a sweep; otherwise kAuto.
+  /// Returns the direction with the best fit. Returns kAuto unless the scans rule out the reverse direction
+  /// and fit less well without any correction of the sweep.
   SweepDirection direction() const;
-  /// Returns whether the scans rule out both directions: they are not bent, or not as the sweep time states.
+  /// Returns whether the scans rule out both directions, because they are not distorted or the sweep time is
+  /// wrong.
   bool shows_no_sweep() const { return forward.ruled_out && backward.ruled_out; }
 };
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Optimises a growing pose graph at a cost that depends mainly on what new constraints change. With the graph
-// grow only the solution for the core nodes, and a pass over all poses that compares them.
-// Between complete solutions by SparsePoseAdjustment, it takes Gauss-Newton steps of the same robust error
-// sum, in which most terms remain from earlier steps:
+// Optimises a growing pose graph at a cost that depends mainly on what new constraints change. Only the
+// core-node solve and one pass over all poses scale with the size of the graph. Between complete solutions by
+// SparsePoseAdjustment, takes Gauss-Newton steps of the same robust error sum and reuses most terms of
+// earlier steps:
 //
 // - Most nodes are leaves: their constraints lead only to core nodes, such as the first nodes of segments.
-// The
-//   poses of leaves are eliminated, and only the core nodes remain in the equations that are factorised.
+//   The poses of leaves are eliminated, and only the core nodes remain in the equations that are factorised.
 // - Constraints are linearised again only if they are new, or if their nodes have moved so far that the
 //   linearisation or the weight by the kernel no longer holds (fluid relinearisation of Kaess et al.,
 //   "iSAM2", IJRR 2012).

@@ -116,9 +116,9 @@ class EditJournal {
   void rewind() { taken_ = 0; }
 
   /// Enters an edit that is made now, so take_due() will not return it. Removes the edits of the same loop
-  /// that are still to come. No edit that take_due() has returned may have a later time.
+  /// that are not made yet. No edit that take_due() has returned may have a later time.
   void enter(const TimedEdit& edit);
-  /// Removes the edits of a loop that are still to come. Returns false if there were none.
+  /// Removes the edits of a loop that are not made yet. Returns false if there were none.
   bool forget_later(const LoopEdit& same_loop);
 
   /// Returns these edits of one run, renumbered for a map of several runs. The run has `scans` scans,

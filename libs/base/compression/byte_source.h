@@ -14,8 +14,8 @@ class ByteSource {
  public:
   virtual ~ByteSource() = default;
 
-  /// Reads up to `size` bytes and returns their number, which is 0 only at the end. A stream waits for its
-  /// next bytes.
+  /// Reads up to `size` bytes and returns their number, which is 0 only at the end. Blocks until a stream
+  /// sends its next bytes.
   virtual std::size_t read(char* bytes, std::size_t size) = 0;
 
   /// Path of the file, or name of the stream for messages.

@@ -22,8 +22,8 @@ class Decompressor {
 
   virtual ~Decompressor() = default;
 
-  /// Maximum number of compressed bytes to pass to the next step(), so that all blocks but the last before
-  /// damage are written.
+  /// Maximum number of compressed bytes to pass to the next step(). With more bytes, damage could lose more
+  /// than the last block before it.
   virtual std::size_t wanted() const = 0;
 
   /// Decompresses the beginning of `compressed`, which it removes, to at most `room` bytes. If it fills the

@@ -47,7 +47,8 @@ struct TagPlace {
   std::string source{};     ///< where this is stated, for messages
 };
 
-/// A tag as the robot saw it at a time. A tag whose place is unknown ties together the scans that saw it.
+/// A sighting of a tag by the robot. If the place of the tag is unknown, its sightings still constrain the
+/// poses of the robot relative to each other.
 struct TagSighting {
   std::string name;           ///< name of the tag
   TimeUs time_us = 0;         ///< time in the log, microseconds

@@ -42,8 +42,8 @@ struct GridMapOptions {
   /// Draws people, carts and doors that moved, too. Otherwise, each place shows its newest confirmed state.
   /// Some table legs may vanish, too.
   bool keep_moving = false;
-  /// Least number of beams that must have seen an obstacle or free space, from 1 to 3. A beam counts as two
-  /// where a neighbouring beam of its scan reaches as far. What fewer beams saw stays unknown.
+  /// Minimum number of beams that must have seen an obstacle or free space, from 1 to 3. A beam counts as two
+  /// where a neighbouring beam of its scan reaches as far. Space that fewer beams saw stays unknown.
   int min_beams = 1;
 };
 

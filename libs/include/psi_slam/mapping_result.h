@@ -131,8 +131,8 @@ struct MappingResult {
   /// Attempts to close loops. Attempts of the final loop search are kept only if they found a match.
   std::vector<LoopRecord> loops;
   std::vector<std::string> unmet_edits;  ///< edits that could not be made, one sentence each
-  /// Forced loops that the path and the other loops contradict, and what is known from outside but
-  /// contradicts the scans or other knowledge, or could not be used; one sentence each.
+  /// One sentence for each forced loop that the path and the other loops contradict, and for each known pose,
+  /// landmark or prior map that contradicts the scans or another such statement, or that could not be used.
   std::vector<std::string> contradictions;
   KnowledgeCounts knowledge;                               ///< statements from outside
   PsiThresholds psi;                                       ///< thresholds by which Psi chose the matchers

@@ -36,10 +36,10 @@ struct MovedWall {
   cv::Point2d shift;  ///< to its new place, perpendicular to the wall
 };
 
-/// Takes the walls that moved out of those that vanished and those that appeared. Each new place is parallel
-/// to the old place, beside it, at most twice and at least half as long. The nearest pairs come first. What
-/// the longer wall of a pair has beyond the shorter one stays in its list. Exchanging both lists inverts the
-/// shifts.
+/// Finds pairs of a vanished and an appeared wall that are one moved wall, and removes them from both lists.
+/// The walls of a pair are parallel, beside each other, and one is at most twice as long as the other. Pairs
+/// with the smallest distance are formed first. The part by which one wall exceeds the other stays in its
+/// list. Exchanging both lists inverts the shifts.
 std::vector<MovedWall> take_moved_walls(std::vector<ChangedWall>& vanished,
                                         std::vector<ChangedWall>& appeared, const WallMoveLimits& limits);
 

@@ -2,11 +2,11 @@
 // Walls that differ between two aligned maps of a building.
 //
 // A cell of a wall has changed if the other map shows free space there and on both sides: no wall within the
-// tolerance, and at least 90 % free cells in the square that reaches as far as the tolerance. Space that one
-// map does not show is no change, and neither is a streak of free cells that a single beam left, nor free
-// space in front of a wall of which nothing behind was seen. Changed cells that touch form one change; short
-// and sparse ones are noise. A change has moved if a parallel wall that only the other map has lies beside it
-// (moved_walls.h).
+// tolerance, and at least 90 % free cells within the tolerance (in a square). So these are no changes: space
+// that one map does not show, a streak of free cells that a single beam left, and free space in front of a
+// wall if the space behind the wall is unknown. Changed cells that touch form one change; short and sparse
+// changes are ignored as noise. A changed wall has moved if a parallel wall beside it exists only in the
+// other map (moved_walls.h).
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>

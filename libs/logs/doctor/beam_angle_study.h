@@ -45,7 +45,7 @@ struct BeamAngleEvidence {
   std::vector<std::vector<std::size_t>> full_turns;
 };
 
-/// Selects the frames for a study by odometry, whose units and signs must be right.
+/// Selects the frames for a study, by their odometry. The units and signs of odometry must be right.
 BeamAngleEvidence choose_beam_angle_evidence(const std::vector<FrameMark>& marks);
 
 /// Compares the conventions. `library` must hold the frames of `evidence`, read with the bearings `used_rad`.

@@ -12,7 +12,7 @@
 
 namespace psi_slam {
 
-/// Collects the findings about one diagnosis.
+/// Collects the findings that follow from one diagnosis of a log.
 class FindingList {
  public:
   explicit FindingList(const LogDiagnosis& diagnosis) : diagnosis_(diagnosis), facts_(diagnosis.facts) {}

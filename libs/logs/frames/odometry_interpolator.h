@@ -13,9 +13,9 @@ namespace psi_slam {
 
 /// Finds odometry at the time of each scan, for logs with odometry and scans in separate messages. A scan
 /// waits until odometry of its time or later has arrived. The pose is interpolated between the messages
-/// before and after the time of the scan. If the time lies between no two messages, the scan gets the pose of
-/// the message before or after it in the log, whichever is nearer in time. take() returns scans in the order
-/// of the log.
+/// before and after the time of the scan. If no two messages enclose the time of the scan, the scan gets the
+/// pose of the previous or the next message of the log, whichever is nearer in time. take() returns scans in
+/// the order of the log.
 ///
 /// If the time of odometry steps back, the clock was set; all earlier odometry is discarded. A scan near this
 /// step belongs to the clock of the odometry message before or after it, whichever is nearer in time. A scan

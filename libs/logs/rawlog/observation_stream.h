@@ -11,9 +11,10 @@ namespace psi_slam {
 
 /// Reads observations of MRPT while sensors send them. The observations until `look_over_s` seconds after the
 /// first scan, by their time stamps, but at most 500 scans, decide which lasers are read, and whether there
-/// is odometry or a gyroscope. Lasers that the options name are awaited, see LookOver; one that appears even
-/// later is read, too. The function waits for these observations, and keeps at most the latest 10,000 of them
-/// besides the scans. Otherwise a stream gives the same frames as a rawlog of the same observations.
+/// is odometry or a gyroscope. The reader waits for lasers that the options name, see LookOver. It also
+/// reads a named laser that appears later. The function waits for these observations, and keeps at most the
+/// latest 10,000 of them besides the scans. Otherwise a stream gives the same frames as a rawlog of the same
+/// observations.
 ///
 /// Skips invalid observations. Throws UserError as open_rawlog(), but only one of the lasers that log.laser
 /// names must have appeared. At its end, the reader throws UserError if only invalid observations came.

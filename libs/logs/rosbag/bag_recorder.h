@@ -6,12 +6,13 @@
 
 namespace psi_slam {
 
-/// What the reader of a file asks about the program that records it, and about the user.
+/// Callbacks by which the reader of a growing file asks about the program that records it, and about the
+/// user.
 struct BagRecorder {
   /// Returns whether the user wants to end the reading.
   std::function<bool()> should_stop;
-  /// Waits a moment for more. `waited_s`: seconds that the reader has waited for it so far. Returns false if
-  /// the user wants to wait no longer.
+  /// Waits a moment for more bytes. `waited_s`: seconds that the reader has waited for these bytes so far.
+  /// Returns false if the user wants to wait no longer.
   std::function<bool(double waited_s)> wait;
   /// Returns whether the recorder writes no more messages to the file.
   std::function<bool()> is_closed = [] { return false; };

@@ -139,12 +139,12 @@ struct MapVerdict {
 struct VerdictOptions {
   MapViewOptions views;
   PassCheckOptions passes;
-  double spot_error_m = 0.2;     ///< a displacement between passes from here on is a hot spot
-  double least_length_m = 1.0;   ///< shortest path along which displaced walls are a hot spot
-  std::size_t least_checks = 4;  ///< least number of displaced comparisons of such a hot spot
-  /// Share of the walls seen through from which the place of the robot after an interruption or gap is
-  /// doubtful, see InterruptionCheck::contradicted. From sure_contradiction on, the place is wrong; moved
-  /// furniture reaches less.
+  double spot_error_m = 0.2;     ///< minimum displacement between passes that is a hot spot
+  double least_length_m = 1.0;   ///< minimum path along which displaced walls are a hot spot
+  std::size_t least_checks = 4;  ///< minimum number of displaced comparisons of such a hot spot
+  /// Shares of the walls that later scans see through after an interruption or gap, see
+  /// InterruptionCheck::contradicted. From `contradiction` on, the place of the robot is doubtful. From
+  /// `sure_contradiction` on, it is wrong, because moved furniture alone causes smaller shares.
   double contradiction = 0.05;
   double sure_contradiction = 0.1;
   /// A measured displacement between successive scans from here on is a hot spot.

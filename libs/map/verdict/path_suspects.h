@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stretches of the path whose relative pose is doubtful: scans that matched no local map, places where the
-// robot was lost, and gaps of the log.
+// Path segments whose motion is doubtful: scans that matched no local map, places where the robot was lost,
+// and gaps of the log. They are suspects of faults in the map.
 #pragma once
 
 #include <cstddef>

@@ -79,10 +79,11 @@ struct FrontEndOptions {
 
   // Only a small part of the scan supports a doubtful correction of the odometry. A person who walks ahead of
   // the robot along a bare corridor causes such corrections: the mapped path becomes too short. A correction
-  // is doubtful if the pose held to odometry scores at least `held_share` of the matched pose's score. It is
-  // also doubtful if this holds without the person-sized spot of the scan that supports the match most.
-  // DoubtfulCorrections decides which of them are applied. With odometry as accurate as stated and scans
-  // close together, they can correct a scale error of at most max_sum_m / travel_m.
+  // is doubtful if the pose predicted by odometry scores at least `held_share` of the score of the matched
+  // pose. It is also doubtful if this is so without the person-sized spot of the scan that supports the match
+  // most. DoubtfulCorrections decides which doubtful corrections are applied. If odometry is as accurate as
+  // stated and scans are close together, the applied ones correct a scale error of odometry of at most
+  // max_sum_m / travel_m.
   double held_share = 0.9;
   DoubtfulCorrectionOptions doubtful_corrections;
 

@@ -3,8 +3,8 @@
 // Small windows suffice, because the map is then nearly correct.
 //
 // Where many local maps overlap, most matches would only confirm others, because successive nodes see the
-// same. There, only one node in each stretch of the path is matched with a local map. Which one it is
-// differs between local maps, so most nodes are matched with one of them.
+// same walls. There, each local map is matched with only one node per path segment. Different local maps use
+// different nodes of a segment, so most nodes are matched with some local map.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,6 @@
 #include "live/live_benchmark.h"
 #include "match/exact_benchmark.h"
 #include "match/match_benchmark.h"
-#include "mpi_option.h"
 #include "number_between.h"
 #include "other_programs.h"
 #include "paper/paper_benchmark.h"
@@ -444,8 +443,6 @@ std::vector<std::string> for_parser(const std::vector<std::string>& arguments) {
 int run_bench_app(const std::vector<std::string>& arguments, const Streams& streams) noexcept {
   CLI::App app("Measures accuracy and speed of psi-slam and of its parts.", "psi-slam-bench");
   return run_program(app, streams.out, streams.err, [&] {
-    if (const auto by_mpi = mpi_arguments(arguments, "freiburg"))
-      become(mpi_program("bench freiburg --mpi"), *by_mpi);
     add_freiburg_command(app, streams);
     add_freiburg_run_command(app, streams);
     add_match_command(app, streams);

@@ -13,7 +13,6 @@
 #include "base/config/nearest_name.h"
 #include "base/degrees.h"
 #include "document_options.h"
-#include "mpi_option.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
 #include "run_program.h"
@@ -229,23 +228,15 @@ CLI::App* add_sweep(CLI::App& app, CommandLine& line) {
   CLI::App* const sweep = app.add_subcommand(
       "sweep", "Map many logs with many settings and compare the results (exit code 1 if a run failed)");
   add_sweep_options(*sweep, line.sweep);
-  add_processes_option(*sweep, line.sweep);
-  add_mpi_option(*sweep, "psi-slam sweep");
   return sweep;
 }
 
 /// Fills `line` and returns true if the arguments are those of another program.
 bool starts_other_program(const std::vector<std::string>& arguments, CommandLine& line) {
   const OtherProgram* const other = arguments.empty() ? nullptr : other_program(arguments.front());
-  if (other != nullptr) {
-    line.other_program = *other;
-    line.other_arguments.assign(arguments.begin() + 1, arguments.end());
-  } else if (const auto by_mpi = mpi_arguments(arguments, "sweep")) {
-    line.other_program = mpi_program("sweep --mpi");
-    line.other_arguments = *by_mpi;
-  } else {
-    return false;
-  }
+  if (other == nullptr) return false;
+  line.other_program = *other;
+  line.other_arguments.assign(arguments.begin() + 1, arguments.end());
   line.command = CommandLine::Command::kOtherProgram;
   return true;
 }

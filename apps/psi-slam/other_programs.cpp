@@ -48,10 +48,6 @@ const OtherProgram* other_program(std::string_view command) {
   return found == programs.end() ? nullptr : &*found;
 }
 
-OtherProgram mpi_program(const char* command) {
-  return {command, "psi-slam-mpi", "psi-slam-mpi", ""};
-}
-
 void become(const OtherProgram& other, const std::vector<std::string>& arguments) {
   std::error_code ignored;
   const fs::path own_file = fs::read_symlink("/proc/self/exe", ignored);

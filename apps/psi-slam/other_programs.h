@@ -21,9 +21,6 @@ const std::vector<OtherProgram>& other_programs();
 /// The program that a command runs; null if the command is none of other_programs().
 const OtherProgram* other_program(std::string_view command);
 
-/// The program that `psi-slam COMMAND --mpi` runs; `command` is "sweep --mpi".
-OtherProgram mpi_program(const char* command);
-
 /// Replaces this process by the program, which is looked for beside this one and then in PATH. Never returns.
 /// Throws UserError if it is not installed, and SystemFailure if it cannot be started.
 [[noreturn]] void become(const OtherProgram& other, const std::vector<std::string>& arguments);

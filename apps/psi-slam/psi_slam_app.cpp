@@ -36,7 +36,7 @@ int run(const CommandLine& line, const Streams& streams) {
     case CommandLine::Command::kDumpConfig:
       return dump_config(line, streams);
     case CommandLine::Command::kSweep:
-      return run_sweep_command(line.sweep, local_workers(line.sweep.processes), "/proc/self/exe", streams);
+      return run_sweep_command(line.sweep, "/proc/self/exe", streams);
     case CommandLine::Command::kOtherProgram:
       become(*line.other_program, line.other_arguments);
   }

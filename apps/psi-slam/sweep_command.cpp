@@ -78,15 +78,11 @@ void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
       ->type_name("WHAT");
   add_count(command, "--threads", request.threads, "Threads of each run");
   command.add_flag("-q,--quiet", arguments.quiet, "Print only warnings and errors");
-}
-
-void add_processes_option(CLI::App& command, SweepArguments& arguments) {
   add_count(command, "--processes", arguments.processes,
             "Number of runs at a time. More runs than processors make the times unreliable");
 }
 
-int run_sweep_command(const SweepArguments& arguments, const SweepWorkers& workers, const fs::path& program,
-                      const Streams& streams) {
+int run_sweep_command(const SweepArguments& arguments, const fs::path& program, const Streams& streams) {
   const fs::path folder = arguments.output;
   if (folder.empty()) throw UserError("name the folder for the results: -o DIR (see psi-slam sweep --help)");
   std::error_code failed;
@@ -104,7 +100,7 @@ int run_sweep_command(const SweepArguments& arguments, const SweepWorkers& worke
   {
     WorkProgress progress(streams.err_is_terminal && !arguments.quiet ? &streams.err : nullptr);
     result = run_sweep(
-        plan, {folder, arguments.keep, program}, workers, [&] { return signals.came().load(); },
+        plan, {folder, arguments.keep, program}, arguments.processes, [&] { return signals.came().load(); },
         [&](const std::string& doing, double done, double all) { progress.show(doing, done, all); });
   }
   write_sweep_report(plan, result, folder);

@@ -19,15 +19,13 @@ struct SweepArguments {
   bool quiet = false;
 };
 
-/// Adds the options that fill `arguments`, which must outlive `command`. --processes is added by
-/// add_processes_option(). Parsing throws UserError for invalid seeds and for an unknown word after --keep.
+/// Adds the options that fill `arguments`, which must outlive `command`. Parsing throws UserError for invalid seeds and for an unknown word after --keep.
 void add_sweep_options(CLI::App& command, SweepArguments& arguments);
-void add_processes_option(CLI::App& command, SweepArguments& arguments);
 
 /// Makes the sweep and its report; `program` is the path of psi-slam. Returns the exit code. After SIGINT or
 /// SIGTERM the finished runs are kept and reported. Throws UserError for invalid input, and SystemFailure if
 /// runs failed or were interrupted.
-int run_sweep_command(const SweepArguments& arguments, const SweepWorkers& workers,
-                      const std::filesystem::path& program, const Streams& streams);
+int run_sweep_command(const SweepArguments& arguments, const std::filesystem::path& program,
+                      const Streams& streams);
 
 }  // namespace psi_slam

@@ -136,8 +136,4 @@ std::optional<ChildEnd> run_to_end(const ChildWords& words, const std::function<
   }
 }
 
-ChildWorkers local_child_workers(int processes) {
-  return thread_workers<ChildWords, ChildEnd>(processes, run_to_end);
-}
-
 }  // namespace psi_slam

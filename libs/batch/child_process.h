@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "batch/workers.h"
-
 namespace psi_slam {
 
 /// Path of a program, followed by its arguments.
@@ -38,8 +36,6 @@ struct ChildEnd {
   /// failure() without `prefix` at its start, such as the "NAME: " of the program's own messages.
   std::string failure_without(const std::string& prefix) const;
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChildEnd, code, signal, over_time, stopped, out, err, wall_s, cpu_s,
-                                   peak_memory_mib)
 
 /// Runs a program to its end, with empty standard input. The program has its own process group: Ctrl-C
 /// reaches only the caller. The program is killed when the calling thread ends. Throws SystemFailure when the
@@ -49,11 +45,5 @@ ChildEnd run_child(const ChildProcess& child);
 /// Runs a program as run_child() does. If the program cannot be started, returns a failure with the reason in
 /// `err`. Returns nothing if `stop` ended the program.
 std::optional<ChildEnd> run_to_end(const ChildWords& words, const std::function<bool()>& stop);
-
-/// Workers that run programs with run_to_end().
-using ChildWorkers = Workers<ChildWords, ChildEnd>;
-
-/// Workers that run at most `processes` programs at a time on this machine.
-ChildWorkers local_child_workers(int processes);
 
 }  // namespace psi_slam

@@ -20,10 +20,6 @@ SweepOrder order_of(const SweepPlan& plan, const SweepRun& run, const SweepOptio
 
 }  // namespace
 
-SweepWorkers local_workers(int processes) {
-  return thread_workers<SweepOrder, SweepOutcome>(processes, make_run);
-}
-
 SweepLock::SweepLock(const fs::path& folder) {
   const fs::path path = folder / ".lock";
   constexpr int kMode = 0644;
@@ -34,7 +30,7 @@ SweepLock::SweepLock(const fs::path& folder) {
                     ": wait until it ends, or choose another folder with -o");
 }
 
-SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, const SweepWorkers& workers,
+SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, int processes,
                       const std::function<bool()>& stop, const ProgressObserver& progress) {
   SweepResult result;
   std::vector<SweepOrder> orders;
@@ -51,7 +47,7 @@ SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, const 
     orders.push_back(std::move(order));
   }
   TaskProgress running(orders.size(), all_work, progress);
-  SweepWatch watch;
+  WorkWatch<SweepOutcome> watch;
   watch.stop = stop;
   watch.working = [&](std::size_t order) { running.show(plan.runs[runs[order]].folder); };
   watch.finished = [&](std::size_t order, SweepOutcome outcome) {
@@ -59,7 +55,7 @@ SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, const 
     running.end(work[order]);
   };
   fs::create_directories(options.output / "runs");
-  if (!orders.empty()) workers(orders, watch);
+  carry_out(orders, processes, make_run, watch);
   return result;
 }
 

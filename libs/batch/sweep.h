@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a sweep: reuses the results of finished runs and hands the remaining runs to workers.
+// Runs a sweep: reuses the results of finished runs and makes the remaining runs.
 #pragma once
 
 #include <algorithm>
@@ -21,13 +21,6 @@ struct SweepOptions {
   SweepKeep keep = SweepKeep::kNone;  ///< files to keep of each run
   std::filesystem::path program = "/proc/self/exe";  ///< the psi-slam program that makes the runs
 };
-
-/// Workers that make the runs with make_run().
-using SweepWorkers = Workers<SweepOrder, SweepOutcome>;
-using SweepWatch = WorkWatch<SweepOutcome>;
-
-/// Workers that make at most `processes` runs at a time on this machine.
-SweepWorkers local_workers(int processes);
 
 struct SweepResult {
   std::vector<std::optional<SweepOutcome>> outcomes;  ///< one for each run of the plan; empty: not made yet
@@ -60,9 +53,9 @@ class SweepLock {
   Descriptor file_;
 };
 
-/// Makes the runs of the plan that have no result from an earlier sweep. Runs that have not ended when `stop`
+/// Makes the runs of the plan that have no result from an earlier sweep, at most `processes` at a time. Runs that have not ended when `stop`
 /// returns true get no outcome. Calls `progress` from one thread at a time.
-SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, const SweepWorkers& workers,
+SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, int processes,
                       const std::function<bool()>& stop, const ProgressObserver& progress);
 
 }  // namespace psi_slam

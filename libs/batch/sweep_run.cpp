@@ -159,16 +159,4 @@ std::optional<SweepOutcome> make_run(const SweepOrder& order, const std::functio
   return outcome;
 }
 
-void to_json(nlohmann::json& json, const SweepOutcome& outcome) {
-  json = {{"figures", outcome.figures ? figures_json(*outcome.figures) : Json()},
-          {"failure", outcome.failure},
-          {"attempts", outcome.attempts}};
-}
-
-void from_json(const nlohmann::json& json, SweepOutcome& outcome) {
-  if (!json.at("figures").is_null()) outcome.figures = read_figures(json.at("figures"));
-  json.at("failure").get_to(outcome.failure);
-  json.at("attempts").get_to(outcome.attempts);
-}
-
 }  // namespace psi_slam

@@ -66,9 +66,4 @@ std::optional<SweepOutcome> kept_outcome(const SweepOrder& order);
 /// reason.
 std::optional<SweepOutcome> make_run(const SweepOrder& order, const std::function<bool()>& stop);
 
-/// JSON conversions for messages to and from workers in other processes.
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SweepOrder, program, log, relations, settings, key, folder, keep)
-void to_json(nlohmann::json& json, const SweepOutcome& outcome);
-void from_json(const nlohmann::json& json, SweepOutcome& outcome);
-
 }  // namespace psi_slam

@@ -2,8 +2,6 @@
 # Debian packages that `cpack -G DEB` makes from a build:
 #   psi-slam          the programs that make, show and evaluate maps
 #   psi-slam-bench    the benchmarks, for developers
-#   psi-slam-mpi      the program for clusters, if CMake found MPI. It is a package of its own, so that the others do not
-#                     depend on MPI.
 #   libpsi-slam-dev   the library
 #   python3-psi-slam  the Python module, if it is built
 set(CPACK_GENERATOR DEB)
@@ -37,7 +35,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME psi-slam)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "psi-slam-bench, psi-slam-mpi, python3-psi-slam")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "psi-slam-bench, python3-psi-slam")
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION
 "psi-slam makes floor plans from the logs of wheeled robots. It combines the
 scans of a 2D lidar and wheel odometry by graph SLAM with genetic loop
@@ -55,14 +53,6 @@ set(CPACK_DEBIAN_BENCH_PACKAGE_REPLACES "psi-slam (<< ${PROJECT_VERSION}-${CPACK
 set(CPACK_COMPONENT_BENCH_DESCRIPTION
 "Measures accuracy and speed of psi-slam and of its parts: on the logs of the
 Freiburg benchmark, on degraded logs and in simulated buildings.")
-
-set(CPACK_DEBIAN_CLUSTER_PACKAGE_NAME psi-slam-mpi)
-set(CPACK_DEBIAN_CLUSTER_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_CLUSTER_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_CLUSTER_PACKAGE_DEPENDS "psi-slam ${this_version}, psi-slam-bench ${this_version}, openmpi-bin")
-set(CPACK_COMPONENT_CLUSTER_DESCRIPTION
-"Maps many logs with many settings on the ranks of an MPI job. Runs the
-sweeps and the benchmark of psi-slam on a cluster.")
 
 # The module fits one version of Python only.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-psi-slam)

@@ -56,7 +56,6 @@ say "making the packages"
 programs=$(find "$work/packages" -maxdepth 1 -name 'psi-slam_*.deb')
 bench=$(find "$work/packages" -maxdepth 1 -name 'psi-slam-bench_*.deb')
 library=$(find "$work/packages" -maxdepth 1 -name 'libpsi-slam-dev_*.deb')
-cluster=$(find "$work/packages" -maxdepth 1 -name 'psi-slam-mpi_*.deb')  # exists only if CMake found MPI
 python=$(find "$work/packages" -maxdepth 1 -name 'python3-psi-slam_*.deb')  # exists only if CMake found pybind11
 [ -f "$programs" ] && [ -f "$bench" ] && [ -f "$library" ] ||
   fail "expected psi-slam, psi-slam-bench and libpsi-slam-dev, found $(ls "$work/packages")"
@@ -75,7 +74,6 @@ dpkg-deb --contents "$library" >"$work/library.txt"
 for library_name in libc6 'libmrpt-maps[0-9.]+' 'libmrpt-hwdrivers[0-9.]+' 'libwxgtk3[.]2-1(t64)?' 'libgdal[0-9]+(t64)?'; do
   grep -Eq "(^|, )$library_name( |,|$)" "$work/depends.txt" || fail "psi-slam does not depend on $library_name"
 done
-if grep -q openmpi "$work/depends.txt"; then fail "psi-slam depends on Open MPI"; fi
 mapfile -t program_names < <(sed -n 's|.* ./usr/bin/\(..*\)$|\1|p' "$work/programs.txt")
 files=(./usr/bin/psi-slam ./usr/bin/psi-graphslam ./usr/share/man/man5/psi-slam.ini.5.gz ./usr/share/psi-slam/ini/psi-slam.ini
   './usr/lib/.*/psi-slam-sensors[.]so' ./usr/share/doc/psi-slam/copyright)
@@ -134,16 +132,6 @@ cp "$bench" "$system/tmp/psi-slam-bench.deb"
 inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/psi-slam-bench.deb >"$work/install-bench.log" 2>&1 ||
   fail "the package psi-slam-bench cannot be installed: $(tail -5 "$work/install-bench.log")"
 inside psi-slam bench --version || fail "psi-slam bench does not run"
-if [ -n "$cluster" ]; then
-  say "installing psi-slam-mpi in the minimal Debian $release"
-  cp "$cluster" "$system/tmp/psi-slam-mpi.deb"
-  inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/psi-slam-mpi.deb >"$work/install-mpi.log" 2>&1 ||
-    fail "the package psi-slam-mpi cannot be installed: $(tail -5 "$work/install-mpi.log")"
-  inside psi-slam-mpi --version || fail "psi-slam-mpi does not run"
-  inside psi-slam sweep --mpi --help >"$work/mpi.txt" || fail "psi-slam sweep --mpi does not run"
-  inside apt-get purge --quiet --quiet --yes psi-slam-mpi >"$work/purge-mpi.log" 2>&1 ||
-    fail "the package psi-slam-mpi cannot be removed"
-fi
 if [ -n "$python" ]; then
   say "installing python3-psi-slam in the minimal Debian $release"
   cp "$python" "$system/tmp/python3-psi-slam.deb"

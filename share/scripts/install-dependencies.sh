@@ -6,7 +6,7 @@
 #
 #     build      compiles the programs and the library
 #     runtime    runs the compiled programs
-#     test       runs the tests, and compiles the programs for clusters and the Python module: needed beside build and runtime
+#     test       runs the tests, and compiles the Python module: needed beside build and runtime
 #     documentation   makes the site of all pages and of the C++ reference; part of the list test
 #
 # --print prints the packages and installs nothing. Names of libraries differ between releases, so the lists contain them
@@ -32,7 +32,6 @@ runtime=(
 # shellcheck disable=SC2034
 test=(
   libgtest-dev libgmock-dev libx11-dev xauth xvfb openbox dpkg-dev
-  libopenmpi-dev openmpi-bin
   pybind11-dev python3-dev python3-numpy python3-pytest python3-matplotlib python3-pandas mypy
   gdal-bin python3-gdal python3-ezdxf python3-pil librsvg2-bin man-db groff-base
 )

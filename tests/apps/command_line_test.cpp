@@ -68,10 +68,6 @@ TEST(CommandLine, knows_its_commands) {
   EXPECT_EQ(eval.command, Command::kOtherProgram);
   EXPECT_STREQ(eval.other_program->program, "psi-slam-eval");
   EXPECT_THAT(eval.other_arguments, ElementsAre("a.tum", "--json"));
-  const CommandLine by_mpi = parsed({"sweep", "a.log", "--mpi", "-o", "out", "--", "--mpi"});
-  EXPECT_EQ(by_mpi.command, Command::kOtherProgram);
-  EXPECT_STREQ(by_mpi.other_program->program, "psi-slam-mpi");
-  EXPECT_THAT(by_mpi.other_arguments, ElementsAre("sweep", "a.log", "-o", "out", "--", "--mpi"));
   EXPECT_EQ(parsed({"sweep", "a.log", "-o", "out"}).command, Command::kSweep);
   EXPECT_EQ(parsed({"--dump-config", "-c", "my.ini"}).command, Command::kDumpConfig);
 }
@@ -88,8 +84,6 @@ TEST(CommandLine, wrong_usage_gives_one_sentence) {
   EXPECT_THAT(complaint({"map", "check", "my.log"}), HasSubstr("expected a log after map"));
   EXPECT_THAT(complaint({"-q", "map", "my.log", "-o", "out"}), HasSubstr("psi-slam map ..."));
   EXPECT_THAT(complaint({"-v", "eval", "a", "b"}), HasSubstr("before its options: psi-slam eval ..."));
-  EXPECT_THAT(complaint({"-q", "sweep", "a.log", "--mpi"}), HasSubstr("psi-slam sweep --mpi ..."));
-  EXPECT_THAT(complaint({"sweep", "a.log", "--mpi=true"}), HasSubstr("--mpi"));
   EXPECT_THAT(complaint({"check"}), HasSubstr("psi-slam check LOG"));
   EXPECT_THAT(complaint({"check", "a.log", "b.log"}), HasSubstr("unexpected argument \"b.log\""));
   EXPECT_THAT(complaint({"-o", "out", "check", "a.log"}), HasSubstr("nothing is written"));

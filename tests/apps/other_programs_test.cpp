@@ -51,9 +51,6 @@ TEST(OtherPrograms, a_program_that_is_not_installed_is_named_with_its_package) {
       {"bench", "match"},
       "psi-slam: psi-slam bench runs psi-slam-bench, which is neither beside psi-slam nor in PATH. Debian's "
       "package psi-slam-bench contains it\n");
-  fails({"sweep", "my.log", "--mpi"},
-        "psi-slam: psi-slam sweep --mpi runs psi-slam-mpi, which is neither beside psi-slam nor in PATH. "
-        "Debian's package psi-slam-mpi contains it\n");
 }
 
 }  // namespace

@@ -82,12 +82,13 @@ TEST(ChildProcess, a_missing_program_is_a_system_failure) {
 class ChildWorkersTest : public testing::Test {
  protected:
   void run(int processes, const std::vector<ChildWords>& children) {
-    local_child_workers(processes)(children, {[this] { return stop_.load(); }, [](std::size_t) {},
-                                              [this](std::size_t child, ChildEnd end) {
-                                                const std::lock_guard lock(mutex_);
-                                                EXPECT_EQ(ends_.count(child), 0U) << "each program ends once";
-                                                ends_[child] = std::move(end);
-                                              }});
+    carry_out(children, processes, run_to_end,
+              WorkWatch<ChildEnd>{[this] { return stop_.load(); }, [](std::size_t) {},
+                                  [this](std::size_t child, ChildEnd end) {
+                                    const std::lock_guard lock(mutex_);
+                                    EXPECT_EQ(ends_.count(child), 0U) << "each program ends once";
+                                    ends_[child] = std::move(end);
+                                  }});
   }
 
   std::atomic<bool> stop_{false};
@@ -108,34 +109,10 @@ TEST_F(ChildWorkersTest, all_programs_run_to_their_end_even_after_a_failure) {
 }
 
 TEST_F(ChildWorkersTest, after_a_stop_no_program_starts_and_killed_ones_are_not_reported) {
-  local_child_workers(1)({{"/bin/sleep", "1000"}, {"/bin/echo", "two"}},
-                         {[this] { return stop_.load(); }, [this](std::size_t) { stop_ = true; },
-                          [this](std::size_t child, ChildEnd end) { ends_[child] = std::move(end); }});
+  carry_out(std::vector<ChildWords>{{"/bin/sleep", "1000"}, {"/bin/echo", "two"}}, 1, run_to_end,
+            WorkWatch<ChildEnd>{[this] { return stop_.load(); }, [this](std::size_t) { stop_ = true; },
+                                [this](std::size_t child, ChildEnd end) { ends_[child] = std::move(end); }});
   EXPECT_TRUE(ends_.empty());
-}
-
-TEST(ChildTexts, restore_words_and_ends_with_any_bytes) {
-  const ChildWords words{"/bin/a b", "caf\xe9", "", "--x=\"1\"\n"};
-  EXPECT_EQ(read_cbor<ChildWords>(cbor_text(words)), words);
-  ChildEnd end;
-  end.code = 3;
-  end.signal = 9;
-  end.over_time = true;
-  end.out = std::string("a\0b\xff", 4);
-  end.err = "\xe9";
-  end.wall_s = 0.1;
-  end.cpu_s = 1e-9;
-  end.peak_memory_mib = 123.456;
-  const ChildEnd read = read_cbor<ChildEnd>(cbor_text(end));
-  EXPECT_EQ(read.code, 3);
-  EXPECT_EQ(read.signal, 9);
-  EXPECT_TRUE(read.over_time);
-  EXPECT_FALSE(read.stopped);
-  EXPECT_EQ(read.out, end.out);
-  EXPECT_EQ(read.err, end.err);
-  EXPECT_EQ(read.wall_s, end.wall_s);
-  EXPECT_EQ(read.cpu_s, end.cpu_s);
-  EXPECT_EQ(read.peak_memory_mib, end.peak_memory_mib);
 }
 
 }  // namespace

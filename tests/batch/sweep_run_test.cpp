@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include "batch/workers.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 
@@ -121,20 +120,6 @@ TEST_F(SweepRunTest, a_stopped_run_leaves_nothing) {
 TEST_F(SweepRunTest, a_run_without_a_readable_summary_is_a_failure) {
   EXPECT_NE(outcome(order("echo nonsense > \"$4/summary.json\"\n")).failure, "");
   EXPECT_NE(outcome(order("exit 0\n")).failure, "");
-}
-
-TEST_F(SweepRunTest, orders_and_outcomes_survive_as_text) {
-  SweepOrder run = order(kGoodRun);
-  run.keep = SweepKeep::kMaps;
-  EXPECT_EQ(cbor_text(read_cbor<SweepOrder>(cbor_text(run))), cbor_text(run));
-  EXPECT_EQ(read_cbor<SweepOrder>(cbor_text(run)).settings, run.settings);
-  run.log = "b\xe2timent.log";  // a file name in Latin-1
-  EXPECT_EQ(read_cbor<SweepOrder>(cbor_text(run)).log, run.log);
-  const SweepOutcome made = outcome(run);
-  EXPECT_EQ(cbor_text(read_cbor<SweepOutcome>(cbor_text(made))), cbor_text(made));
-  const SweepOutcome failed{{}, "it broke", 2};
-  EXPECT_EQ(read_cbor<SweepOutcome>(cbor_text(failed)).failure, "it broke");
-  EXPECT_FALSE(read_cbor<SweepOutcome>(cbor_text(failed)).figures);
 }
 
 }  // namespace

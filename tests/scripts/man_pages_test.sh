@@ -38,12 +38,6 @@ expect psi-slam-gui.1.gz "--set SECTION.KEY=VALUE"
 expect psi-slam-bench.1.gz "psi-slam-bench freiburg [OPTION]..."
 expect psi-graphslam.1.gz "psi-graphslam - runs MRPT's graph-slam engine with the deciders of MRPT and of psi-slam"
 expect psi-slam.1.gz "psi-graphslam(1)"
-if [ -e "$build/apps/psi-slam-mpi/psi-slam-mpi" ]; then
-  expect psi-slam-mpi.1.gz "psi-slam-mpi - makes the runs of a sweep or of the Freiburg benchmark on the ranks of an MPI job"
-  expect psi-slam-mpi.1.gz "mpirun -n 9 psi-slam sweep --mpi my.log -o sweep --seeds 10"
-  expect psi-slam-mpi.1.gz "psi-slam-mpi freiburg [OPTION]..."
-  expect psi-slam.1.gz "psi-slam-mpi(1)"
-fi
 expect psi-slam.1.gz "Commands that give 1 another meaning say so in their description"
 expect psi-slam.1.gz "compare the results (exit code 1 if a run failed)"
 expect psi-slam.ini.5.gz "m, between 0.005 and 10; default 0.05"

@@ -21,11 +21,8 @@ namespace psi_slam {
 /// for wrong input. `streams` must outlive `app`.
 void add_freiburg_run_command(CLI::App& app, const Streams& streams);
 
-/// Adds the command `freiburg` and returns it. `options` are its defaults. Without `options.workers` the
-/// command also has --mpi, and options for the number of processes and for baselines. With `only_parsed`,
-/// parsing does not run the command.
-CLI::App& add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgOptions& options = {},
-                               bool only_parsed = false);
+/// Adds the command `freiburg`. Parsing runs it, as above.
+void add_freiburg_command(CLI::App& app, const Streams& streams);
 
 /// Values of the options that the commands share.
 struct BenchArguments {

@@ -221,12 +221,13 @@ FreiburgBenchmark run_freiburg_benchmark(const std::vector<BenchmarkLog>& logs,
                         run.ini.string(), "--relations", run.relations.string(), "--matcher", run.matcher,
                         "--seed", std::to_string(run.seed), "--threads", std::to_string(run.threads)});
   }
-  const ChildWorkers workers = options.workers ? options.workers : local_child_workers(options.processes);
-  workers(children, {[&] { return stop.load(); }, [&](std::size_t task) { running.show(tasks[task].name); },
-                     [&](std::size_t task, const ChildEnd& end) {
-                       take(tasks[task], end);
-                       running.end(tasks[task].work);
-                     }});
+  carry_out(children, options.processes, run_to_end,
+            WorkWatch<ChildEnd>{[&] { return stop.load(); },
+                                [&](std::size_t task) { running.show(tasks[task].name); },
+                                [&](std::size_t task, const ChildEnd& end) {
+                                  take(tasks[task], end);
+                                  running.end(tasks[task].work);
+                                }});
   if (stop && running.remaining() > 0)
     throw SystemFailure("interrupted with " + std::to_string(running.remaining()) +
                         " runs to go: finished runs are kept in " + (options.output / "runs").string() +

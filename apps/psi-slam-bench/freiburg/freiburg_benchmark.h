@@ -73,7 +73,6 @@ struct FreiburgOptions {
   int threads = 1;               ///< number of threads of each run
   std::filesystem::path output;  ///< results are kept in output/runs/LOG-MATCHER-SEED.json
   std::filesystem::path program = "/proc/self/exe";  ///< psi-slam-bench, which makes the runs
-  ChildWorkers workers{};                            ///< empty: starts child processes on this machine
 };
 
 struct FreiburgResult {

@@ -8,7 +8,6 @@
 #include "common/bench_command.h"
 #include "interrupt_signals.h"
 #include "map/report/html_text.h"
-#include "mpi_option.h"
 #include "number_between.h"
 #include "psi_slam/user_error.h"
 
@@ -81,11 +80,9 @@ void run_freiburg(FreiburgArguments arguments, const Streams& streams) {
 
 }  // namespace
 
-CLI::App& add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgOptions& defaults,
-                               bool only_parsed) {
+void add_freiburg_command(CLI::App& app, const Streams& streams) {
   const auto arguments = std::make_shared<FreiburgArguments>();
   FreiburgOptions& options = arguments->options;
-  options = defaults;
   arguments->output = "out/freiburg";
   CLI::App& freiburg = *app.add_subcommand(
       "freiburg", "Map the logs of the Freiburg benchmark and compare with other systems");
@@ -103,27 +100,21 @@ CLI::App& add_freiburg_command(CLI::App& app, const Streams& streams, const Frei
   freiburg.add_option("--threads", options.threads, "Number of threads of each run")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  if (!options.workers) {  // the runs are child processes, not orders to other ranks
-    freiburg
-        .add_option("--processes", options.processes,
-                    "Number of runs at a time; measured times are only meaningful with 1")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
-    CLI::Option* const baselines = freiburg.add_flag(
-        "--baselines", arguments->baselines,
-        "Also run MRPT's icp-slam and rbpf-slam, if they are on PATH, with their shipped settings");
-    freiburg
-        .add_option("--baseline-limit-s", arguments->baseline_limit_s,
-                    "Seconds after which the run of a baseline is stopped")
-        ->needs(baselines)
-        ->check(number_between(0.1, 1e6))
-        ->capture_default_str();
-    add_mpi_option(freiburg, "psi-slam bench freiburg");
-  }
-  freiburg.callback([=, &streams] {
-    if (!only_parsed) run_freiburg(*arguments, streams);
-  });
-  return freiburg;
+  freiburg
+      .add_option("--processes", options.processes,
+                  "Number of runs at a time; measured times are only meaningful with 1")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  CLI::Option* const baselines = freiburg.add_flag(
+      "--baselines", arguments->baselines,
+      "Also run MRPT's icp-slam and rbpf-slam, if they are on PATH, with their shipped settings");
+  freiburg
+      .add_option("--baseline-limit-s", arguments->baseline_limit_s,
+                  "Seconds after which the run of a baseline is stopped")
+      ->needs(baselines)
+      ->check(number_between(0.1, 1e6))
+      ->capture_default_str();
+  freiburg.callback([=, &streams] { run_freiburg(*arguments, streams); });
 }
 
 void add_freiburg_run_command(CLI::App& app, const Streams& streams) {

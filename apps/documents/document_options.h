@@ -25,7 +25,7 @@ struct ProgramFacts {
   std::array<std::string, 3> exit_codes;  ///< sentences that say when the program ends with 0, 1 and 2
   std::shared_ptr<const OptionTable> settings{};  ///< options that --set changes; null: none
   std::string optional_command{};  ///< command that may be left out: it has the options of the program itself
-  /// Programs that commands start, by the name of the command: "eval" starts "psi-slam-eval".
+  /// Programs that commands start, by the name of the command: "gui" starts "psi-slam-gui".
   std::map<std::string, std::string> programs{};
 };
 

@@ -13,6 +13,7 @@
 #include "base/config/nearest_name.h"
 #include "base/degrees.h"
 #include "document_options.h"
+#include "number_between.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
 #include "run_program.h"
@@ -30,6 +31,7 @@ constexpr const char* kExamples =
     "  psi-slam merge monday.log friday.log -o out/   make one map of several runs\n"
     "  psi-slam localize out/map.yaml new.log   find and track a robot in a finished map\n"
     "  psi-slam diff may/ june/ -o changes/     show the walls that changed between two maps\n"
+    "  psi-slam eval out/trajectory.tum my.relations   measure the errors of a path\n"
     "  psi-slam live --tcp 5000 -o out/         map while the robot drives\n"
     "  psi-slam -c my.ini my.log -o out/ --set map.resolution_m=0.025\n"
     "  psi-slam --dump-config > my.ini          print settings to start from\n"
@@ -93,6 +95,29 @@ CLI::App* add_diff(CLI::App& app, CommandLine& line) {
             "M");
   add_output_options(*diff, line);
   return diff;
+}
+
+CLI::App* add_eval(CLI::App& app, CommandLine& line) {
+  CLI::App* const eval = app.add_subcommand("eval",
+                                            "Compare a trajectory with known relative poses: the metric of "
+                                            "the Freiburg SLAM benchmark (Kümmerle et al. "
+                                            "2009) and the variant of Cartographer's tool");
+  add_value(*eval, "TRAJECTORY", line.eval.trajectory,
+            "Trajectory: trajectory.csv of a run, TUM format, lines 'timestamp x y theta', or a corrected "
+            "CARMEN log "
+            "with FLASER lines",
+            "");
+  add_value(*eval, "RELATIONS", line.eval.relations,
+            "Known relative poses: lines 'time1 time2 x y z roll pitch yaw'", "");
+  add_value(*eval, "--max-gap", line.eval.max_gap_s,
+            "Longest gap between two poses that is interpolated, in seconds", "S")
+      ->check(number_between(0.0, 1e9))
+      ->capture_default_str();
+  add_value(*eval, "--per-relation", line.eval.per_relation,
+            "Write the error of each relation to this file (CSV)", "FILE");
+  eval->add_flag("--force", line.force, "Replace an existing file of --per-relation");
+  eval->add_flag("--json", line.json, "Print the result as JSON");
+  return eval;
 }
 
 CLI::App* add_live(CLI::App& app, CommandLine& line) {
@@ -277,6 +302,9 @@ void check_together(const CommandLine& line, const std::string& log_to_map, cons
   refuse(
       line.json && pose_format(line.live),
       "--json contradicts --poses: only poses go to standard output. Read the figures in the results folder");
+  if (line.command == Command::kEval)
+    require(!line.eval.relations.empty(),
+            "name a trajectory and relations: psi-slam eval TRAJECTORY RELATIONS");
   if (compares) require(line.inputs.size() == 2, "name two maps: psi-slam diff OLDER NEWER");
   refuse(line.options.markdown && (line.json || line.options.common || !line.options.word.empty()),
          "--markdown prints all options: leave out WORD, --common and --json");
@@ -378,10 +406,10 @@ CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& 
   // Commands that in_long_form() and starts_other_program() replace. They must be the first word.
   std::vector<CLI::App*> first_words{app.add_subcommand("map", "Map a log. The word map may be left out")};
   const std::vector<std::pair<CLI::App*, Command>> commands{
-      {add_check(app, line), Command::kCheck}, {add_diff(app, line), Command::kDiff},
-      {add_live(app, line), Command::kLive},   {add_localize(app, line), Command::kLocalize},
-      {add_merge(app, line), Command::kMerge}, {add_options(app, line), Command::kOptions},
-      {add_sweep(app, line), Command::kSweep}};
+      {add_check(app, line), Command::kCheck},       {add_diff(app, line), Command::kDiff},
+      {add_eval(app, line), Command::kEval},         {add_live(app, line), Command::kLive},
+      {add_localize(app, line), Command::kLocalize}, {add_merge(app, line), Command::kMerge},
+      {add_options(app, line), Command::kOptions},   {add_sweep(app, line), Command::kSweep}};
   first_words.push_back(add_help(app, line));
   for (CLI::App* command : add_other_programs(app)) first_words.push_back(command);
   app.require_subcommand(0, 1);

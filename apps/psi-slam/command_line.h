@@ -11,6 +11,7 @@
 
 #include "base/config/option_table.h"
 #include "live_arguments.h"
+#include "map/trajectory/relations_metric.h"
 #include "other_programs.h"
 #include "psi_slam_app.h"
 #include "session/settings.h"
@@ -23,6 +24,14 @@ struct DiffArguments {
   bool aligned = false;      ///< whether both maps have one frame
   std::string tolerance_m;   ///< empty: three cells
   std::string min_length_m;  ///< empty: the default of WallChangeOptions
+};
+
+/// The arguments of psi-slam eval alone.
+struct EvalArguments {
+  std::string trajectory;
+  std::string relations;
+  double max_gap_s = kMaxGap_s;
+  std::string per_relation;  ///< file for the error of each relation; empty: not written
 };
 
 /// The arguments of psi-slam options alone.
@@ -38,6 +47,7 @@ struct CommandLine {
     kMap,
     kCheck,
     kDiff,
+    kEval,
     kLive,
     kLocalize,
     kMerge,
@@ -67,6 +77,7 @@ struct CommandLine {
   bool verbose = false;
   OptionsArguments options;
   DiffArguments diff;
+  EvalArguments eval;
   LiveArguments live;
   SweepArguments sweep;
   std::optional<OtherProgram> other_program;  ///< program to start instead

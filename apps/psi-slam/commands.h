@@ -38,6 +38,9 @@ int compare_maps(const CommandLine& line, const Streams& streams);
 /// 2 if damage ends the log early.
 int check_log(const CommandLine& line, const Streams& streams);
 
+/// psi-slam eval: compares a trajectory with known relative poses, by the metric of relations_metric.h.
+int evaluate_path(const CommandLine& line, const Streams& streams);
+
 /// psi-slam options: explains the options of the settings files, all of them or those that are asked for.
 int explain_options(const CommandLine& line, const Streams& streams);
 

@@ -31,7 +31,6 @@ void execute(const std::string& file, const std::string& name, const std::vector
 
 const std::vector<OtherProgram>& other_programs() {
   static const std::vector<OtherProgram> programs{
-      {"eval", "psi-slam-eval", "psi-slam", "Measure the error of a trajectory over known relations"},
       {"bench", "psi-slam-bench", "psi-slam-bench",
        "Measure accuracy and speed on benchmark logs and in simulations"},
       {"gui", "psi-slam-gui", "psi-slam", "Open the window, which replays logs and edits maps"},

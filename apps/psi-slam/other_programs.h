@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The programs of the family that psi-slam starts as its commands: "psi-slam eval" runs psi-slam-eval.
+// The programs of the family that psi-slam starts as its commands: "psi-slam gui" runs psi-slam-gui.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 namespace psi_slam {
 
 struct OtherProgram {
-  const char* command;      ///< "eval"
-  const char* program;      ///< "psi-slam-eval"
+  const char* command;      ///< "gui"
+  const char* program;      ///< "psi-slam-gui"
   const char* package;      ///< Debian package that contains the program
   const char* description;  ///< one line for the list of commands
 };

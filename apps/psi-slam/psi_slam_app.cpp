@@ -25,6 +25,8 @@ int run(const CommandLine& line, const Streams& streams) {
       return check_log(line, streams);
     case CommandLine::Command::kDiff:
       return compare_maps(line, streams);
+    case CommandLine::Command::kEval:
+      return evaluate_path(line, streams);
     case CommandLine::Command::kLocalize:
       return localize(line, streams);
     case CommandLine::Command::kLive:

@@ -19,7 +19,8 @@ struct SweepArguments {
   bool quiet = false;
 };
 
-/// Adds the options that fill `arguments`, which must outlive `command`. Parsing throws UserError for invalid seeds and for an unknown word after --keep.
+/// Adds the options that fill `arguments`, which must outlive `command`. Parsing throws UserError for invalid
+/// seeds and for an unknown word after --keep.
 void add_sweep_options(CLI::App& command, SweepArguments& arguments);
 
 /// Makes the sweep and its report; `program` is the path of psi-slam. Returns the exit code. After SIGINT or

@@ -53,8 +53,8 @@ class SweepLock {
   Descriptor file_;
 };
 
-/// Makes the runs of the plan that have no result from an earlier sweep, at most `processes` at a time. Runs that have not ended when `stop`
-/// returns true get no outcome. Calls `progress` from one thread at a time.
+/// Makes the runs of the plan that have no result from an earlier sweep, at most `processes` at a time. Runs
+/// that have not ended when `stop` returns true get no outcome. Calls `progress` from one thread at a time.
 SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, int processes,
                       const std::function<bool()>& stop, const ProgressObserver& progress);
 

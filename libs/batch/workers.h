@@ -23,8 +23,8 @@ struct WorkWatch {
       finished;  ///< called once for each order that ran to its end
 };
 
-/// Carries out the orders, at most `processes` at a time. `make(order, stop)` carries out one order. `make` calls
-/// `stop` a few times a second, and returns nothing if `stop` ended the order.
+/// Carries out the orders, at most `processes` at a time. `make(order, stop)` carries out one order. `make`
+/// calls `stop` a few times a second, and returns nothing if `stop` ended the order.
 template <class Order, class Outcome, class Make>
 void carry_out(const std::vector<Order>& orders, int processes, const Make& make,
                const WorkWatch<Outcome>& watch) {

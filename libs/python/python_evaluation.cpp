@@ -189,8 +189,8 @@ void bind_evaluation(py::module_& module) {
   module.def(
       "evaluate", &evaluate, py::arg("trajectory"), py::arg("relations"), py::kw_only(),
       py::arg("max_gap_s") = kMaxGap_s,
-      "Compares a trajectory with known relative poses, as psi-slam-eval does. Returns an Evaluation.\n\n"
-      "trajectory: a Result; the path of a file that psi-slam-eval reads; or an array or pandas table\n"
+      "Compares a trajectory with known relative poses, as psi-slam eval does. Returns an Evaluation.\n\n"
+      "trajectory: a Result; the path of a file that psi-slam eval reads; or an array or pandas table\n"
       "            with the columns time_s, x_m, y_m, yaw_rad (or theta_rad, as in trajectory.csv).\n"
       "relations:  the path of a file of relations; or an array or pandas table with the columns\n"
       "            time1_s, time2_s, x_m, y_m, yaw_rad.\n"

@@ -127,14 +127,11 @@ void describe_map_files(OptionTable& table, MapFileOptions& files) {
       .flag("write_mrpt", files.mrpt, "Writes map.gridmap.gz and map.simplemap.gz for the programs of MRPT.")
       .flag("write_svg", files.svg, "Writes map.svg: walls and path as lines, at print_scale.")
       .flag("write_dxf", files.dxf, "Writes map.dxf: walls and path for CAD programs, in metres.")
-      .flag("write_print", files.print, "Writes map_print.png, an image that prints at print_scale.")
       .flag("write_geotiff", files.geotiff, "Writes map.tif for geographic information systems.")
       .flag("write_gpkg", files.gpkg,
             "Writes map.gpkg: walls, path with times, and zones for geographic information systems.")
       .number("print_scale", files.print_scale, between(0.001, 1e6), "",
-              "Scale of map_print.png and map.svg. 100 means 1:100, one centimetre of paper for one metre.")
-      .integer("print_dpi", files.print_dpi, between(1, 10'000), "dpi",
-               "Resolution of map_print.png. It is lowered if the image would exceed 150 million pixels.")
+              "Scale of map.svg. 100 means 1:100, one centimetre of paper for one metre.")
       .number(
           "line_tolerance_m", files.lines.tolerance_m, at_least(0).at_most(10), "m",
           "Largest deviation of the lines in map.svg, map.dxf and map.gpkg from the outlines of the cells.")
@@ -222,7 +219,9 @@ void require_at_most(const Named& smaller, const Named& larger) {
 }
 
 // Options that once set numbers of the method. A settings file that still has them is accepted.
-constexpr const char* kObsoleteOptions[] = {"front_end.max_strain_m",
+constexpr const char* kObsoleteOptions[] = {"map.write_print",
+                                            "map.print_dpi",
+                                            "front_end.max_strain_m",
                                             "front_end.strain_travel_m",
                                             "consensus.max_rival_share",
                                             "front_end.min_range_m",

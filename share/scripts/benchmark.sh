@@ -11,7 +11,7 @@
 set -euo pipefail
 
 # shellcheck source=share/scripts/benchmark-logs.bash
-source "$(dirname "$0")/benchmark-logs.bash" benchmark "psi-slam psi-slam-eval" "$@"
+source "$(dirname "$0")/benchmark-logs.bash" benchmark psi-slam "$@"
 
 # log | name | mean translation error of Karto [m]
 benchmark="
@@ -69,7 +69,7 @@ while IFS='|' read -r log name karto; do
   say "mapping $name"
   output=$outputs/$log
   "${app[psi-slam]}" -c "$root/ini/$log.ini" "$folder/$log.clf.gz" -o "$output" --force --threads 1 --quiet </dev/null
-  "${app[psi-slam-eval]}" --json "$output/trajectory.tum" "$folder/$log.relations" >"$output/evaluation.json"
+  "${app[psi-slam]}" eval --json "$output/trajectory.tum" "$folder/$log.relations" >"$output/evaluation.json"
   rows+=("$(row "$name" "$karto" "$output/summary.json" "$output/evaluation.json")")
   sums+=("$(sha256sum <"$folder/$log.clf.gz" | cut -d ' ' -f 1)  $log.clf.gz")
 done <<<"$benchmark"

@@ -169,7 +169,7 @@ say "Debian $version: running the installed programs with the packages of the li
 inside "$system" env DESTDIR=/tmp/installed cmake --install build/release >/dev/null || fail "cmake --install failed"
 inside "$robot" share/scripts/install-dependencies.sh runtime || fail "the packages of the list runtime cannot be installed"
 cp --archive --no-target-directory "$system/tmp/installed/usr" "$robot/usr"
-for program in psi-slam psi-slam-eval psi-slam-bench psi-graphslam psi-slam-gui; do
+for program in psi-slam psi-slam-bench psi-graphslam psi-slam-gui; do
   inside "$robot" "$program" --version || fail "$program does not run with the packages of the list runtime"
 done
 log="/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog"

@@ -22,7 +22,7 @@
 set -euo pipefail
 
 # shellcheck source=share/scripts/benchmark-logs.bash
-source "$(dirname "$0")/benchmark-logs.bash" graphslam "psi-graphslam psi-slam-eval" "$@"
+source "$(dirname "$0")/benchmark-logs.bash" graphslam "psi-graphslam psi-slam" "$@"
 limit_s=${LIMIT_S:-900}
 limit_times=${LIMIT_TIMES:-10}
 read -r -a set <<<"${SET:-}"
@@ -103,7 +103,7 @@ run() {
   case $status in
     0)
       relations "$1" "$3/relations"
-      "${app[psi-slam-eval]}" --json "$3/results/trajectory.tum" "$3/relations" >"$3/evaluation.json"
+      "${app[psi-slam]}" eval --json "$3/results/trajectory.tum" "$3/relations" >"$3/evaluation.json"
       ;;
     152) echo "not finished" >"$3/end" ;;  # SIGXCPU
     1[3-9]*) echo "crashed (signal $((status - 128)))" >"$3/end" ;;

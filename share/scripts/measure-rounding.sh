@@ -12,7 +12,7 @@ set -euo pipefail
 
 runs=${3:-20}
 # shellcheck source=share/scripts/benchmark-logs.bash
-source "$(dirname "$0")/benchmark-logs.bash" rounding "psi-slam psi-slam-eval" "${@:1:2}"
+source "$(dirname "$0")/benchmark-logs.bash" rounding psi-slam "${@:1:2}"
 
 mkdir -p "$outputs"
 cc -shared -fPIC -O2 -o "$outputs/perturbed-sleef.so" "$(dirname "$0")/perturbed-sleef.c" -lm -ldl
@@ -26,7 +26,7 @@ for log in aces intel mit-killian mit-csail fr079; do
     output=$outputs/$log-$run
     ROUNDING_SEED=$run LD_PRELOAD=$(realpath "$outputs/perturbed-sleef.so") "${app[psi-slam]}" -c "$root/ini/$log.ini" \
       "$folder/$log.clf.gz" -o "$output" --force --threads 1 --quiet </dev/null 2>/dev/null
-    "${app[psi-slam-eval]}" --json "$output/trajectory.tum" "$folder/$log.relations" >"$output/evaluation.json"
+    "${app[psi-slam]}" eval --json "$output/trajectory.tum" "$folder/$log.relations" >"$output/evaluation.json"
   done
   python3 - "$log" "$outputs" "$runs" <<'END'
 import csv

@@ -64,10 +64,14 @@ TEST(CommandLine, knows_its_commands) {
   EXPECT_TRUE(parsed({"options", "--markdown"}).options.markdown);
   EXPECT_EQ(parsed({"options", "range"}).options.word, "range");
   EXPECT_EQ(parsed({"map", "my.log", "-o", "out"}).log, "my.log");
-  const CommandLine eval = parsed({"eval", "a.tum", "--json"});
-  EXPECT_EQ(eval.command, Command::kOtherProgram);
-  EXPECT_STREQ(eval.other_program->program, "psi-slam-eval");
-  EXPECT_THAT(eval.other_arguments, ElementsAre("a.tum", "--json"));
+  const CommandLine eval = parsed({"eval", "a.tum", "true.relations", "--json"});
+  EXPECT_EQ(eval.command, Command::kEval);
+  EXPECT_EQ(eval.eval.trajectory, "a.tum");
+  EXPECT_EQ(eval.eval.relations, "true.relations");
+  const CommandLine gui = parsed({"gui", "a.log", "--seed"});
+  EXPECT_EQ(gui.command, Command::kOtherProgram);
+  EXPECT_STREQ(gui.other_program->program, "psi-slam-gui");
+  EXPECT_THAT(gui.other_arguments, ElementsAre("a.log", "--seed"));
   EXPECT_EQ(parsed({"sweep", "a.log", "-o", "out"}).command, Command::kSweep);
   EXPECT_EQ(parsed({"--dump-config", "-c", "my.ini"}).command, Command::kDumpConfig);
 }
@@ -83,7 +87,7 @@ TEST(CommandLine, wrong_usage_gives_one_sentence) {
   EXPECT_THAT(complaint({"help", "chekc"}), HasSubstr("no command \"chekc\"; did you mean \"check\"?"));
   EXPECT_THAT(complaint({"map", "check", "my.log"}), HasSubstr("expected a log after map"));
   EXPECT_THAT(complaint({"-q", "map", "my.log", "-o", "out"}), HasSubstr("psi-slam map ..."));
-  EXPECT_THAT(complaint({"-v", "eval", "a", "b"}), HasSubstr("before its options: psi-slam eval ..."));
+  EXPECT_THAT(complaint({"-v", "gui", "a"}), HasSubstr("before its options: psi-slam gui ..."));
   EXPECT_THAT(complaint({"check"}), HasSubstr("psi-slam check LOG"));
   EXPECT_THAT(complaint({"check", "a.log", "b.log"}), HasSubstr("unexpected argument \"b.log\""));
   EXPECT_THAT(complaint({"-o", "out", "check", "a.log"}), HasSubstr("nothing is written"));

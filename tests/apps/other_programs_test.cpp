@@ -28,9 +28,9 @@ TEST(OtherPrograms, commands_run_the_programs_of_the_family) {
   EXPECT_EQ(freiburg.code, 0) << freiburg.err;
   EXPECT_THAT(freiburg.out, HasSubstr("psi-slam-bench freiburg"));
   EXPECT_THAT(freiburg.out, HasSubstr("--processes N "));
-  const AppRun wrong = AppProcess({"eval", "x", "y", "z"}, folder.path()).finish();
+  const AppRun wrong = AppProcess({"bench", "nothing"}, folder.path()).finish();
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_THAT(wrong.err, HasSubstr("psi-slam-eval: "));
+  EXPECT_THAT(wrong.err, HasSubstr("psi-slam-bench: "));
 }
 
 TEST(OtherPrograms, a_program_that_is_not_installed_is_named_with_its_package) {
@@ -44,8 +44,8 @@ TEST(OtherPrograms, a_program_that_is_not_installed_is_named_with_its_package) {
     EXPECT_EQ(run.code, 2);
     EXPECT_EQ(run.err, sentence);
   };
-  fails({"eval"},
-        "psi-slam: psi-slam eval runs psi-slam-eval, which is neither beside psi-slam nor in PATH. Debian's "
+  fails({"gui"},
+        "psi-slam: psi-slam gui runs psi-slam-gui, which is neither beside psi-slam nor in PATH. Debian's "
         "package psi-slam contains it\n");
   fails(
       {"bench", "match"},

@@ -54,7 +54,7 @@ if(result EQUAL 0 OR NOT complaint MATCHES "no component \"maping\"")
   message(FATAL_ERROR "a component that does not exist is not reported: ${result} ${complaint}")
 endif()
 
-foreach(program psi-slam psi-slam-eval)
+foreach(program psi-slam psi-graphslam)
   run("running the installed ${program}" ${WORK}/installed/bin/${program} --version)
 endforeach()
 # The installed psi-slam finds its module, and says so if it is missing.

@@ -58,7 +58,7 @@ def assert_figures(evaluation, expected, tolerance):
 
 @pytest.fixture(scope="module")
 def expected(files, psi_slam_program):
-    return json.loads(psi_slam_program(*files, "--json", name="psi-slam-eval").stdout)
+    return json.loads(psi_slam_program("eval", *files, "--json").stdout)
 
 
 def test_files_give_the_figures_of_the_program(files, expected):
@@ -83,7 +83,7 @@ def test_tables_of_pandas_give_the_same_figures(result, files, expected):
 def test_the_table_of_a_run_gives_the_same_figures(files, expected, psi_slam_program):
     table = files[0].with_suffix(".csv")
     assert_figures(psi_slam.evaluate(table, files[1]), expected, 1e-4)  # the table has fewer decimals
-    run = psi_slam_program(table, files[1], "--json", name="psi-slam-eval")
+    run = psi_slam_program("eval", table, files[1], "--json")
     assert json.loads(run.stdout)["relations"] == expected["relations"]
     array = np.genfromtxt(table, delimiter=",", names=True)
     assert "theta_rad" in array.dtype.names and "yaw_rad" not in array.dtype.names

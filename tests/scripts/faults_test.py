@@ -34,8 +34,8 @@ PARTIAL = re.compile(r"\.partial-\d+-[0-9a-f]{16}(-|$)")
 REASONS = {"enospc": "No space left on device", "short": "No space left on device", "eio": "Input/output error"}
 TIMED = {"frames.csv", "loops.csv", "summary.json", "report.html"}  # state times, so no two runs give the same bytes
 SETTINGS = {
-    "new": "[map]\nwrite_print = true\nwrite_geotiff = true\nwrite_gpkg = true\nepsg = 25832\norigin_easting_m = 500000\n"
-           "origin_northing_m = 5500000\nprint_dpi = 100\n",
+    "new": "[map]\nwrite_geotiff = true\nwrite_gpkg = true\nepsg = 25832\norigin_easting_m = 500000\n"
+           "origin_northing_m = 5500000\n",
     "old": "[map]\nresolution_m = 0.1\nwrite_dxf = false\nwrite_geotiff = true\nepsg = 25832\n",
 }
 KILLS_IN_FOLDER = 50

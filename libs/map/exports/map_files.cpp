@@ -49,10 +49,6 @@ Tasks map_file_tasks(const std::filesystem::path& folder, const MappingResult& r
                      const MapFileOptions& options) {
   Tasks tasks;
   if (options.png) tasks.emplace_back([&grid, folder] { write_map_image(folder / "map.png", grid); });
-  if (options.print)
-    tasks.emplace_back([&grid, &options, folder] {
-      write_text_atomically(folder / "map_print.png", print_map(grid, options));
-    });
   if (options.mrpt) tasks.emplace_back([&grid, folder] { write_mrpt_map(folder / "map.gridmap.gz", grid); });
   if (options.svg || options.dxf || options.gpkg)
     tasks.emplace_back([&, folder] {

@@ -33,14 +33,11 @@ struct MapFileOptions {
   bool mrpt = true;          ///< map.gridmap.gz, and map.simplemap.gz with the scans of the nodes
   bool svg = true;           ///< map.svg: walls and path as lines
   bool dxf = true;           ///< map.dxf: walls and path as lines, for CAD programs
-  bool print = false;        ///< map_print.png, true to scale
   bool geotiff = false;      ///< map.tif
   bool gpkg = false;         ///< map.gpkg: walls, path and zones for geographic information systems
-  double print_scale = 100;  ///< scale of map_print.png and map.svg; 100 means 1:100
-  int print_dpi = 300;       ///< resolution of map_print.png, pixels per inch of paper
+  double print_scale = 100;  ///< scale of map.svg; 100 means 1:100
   MapDrawingOptions lines;   ///< lines of map.svg, map.dxf and map.gpkg
-  /// Place of map.tif and map.gpkg on the earth, and direction of north in map_print.png.
-  GeoReference earth;
+  GeoReference earth;        ///< place of map.tif and map.gpkg on the earth
 };
 
 /// Returns tasks that write the selected files, except for map.simplemap.gz. `grid` is the grid map of
@@ -67,18 +64,6 @@ std::string map_dxf(const MapDrawing& drawing);
 /// height are millimetres of paper, all coordinates metres. The groups "walls" and "trajectory" use map
 /// coordinates.
 std::string map_svg(const MapDrawing& drawing, double scale);
-
-/// Returns the resolution of map_print.png, pixels per inch of paper, for an observed part of the grid of
-/// this size: print_dpi, or less if the picture would have more than 150 million pixels or a side of more
-/// than a million. May be less than 1.
-double dpi_that_fits(double width_m, double height_m, const MapFileOptions& options);
-
-/// Returns map_print.png: the observed part of the grid at 1:print_scale. The file states its pixels per
-/// metre of paper. A strip below the map shows a scale bar and the axes, and also north if `options.earth`
-/// has a coordinate system. A picture of more than 150 million pixels gets fewer pixels per inch; below 1,
-/// the strip has no room. Equal grids give equal bytes. Throws SystemFailure if the picture cannot be
-/// encoded.
-std::string print_map(const mrpt::maps::COccupancyGridMap2D& grid, const MapFileOptions& options);
 
 /// Throws UserError unless `epsg` is 0 or the number of a projected coordinate system in metres.
 void check_epsg(int epsg);

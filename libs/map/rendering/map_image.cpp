@@ -137,8 +137,7 @@ double scale_bar_m(double width_m, double resolution_m) {
   return power_m;
 }
 
-void draw_scale_bar(cv::Mat& image, const ScaleBarPlace& place, double bar_m, double resolution_m,
-                    const std::string& note) {
+void draw_scale_bar(cv::Mat& image, const ScaleBarPlace& place, double bar_m, double resolution_m) {
   const int unit = place.unit;
   const int bar_px = static_cast<int>(std::lround(bar_m / resolution_m));
   const cv::Scalar ink = kWallInk;
@@ -147,8 +146,8 @@ void draw_scale_bar(cv::Mat& image, const ScaleBarPlace& place, double bar_m, do
   for (const int end : {place.left, place.left + bar_px - thick})
     cv::rectangle(image, {end, place.middle - unit / 2, thick, unit}, ink, cv::FILLED);
   const std::string label = fixed_text(bar_m, bar_m < 1 ? 2 : 0) + " m";
-  cv::putText(image, label + note, {place.left + bar_px + unit, place.middle + unit / 2},
-              cv::FONT_HERSHEY_DUPLEX, unit / 15.0, ink, std::max(1, unit / 10), cv::LINE_AA);
+  cv::putText(image, label, {place.left + bar_px + unit, place.middle + unit / 2}, cv::FONT_HERSHEY_DUPLEX,
+              unit / 15.0, ink, std::max(1, unit / 10), cv::LINE_AA);
 }
 
 SeenCells seen_cells(const COccupancyGridMap2D& grid) {

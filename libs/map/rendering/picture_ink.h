@@ -25,8 +25,7 @@ struct ScaleBarPlace {
 /// not above a fifth of the width or, in tiny images, one pixel. `resolution_m` is the width of a pixel.
 double scale_bar_m(double width_m, double resolution_m);
 
-/// Draws a scale bar of `bar_m` metres with its length as text, followed by `note`.
-void draw_scale_bar(cv::Mat& image, const ScaleBarPlace& place, double bar_m, double resolution_m,
-                    const std::string& note = {});
+/// Draws a scale bar of `bar_m` metres with its length as text.
+void draw_scale_bar(cv::Mat& image, const ScaleBarPlace& place, double bar_m, double resolution_m);
 
 }  // namespace psi_slam

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The folder with the results of a run, under fixed names:
 //
-//     map.*  map_print.png                  the map, in the formats chosen by MapFileOptions
+//     map.*                                 the map, in the formats chosen by MapFileOptions
 //     trajectory.tum                        the robot's path
 //     trajectory.csv                        the robot's path with the covariance of each pose
 //     trajectory.carmen                     the corrected log of a single run

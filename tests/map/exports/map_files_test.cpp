@@ -100,33 +100,6 @@ TEST_F(MapFiles, svg_follows_the_scale) {
   EXPECT_NEAR(run.numbers().at(4), 120 + 2 * 5, 4);
 }
 
-TEST_F(MapFiles, printed_picture_has_its_dpi_and_scale) {
-  options_.print = true;
-  MEASURE_OR_SKIP(run, write("map_print.png"));
-  const std::vector<double> numbers = run.numbers();
-  ASSERT_EQ(numbers.size(), 6U) << run.out;
-  EXPECT_NEAR(numbers[1] - numbers[0], 6 + kCell_m, kClose_m);  // walls are a cell thick
-  EXPECT_NEAR(numbers[3] - numbers[2], 4 + kCell_m, kClose_m);
-  EXPECT_NEAR(numbers[4], 300, 0.05);
-  EXPECT_NEAR(numbers[5], 300, 0.05);
-}
-
-TEST_F(MapFiles, printed_pictures_of_any_scale_have_at_most_150_million_pixels) {
-  EXPECT_EQ(dpi_that_fits(6, 4, options_), 300);
-  options_.print_dpi = 10'000;
-  for (const double scale : {0.001, 0.01, 1.0, 100.0, 1e6})
-    for (const auto& [width_m, height_m] : {std::pair{6.0, 4.0}, {1e4, 2e4}, {1e5, 0.05}, {0.05, 1e5}}) {
-      options_.print_scale = scale;
-      const double dpi = dpi_that_fits(width_m, height_m, options_);
-      const double px_per_m = dpi / 0.0254;
-      const double width_px = width_m / scale * px_per_m;
-      const double height_px = (height_m / scale + 0.014) * px_per_m;
-      EXPECT_GT(dpi, 0);
-      EXPECT_LE(width_px * height_px, 149e6) << scale;
-      EXPECT_LE(std::max(width_px, height_px), 1.001e6) << scale;
-    }
-}
-
 TEST_F(MapFiles, geotiff_is_in_local_metres_by_default) {
   options_.geotiff = true;
   MEASURE_OR_SKIP(run, write("map.tif"));

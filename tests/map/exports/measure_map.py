@@ -24,17 +24,6 @@ def dark_box(image, below):
     return grey.point(lambda value: 255 if value < 100 else 0).getbbox()
 
 
-def measure_png(path):
-    """Measures sizes only, in metres by the dpi of the picture and 1:100: a picture does not state its origin."""
-    from PIL import Image
-
-    image = Image.open(path)
-    dpi = image.info["dpi"]
-    metres = 0.0254 / dpi[0] * 100
-    left, top, right, bottom = dark_box(image, image.height - round(14 / 25.4 * dpi[1]))
-    report(left * metres, right * metres, top * metres, bottom * metres, "%.2f %.2f" % dpi)
-
-
 def measure_svg(path):
     """Measures the drawing as librsvg draws it, with 10 pixels per millimetre of paper."""
     from PIL import Image
@@ -104,7 +93,7 @@ def measure_gpkg(path):
 
 
 if __name__ == "__main__":
-    measure = {"png": measure_png, "svg": measure_svg, "dxf": measure_dxf, "tif": measure_tif, "gpkg": measure_gpkg}
+    measure = {"svg": measure_svg, "dxf": measure_dxf, "tif": measure_tif, "gpkg": measure_gpkg}
     try:
         measure[sys.argv[1].rsplit(".", 1)[1]](sys.argv[1])
     except ImportError as missing:

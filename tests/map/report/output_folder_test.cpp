@@ -50,7 +50,7 @@ void export_room(const OutputFolder& folder) {
   const MappingResult result = walk_around_the_room();
   const auto grid = draw_grid_map(result.log, mapped_poses(result));
   MapFileOptions options;
-  options.geotiff = options.gpkg = options.print = true;
+  options.geotiff = options.gpkg = true;
   WorkerPool pool(2);
   pool.run(path_file_tasks(result, folder, options));
   pool.run(map_file_tasks(folder.path(), result, *grid, {}, options));
@@ -93,8 +93,8 @@ TEST(OutputFolder, has_all_files_under_fixed_names) {
   EXPECT_EQ(names_in(temporary.path() / "run"),
             (std::set<std::string>{"frames.csv", "graph.g2o", "loops.csv", "map.dxf", "map.gpkg",
                                    "map.gridmap.gz", "map.pgm", "map.png", "map.simplemap.gz", "map.svg",
-                                   "map.tif", "map.yaml", "map_print.png", "report.html", "summary.json",
-                                   "trajectory.carmen", "trajectory.csv", "trajectory.tum"}));
+                                   "map.tif", "map.yaml", "report.html", "summary.json", "trajectory.carmen",
+                                   "trajectory.csv", "trajectory.tum"}));
 }
 
 TEST(OutputFolder, force_replaces_results_and_keeps_other_files) {

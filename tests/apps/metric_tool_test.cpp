@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares psi-slam-eval with an independent implementation of the same metric. The environment variable
+// Compares psi-slam eval with an independent implementation of the same metric. The environment variable
 // PSI_SLAM_METRIC_TOOL names a script that takes a trajectory, relations and --json.
 #include <gtest/gtest.h>
 #include <stdio.h>  // popen
@@ -10,10 +10,9 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "app_run.h"
 #include "base/number_text.h"
-#include "eval_app.h"
 #include "psi_slam/open_log.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
@@ -77,16 +76,14 @@ class MetricTool : public testing::TestWithParam<std::string> {
   std::size_t compare(const std::string& relations, const std::string& max_gap) const {
     const Json theirs = Json::parse(output_of("python3 " + quoted(tool_) + ' ' + quoted(trajectory_) + ' ' +
                                               quoted(relations) + " --json --max-gap " + max_gap));
-    std::ostringstream out;
-    std::ostringstream err;
-    EXPECT_EQ(run_eval_app({trajectory_, relations, "--json", "--max-gap", max_gap}, out, err), 0)
-        << err.str();
-    const Json ours = Json::parse(out.str());
+    const AppRun run = run_app({"eval", trajectory_, relations, "--json", "--max-gap", max_gap});
+    EXPECT_EQ(run.code, 0) << run.err;
+    const Json ours = Json::parse(run.out);
     std::size_t figures = 0;
     for (const auto& [group, values] : theirs.items()) {
       for (const auto& [name, value] : values.items()) {
         if (!ours.contains(group) || !ours[group].contains(name)) {
-          ADD_FAILURE() << "psi-slam-eval has no " << group << '.' << name;
+          ADD_FAILURE() << "psi-slam eval has no " << group << '.' << name;
           continue;
         }
         const double expected = value;

@@ -14,7 +14,6 @@
 #include "common/bench_command.h"
 #include "document_options.h"
 #include "false_loops/false_loop_benchmark.h"
-#include "kernels/kernel_benchmark.h"
 #include "live/live_benchmark.h"
 #include "match/exact_benchmark.h"
 #include "match/match_benchmark.h"
@@ -112,23 +111,6 @@ void add_exact_search_command(CLI::App& app, const Streams& streams) {
       [](const ChosenLogs& chosen, const auto& how, const ProgressObserver& progress) {
         return exact_report(run_exact_benchmark(chosen.logs, how, progress), how, machine_text());
       });
-}
-
-void add_kernels_command(CLI::App& app, const Streams& streams) {
-  const auto arguments = std::make_shared<Arguments<KernelBenchmarkOptions>>();
-  CLI::App& command = *app.add_subcommand(
-      "kernels", "Measure the inner loops of the matchers against the speed at which memory can be read");
-  command
-      .add_option("--repeats", arguments->options.repeats,
-                  "Number of times that each kernel is measured; the least counts")
-      ->check(CLI::Range(1, 100'000))
-      ->capture_default_str();
-  add_output_options(command, *arguments, "kernels.md");
-  command.callback([arguments, &streams] {
-    check_outputs(*arguments, "kernels.md");
-    const KernelBenchmarkOptions& options = arguments->options;
-    write_report(kernel_report(run_kernel_benchmark(options), options, machine_text()), *arguments, streams);
-  });
 }
 
 void add_false_loops_command(CLI::App& app, const Streams& streams) {
@@ -447,7 +429,6 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_freiburg_run_command(app, streams);
     add_match_command(app, streams);
     add_exact_search_command(app, streams);
-    add_kernels_command(app, streams);
     add_simulate_command(app, streams);
     add_false_loops_command(app, streams);
     add_robustness_command(app, streams);

@@ -89,7 +89,7 @@ struct PointKernels {
 const PointKernels& point_kernels();
 
 /// Returns the kernels for one instruction set; null if this machine cannot use that set, or the build lacks
-/// it. For tests and benchmarks.
+/// it. For tests.
 const PointKernels* point_kernels_for(InstructionSet set);
 
 // Each set of kernels has its own translation unit, compiled with the flags of its instruction set.

@@ -56,7 +56,7 @@ using RefinementKernel = ScoreSums (*)(const PlacedScan& scan);
 RefinementKernel refinement_kernel();
 
 /// Returns the kernel for one instruction set; null if this machine cannot use that set. AVX2 has that of the
-/// baseline, because GCC 12 makes a slower one for it. For tests and benchmarks.
+/// baseline, because GCC 12 makes a slower one for it. For tests.
 RefinementKernel refinement_kernel_for(InstructionSet set);
 
 // Each kernel has its own translation unit, compiled with the flags of its instruction set.

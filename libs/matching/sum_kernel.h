@@ -24,7 +24,7 @@ inline constexpr int kSumLanes = 16;
 SumKernel sum_kernel();
 
 /// Returns the kernel for one instruction set; null if this machine cannot use that set. AVX-512 has that of
-/// AVX2, because its own was not faster. For tests and benchmarks.
+/// AVX2, because its own was not faster. For tests.
 SumKernel sum_kernel_for(InstructionSet set);
 
 // Each kernel has its own translation unit, compiled with the flags of its instruction set.

@@ -8,7 +8,6 @@
 
 #include "base/number_text.h"
 #include "common/processor_time.h"
-#include "kernels/kernel_benchmark.h"
 #include "match/depth_first_search.h"
 #include "matching/make_matcher.h"
 #include "psi_slam/user_error.h"
@@ -42,8 +41,7 @@ bool equal(const MatchResult& match, const SearchLattice& lattice, const DepthFi
 }  // namespace
 
 ExactBenchmarkRow search_exactly(const std::vector<LoopCase>& cases, const CaseOptions& options,
-                                 const MapperOptions& mapper, double min_response, std::size_t repeats,
-                                 double scores_per_ns) {
+                                 const MapperOptions& mapper, double min_response, std::size_t repeats) {
   const CorrelativeMatcher matcher(mapper.back_end.loop_matcher);
   ExactBenchmarkRow row;
   row.min_response = min_response;
@@ -72,8 +70,6 @@ ExactBenchmarkRow search_exactly(const std::vector<LoopCase>& cases, const CaseO
     row.equal += equal(match, lattice, reference) ? 1 : 0;
     row.csm_evaluations += share * static_cast<double>(match.evaluations);
     row.depth_first_evaluations += share * static_cast<double>(reference.evaluations);
-    row.csm_limit_ms += share * static_cast<double>(match.evaluations) *
-                        static_cast<double>(problem.scan.points.size()) / (1e6 * scores_per_ns);
   }
   return row;
 }
@@ -82,7 +78,6 @@ ExactBenchmark run_exact_benchmark(const std::vector<BenchmarkLog>& logs,
                                    const ExactBenchmarkOptions& options, const ProgressObserver& observer) {
   ExactBenchmark benchmark;
   benchmark.logs = identities_of(logs);
-  benchmark.scores_per_ns = sum_kernel_scores_per_ns(options.repeats);
   CaseOptions how;
   how.count = options.cases;
   how.seed = options.seed;
@@ -103,8 +98,7 @@ ExactBenchmark run_exact_benchmark(const std::vector<BenchmarkLog>& logs,
     for (const auto& [name, cases] : {std::pair("loop", &positive), std::pair("no loop", &negative)}) {
       if (cases->empty()) continue;
       observer("threshold " + fixed_text(threshold, 1) + ", " + name, done, 2 * std::size(kThresholds));
-      benchmark.rows.push_back(
-          search_exactly(*cases, how, mapper, threshold, options.repeats, benchmark.scores_per_ns));
+      benchmark.rows.push_back(search_exactly(*cases, how, mapper, threshold, options.repeats));
       benchmark.rows.back().cases = name;
       ++done;
     }

@@ -39,14 +39,12 @@ struct ExactBenchmarkRow {
   SearchTimes depth_first;     ///< depth-first search, without its grids of maxima
   double csm_evaluations = 0;  ///< mean number of blocks and poses scored
   double depth_first_evaluations = 0;
-  double csm_limit_ms = 0;  ///< mean time in which the sum kernel alone scores the blocks and poses
 };
 
 struct ExactBenchmark {
   std::vector<LogIdentity> logs;
   std::vector<ExactBenchmarkRow> rows;
   double maximum_grids_ms = 0;  ///< mean time of making the depth-first search's grids of a local map
-  double scores_per_ns = 0;     ///< scores that the sum kernel adds when all its lanes are used
 };
 
 /// Maps each log, draws its cases and searches them in this thread. Kinds without any case have no rows.
@@ -56,8 +54,7 @@ ExactBenchmark run_exact_benchmark(const std::vector<BenchmarkLog>& logs,
 
 /// Searches the cases with one threshold, each `repeats` times, and returns their row. There must be a case.
 ExactBenchmarkRow search_exactly(const std::vector<LoopCase>& cases, const CaseOptions& options,
-                                 const MapperOptions& mapper, double min_response, std::size_t repeats,
-                                 double scores_per_ns);
+                                 const MapperOptions& mapper, double min_response, std::size_t repeats);
 
 /// The report of the command `exact-search`. JSON and CSV have the rows.
 BenchReport exact_report(const ExactBenchmark& benchmark, const ExactBenchmarkOptions& options,

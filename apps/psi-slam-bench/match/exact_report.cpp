@@ -45,8 +45,7 @@ ReportTable rows_table(const std::vector<ExactRow>& rows) {
           return cell("× " + fixed_text(row.depth_first.mean_ms / row.csm.mean_ms, 1));
         }},
        column("csm: evaluations", "csm_evaluations", &ExactRow::csm_evaluations, 0),
-       column("depth-first: evaluations", "depth_first_evaluations", &ExactRow::depth_first_evaluations, 0),
-       column("csm: limit [ms]", "csm_limit_ms", &ExactRow::csm_limit_ms, 2)},
+       column("depth-first: evaluations", "depth_first_evaluations", &ExactRow::depth_first_evaluations, 0)},
       rows);
 }
 
@@ -71,10 +70,7 @@ BenchReport exact_report(const ExactBenchmark& benchmark, const ExactBenchmarkOp
       "Making them takes " +
       fixed_text(benchmark.maximum_grids_ms, 1) +
       " ms for each local map\n"
-      "- evaluations: mean number of blocks and poses scored\n"
-      "- limit: time in which the sum kernel alone scores the blocks and poses of csm, at the " +
-      fixed_text(benchmark.scores_per_ns, 1) +
-      " scores per nanosecond that it reaches when all its lanes are used\n\n";
+      "- evaluations: mean number of blocks and poses scored\n\n";
   return {"exact-search.md",
           text + rows.markdown() + '\n' + logs_section(benchmark.logs, {}),
           json_file_text(report_json("psi-slam-exact-search", machine,
@@ -82,7 +78,6 @@ BenchReport exact_report(const ExactBenchmark& benchmark, const ExactBenchmarkOp
                                       {"repeats", options.repeats},
                                       {"files", logs_table(benchmark.logs).json()},
                                       {"maximum_grids_ms", benchmark.maximum_grids_ms},
-                                      {"scores_per_ns", benchmark.scores_per_ns},
                                       {"rows", rows.json()}})),
           rows.csv(),
           {}};

@@ -76,10 +76,10 @@ void add_match_command(CLI::App& app, const Streams& streams) {
   match
       .add_option(
           "--parts", options.parts,
-          "Parts to run, of scans, contexts, windows and local-maps, separated by commas. The last two "
-          "compare over sizes of the window and of local maps, with a fifth of the cases")
+          "Parts to run, of scans, contexts and windows, separated by commas. The last compares over sizes "
+          "of the window, with a fifth of the cases")
       ->delimiter(',')
-      ->check(CLI::IsMember({kScansPart, kContextsPart, kWindowsPart, kLocalMapsPart}))
+      ->check(CLI::IsMember({kScansPart, kContextsPart, kWindowsPart}))
       ->capture_default_str()
       ->type_name("NAMES");
   run_on_logs(

@@ -69,8 +69,7 @@ class TileSums {
 
 }  // namespace
 
-CoarseCells rank_coarse_cells(const SearchLattice& lattice, int heading_stride, int count,
-                              std::uint32_t min_sum) {
+CoarseCells rank_coarse_cells(const SearchLattice& lattice, std::size_t count, std::uint32_t min_sum) {
   if (!lattice.grid().has_pyramid())
     throw std::invalid_argument("coarse cells need the score grid's pyramid");
   const SearchWindow& window = lattice.window();
@@ -80,15 +79,14 @@ CoarseCells rank_coarse_cells(const SearchLattice& lattice, int heading_stride, 
   const int height = (2 * window.n_y + side) / side;
   CoarseCells coarse;
   std::vector<RankedCell> ranked;
-  const auto kept_at_most = static_cast<std::size_t>(count);
   ShiftSums sums;
   std::int64_t order = 0;
-  for (int theta = -window.n_theta + heading_stride / 2; theta - heading_stride / 2 <= window.n_theta;
-       theta += heading_stride) {
+  for (int theta = -window.n_theta + kHeadingStride / 2; theta - kHeadingStride / 2 <= window.n_theta;
+       theta += kHeadingStride) {
     const int turn = std::min(theta, window.n_theta);
     sums.compute(level, lattice.cells(turn), lattice.points(), {-window.n_x, -window.n_y}, width, height);
     coarse.evaluations += static_cast<std::int64_t>(width) * height;
-    if (ranked.size() > 4 * kept_at_most) keep_best(ranked, kept_at_most);
+    if (ranked.size() > 4 * count) keep_best(ranked, count);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x, ++order) {
         if (sums.row(y)[x] < min_sum) continue;
@@ -101,7 +99,7 @@ CoarseCells rank_coarse_cells(const SearchLattice& lattice, int heading_stride, 
       }
     }
   }
-  keep_best(ranked, kept_at_most);
+  keep_best(ranked, count);
   std::sort(ranked.begin(), ranked.end(), better);
   for (const RankedCell& one : ranked) coarse.best.push_back(one.cell);
   return coarse;
@@ -110,13 +108,12 @@ CoarseCells rank_coarse_cells(const SearchLattice& lattice, int heading_stride, 
 Seeds coarse_seeds(const SearchLattice& lattice, const WindowTiles& tiles,
                    const MemeticGeneticOptions& options, Random& random) {
   const SearchWindow& window = lattice.window();
-  const int stride = options.heading_stride;
-  const int first =
-      static_cast<int>(draw_below(static_cast<std::uint64_t>(std::min(stride, tiles.turns())), random)) -
-      window.n_theta;
+  const int first = static_cast<int>(draw_below(
+                        static_cast<std::uint64_t>(std::min(kHeadingStride, tiles.turns())), random)) -
+                    window.n_theta;
   Seeds seeds;
   if (tiles.columns() * tiles.rows() == 1) {
-    for (int theta = first; theta <= window.n_theta; theta += stride)
+    for (int theta = first; theta <= window.n_theta; theta += kHeadingStride)
       seeds.chromosomes.push_back(tiles.encode(theta, 0, 0));
     return seeds;
   }
@@ -128,12 +125,12 @@ Seeds coarse_seeds(const SearchLattice& lattice, const WindowTiles& tiles,
   const std::size_t every =
       std::max<std::size_t>(1, lattice.points() / static_cast<std::size_t>(options.seed_points));
   const std::size_t from = draw_below(every, random);
-  const int turns = (window.n_theta - first) / stride + 1;
+  const int turns = (window.n_theta - first) / kHeadingStride + 1;
   TileSums best(turns, tiles);
   std::vector<Cell> cells;
   ShiftSums sums;
   for (int turn = 0; turn < turns; ++turn) {
-    const Cell* all = lattice.cells(first + turn * stride);
+    const Cell* all = lattice.cells(first + turn * kHeadingStride);
     cells.clear();
     for (std::size_t p = from; p < lattice.points(); p += every) cells.push_back(all[p]);
     sums.compute(level, cells.data(), cells.size(), {-window.n_x, -window.n_y}, width, height);
@@ -154,7 +151,8 @@ Seeds coarse_seeds(const SearchLattice& lattice, const WindowTiles& tiles,
     for (int row = 0; row < tiles.rows(); ++row)
       for (int column = 0; column < tiles.columns(); ++column)
         if (best.at(turn, row, column) >= least && best.is_peak(turn, row, column))
-          peaks.emplace_back(best.at(turn, row, column), tiles.encode(first + turn * stride, column, row));
+          peaks.emplace_back(best.at(turn, row, column),
+                             tiles.encode(first + turn * kHeadingStride, column, row));
   std::stable_sort(peaks.begin(), peaks.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   peaks.resize(std::min(peaks.size(), count));

@@ -2,6 +2,7 @@
 // Searches a whole window coarsely, on the coarsest level of the score grid's pyramid.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,11 +18,10 @@ struct CoarseCells {
 };
 
 /// The coarse stage of multi-resolution correlative matching (Olson 2009): sums all points for every block of
-/// the coarsest level and every `heading_stride`-th heading. Returns the `count` best cells that reach
+/// the coarsest level and every kHeadingStride-th heading. Returns the `count` best cells that reach
 /// `min_sum`; of equal cells, the first ones. Throws std::invalid_argument if the lattice's grid has no
 /// pyramid.
-CoarseCells rank_coarse_cells(const SearchLattice& lattice, int heading_stride, int count,
-                              std::uint32_t min_sum);
+CoarseCells rank_coarse_cells(const SearchLattice& lattice, std::size_t count, std::uint32_t min_sum);
 
 struct Seeds {
   std::vector<Chromosome> chromosomes;  ///< codes of the tiles, in descending order of sums
@@ -29,9 +29,9 @@ struct Seeds {
 };
 
 /// Returns the first generation of the memetic search. Sums a part of the scan's points at every
-/// `options.heading_stride`-th heading, beginning at a random heading. Returns at most `options.seeds` tiles
-/// whose sum no neighbouring tile exceeds. For a window of one block, returns the tiles of all these headings
-/// without sums. For other windows, the grid must have a pyramid.
+/// kHeadingStride-th heading, beginning at a random heading. Returns at least one tile, and at most
+/// `options.seeds`, whose sum no neighbouring tile exceeds. For a window of one block, returns the tiles of
+/// all these headings without sums. For other windows, the grid must have a pyramid.
 Seeds coarse_seeds(const SearchLattice& lattice, const WindowTiles& tiles,
                    const MemeticGeneticOptions& options, Random& random);
 

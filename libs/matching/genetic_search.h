@@ -19,17 +19,18 @@ FoundPeaks paper_genetic_search(const SearchLattice& lattice, const PeakRequest&
                                 const PaperGeneticOptions& options);
 
 /// Runs a genetic algorithm with local search, for responses with many local maxima. Its individuals are
-/// tiles. MemeticGeneticOptions has a switch for each addition to the paper's algorithm. Throws
-/// std::invalid_argument if the lattice's grid has no pyramid, unless the window is one tile.
+/// tiles. A sparse coarse search finds the first generation. Throws std::invalid_argument if the lattice's
+/// grid has no pyramid, unless the window is one tile.
 FoundPeaks memetic_search(const SearchLattice& lattice, const PeakRequest& request,
                           const MemeticGeneticOptions& options);
 
-/// Runs the evolution of memetic_search(). Tiles evolve by selection, crossover and mutation. A local search
-/// along the heading improves the best tiles. An exact search around the best poses ends the evolution.
-/// Starts from `first_generation`, or from random tiles if it is empty. If `pooled` is true, evolves on the
-/// pooled level first and then on the finest.
+/// Runs the evolution of memetic_search() from a first generation, which must not be empty. Tiles evolve by
+/// selection, crossover and mutation, first on the pooled level of the grid and then on the finest. Each
+/// generation keeps its best tiles, at most one in each neighbourhood, so that several peaks survive. A local
+/// search along the heading improves the best tiles. An exact search around the best poses ends the
+/// evolution.
 FoundPeaks evolve_tiles(const SearchLattice& lattice, const TileSpace& space,
-                        const std::vector<Chromosome>& first_generation, bool pooled,
-                        const PeakRequest& request, const MemeticGeneticOptions& options, Random& random);
+                        const std::vector<Chromosome>& first_generation, const PeakRequest& request,
+                        const MemeticGeneticOptions& options, Random& random);
 
 }  // namespace psi_slam

@@ -12,31 +12,32 @@
 namespace psi_slam {
 namespace {
 
+constexpr std::size_t kCoarseCells = 2048;  // number of best coarse cells that csm_ga searches genetically
+
 FoundPeaks evolve_cells(const SearchLattice& lattice, const std::vector<Tile>& cells,
                         const PeakRequest& request, const MemeticGeneticOptions& options) {
-  const CellTiles space(lattice.window(), cells, options.heading_stride, options.gray_code);
+  const CellTiles space(lattice.window(), cells);
   std::vector<Chromosome> first_generation;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) first_generation.push_back(space.encode(cell));
   Random random = random_for(request.seed);
-  return evolve_tiles(lattice, space, first_generation, options.pooled_fitness, request, options, random);
+  return evolve_tiles(lattice, space, first_generation, request, options, random);
 }
 
 // Returns `genetic` if the search ran generations, and `without` otherwise.
-SearchKind search_of(const GeneticEffort& effort, SearchKind genetic, SearchKind without) {
-  return effort.generations > 0 ? genetic : without;
+SearchKind search_of(int generations, SearchKind genetic, SearchKind without) {
+  return generations > 0 ? genetic : without;
 }
 
 // The paper's variant of csm_ga: runs a genetic search in each of the best cells. The chromosomes of equation
 // 10 cover the small window of a cell. Each search scores a quarter as many poses as the cell has. With many
 // more, an exhaustive search would be cheaper.
 FoundPeaks search_cells_by_paper(const SearchLattice& lattice, const std::vector<Tile>& cells,
-                                 int heading_stride, const PeakRequest& request,
-                                 const PaperGeneticOptions& options) {
+                                 const PeakRequest& request, const PaperGeneticOptions& options) {
   constexpr std::size_t kCells = 32;
   constexpr int kGenerations = 4;
   SearchWindow window = lattice.window();
   window.n_x = window.n_y = 4;
-  window.n_theta = std::max(1, heading_stride / 2);
+  window.n_theta = kHeadingStride / 2;
   PaperGeneticOptions in_cell = options;
   in_cell.generations = kGenerations;
   in_cell.population = 2 * window.n_x * window.n_y * window.n_theta / kGenerations;
@@ -53,9 +54,7 @@ FoundPeaks search_cells_by_paper(const SearchLattice& lattice, const std::vector
     in_this_cell.seed.run ^= (static_cast<std::uint64_t>(i) + 1) << 32;
     const FoundPeaks found = paper_genetic_search(cell, in_this_cell, in_cell);
     peaks.evaluations += found.evaluations;
-    peaks.genetic.generations += found.genetic.generations;
-    peaks.genetic.decoded += found.genetic.decoded;
-    peaks.genetic.repaired += found.genetic.repaired;
+    peaks.generations += found.generations;
     const LatticePose pose = {centre.x + found.best->pose.x, centre.y + found.best->pose.y,
                               centre.theta + found.best->pose.theta};
     const SearchWindow& whole = lattice.window();
@@ -80,7 +79,7 @@ class GeneticMatcher : public WindowMatcher {
     FoundPeaks peaks = genetic_.variant == GeneticVariant::kPaper
                            ? paper_genetic_search(lattice, request, genetic_.paper)
                            : memetic_search(lattice, request, genetic_.memetic);
-    peaks.search = search_of(peaks.genetic, SearchKind::kGenetic, SearchKind::kLocal);
+    peaks.search = search_of(peaks.generations, SearchKind::kGenetic, SearchKind::kLocal);
     return peaks;
   }
 
@@ -105,19 +104,15 @@ class CoarseToGeneticMatcher : public GeneticMatcher {
 
  private:
   FoundPeaks search(const SearchLattice& lattice, const PeakRequest& request) const override {
-    const MemeticGeneticOptions& memetic = genetic_.memetic;
     const bool by_paper = genetic_.variant == GeneticVariant::kPaper;
-    const WindowTiles tiles(lattice.window(), memetic.gray_code);
+    const WindowTiles tiles(lattice.window());
     if (!by_paper && tiles.columns() * tiles.rows() == 1) return GeneticMatcher::search(lattice, request);
-    const CoarseCells coarse =
-        rank_coarse_cells(lattice, memetic.heading_stride, genetic_.coarse.cells, request.min_sum);
+    const CoarseCells coarse = rank_coarse_cells(lattice, kCoarseCells, request.min_sum);
     FoundPeaks peaks;
-    if (!coarse.best.empty()) {
-      peaks = by_paper ? search_cells_by_paper(lattice, coarse.best, memetic.heading_stride, request,
-                                               genetic_.paper)
-                       : evolve_cells(lattice, coarse.best, request, memetic);
-    }
-    peaks.search = search_of(peaks.genetic, SearchKind::kCoarseGenetic, SearchKind::kCoarse);
+    if (!coarse.best.empty())
+      peaks = by_paper ? search_cells_by_paper(lattice, coarse.best, request, genetic_.paper)
+                       : evolve_cells(lattice, coarse.best, request, genetic_.memetic);
+    peaks.search = search_of(peaks.generations, SearchKind::kCoarseGenetic, SearchKind::kCoarse);
     peaks.evaluations += coarse.evaluations;
     return peaks;
   }

@@ -22,8 +22,8 @@ class CorrelativeMatcher : public WindowMatcher {
 };
 
 /// Matcher for large windows, such as whole maps and whole local maps at any heading. An exact search is slow
-/// where nothing fits, and most searches in such windows find nothing. See share/doc/matchers.md, "How the
-/// cost grows".
+/// where nothing fits, and most searches in such windows find nothing. See share/doc/matchers.md, "Which
+/// search is better where".
 inline constexpr MatcherKind kLargeWindowMatcher = MatcherKind::kGa;
 
 /// Creates a matcher. `genetic` has no effect on kCsm.

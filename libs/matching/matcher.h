@@ -38,13 +38,6 @@ struct MatchProblem {
   MatchSeed seed = {};
 };
 
-/// Effort of a genetic search; zero for other searches.
-struct GeneticEffort {
-  int generations = 0;
-  std::int64_t decoded = 0;   ///< number of decoded chromosomes
-  std::int64_t repaired = 0;  ///< number of decoded chromosomes with a code outside the window
-};
-
 struct MatchResult {
   bool found = false;                ///< false: no pose of the window reaches min_response
   mrpt::math::TPose2D map_T_robot;   ///< matched pose, refined below a cell
@@ -60,7 +53,6 @@ struct MatchResult {
   /// Search that ran. In narrow windows, genetic matchers also search for the second peak exactly.
   SearchKind search = SearchKind::kExhaustive;
   std::int64_t evaluations = 0;  ///< number of poses scored, on all levels of the grid
-  GeneticEffort genetic;
 };
 
 class Matcher {

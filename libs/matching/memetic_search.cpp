@@ -13,6 +13,10 @@
 namespace psi_slam {
 namespace {
 
+constexpr double kCrossoverRate = 0.5;  // probability per pair of parents
+constexpr int kDescents = 64;           // number of best individuals improved by a descent in each generation
+constexpr std::size_t kPolished = 3;  // number of best poses that an exact search nearby improves at the end
+
 struct Individual {
   Chromosome chromosome = 0;
   Candidate best;  // best pose of the individual's tile
@@ -39,20 +43,15 @@ class Evolution {
         scorer_(lattice),
         whole_(spans(lattice.window(), space.tile(0).block)) {}
 
-  FoundPeaks run(const std::vector<Chromosome>& first_generation, bool pooled) {
-    std::vector<Chromosome> chromosomes = first_generation;
-    if (chromosomes.empty())
-      while (chromosomes.size() < size(options_.population)) chromosomes.push_back(random_() & all_bits());
+  FoundPeaks run(std::vector<Chromosome> chromosomes) {
     if (whole_) {
-      search_headings(chromosomes, pooled);
+      search_headings(chromosomes);
       return finish();
     }
-    if (pooled) {
-      evolve(chromosomes, TileLevel::kPooled);
-      if (population_.front().best.sum < request_.min_sum) return finish();  // no pose reaches min_sum
-      chromosomes.clear();
-      for (const Individual& one : population_) chromosomes.push_back(one.chromosome);
-    }
+    evolve(chromosomes, TileLevel::kPooled);
+    if (population_.front().best.sum < request_.min_sum) return finish();  // no pose reaches min_sum
+    chromosomes.clear();
+    for (const Individual& one : population_) chromosomes.push_back(one.chromosome);
     evolve(chromosomes, TileLevel::kFinest);
     polish();
     return finish();
@@ -63,7 +62,6 @@ class Evolution {
     return static_cast<std::size_t>(
         std::min<std::int64_t>(count, std::max<std::int64_t>(1, space_.size() / 8)));
   }
-  Chromosome all_bits() const { return (Chromosome{1} << space_.bits()) - 1; }
 
   void evolve(const std::vector<Chromosome>& chromosomes, TileLevel level) {
     level_ = level;
@@ -82,16 +80,18 @@ class Evolution {
       population_ = std::move(next);
       select();
       descend();
-      ++effort_.generations;
+      ++generations_;
       still = population_.front().best.sum > best ? 0 : still + 1;
       if (options_.patience > 0 && still >= options_.patience) break;
     }
   }
 
   // Searches a window of one tile, where only the heading varies. Local searches from the best headings
-  // replace the generations. Stops at the first heading whose upper bound is below the best sum found.
-  void search_headings(const std::vector<Chromosome>& chromosomes, bool pooled) {
-    level_ = pooled ? TileLevel::kPooled : TileLevel::kFinest;
+  // replace the generations. Stops at the first heading whose upper bound is below the best sum found. A grid
+  // without a pyramid has no upper bounds.
+  void search_headings(const std::vector<Chromosome>& chromosomes) {
+    const bool has_bounds = lattice_.grid().has_pyramid();
+    level_ = has_bounds ? TileLevel::kPooled : TileLevel::kFinest;
     for (const Chromosome chromosome : chromosomes) population_.push_back(born(chromosome));
     std::sort(population_.begin(), population_.end(), fitter);
     population_.resize(std::min(population_.size(), size(options_.population)));
@@ -99,22 +99,17 @@ class Evolution {
     level_ = TileLevel::kFinest;
     std::uint32_t found = request_.min_sum;
     for (const Individual& seed : population_) {
-      if (pooled && seed.best.sum < found) break;
+      if (has_bounds && seed.best.sum < found) break;
       Individual one = scored(seed.chromosome);
-      if (options_.descents > 0) descend(one);
+      descend(one);
       found = std::max(found, one.best.sum);
     }
   }
 
-  Individual born(Chromosome chromosome) {
-    const Chromosome repaired = space_.repaired(chromosome);
-    ++effort_.decoded;
-    if (repaired != chromosome) ++effort_.repaired;
-    return scored(repaired);
-  }
+  Individual born(Chromosome chromosome) { return scored(space_.repaired(chromosome)); }
 
+  // Scores each chromosome at most once per level.
   Individual scored(Chromosome chromosome) {
-    if (!options_.remember) return {chromosome, score(chromosome)};
     const auto [known, is_new] = known_.try_emplace(chromosome);
     if (is_new) known->second = score(chromosome);
     return {chromosome, known->second};
@@ -126,14 +121,13 @@ class Evolution {
     return best;
   }
 
-  // Keeps the fittest individuals up to the size of the population. With niches, keeps only one individual
-  // per neighbourhood.
+  // Keeps the fittest individuals up to the size of the population, at most one per neighbourhood.
   void select() {
     std::sort(population_.begin(), population_.end(), fitter);
     std::vector<Individual> kept;
     for (const Individual& one : population_) {
       if (kept.size() == size(options_.population)) break;
-      if (!options_.niches || !crowded(one, kept)) kept.push_back(one);
+      if (!crowded(one, kept)) kept.push_back(one);
     }
     population_ = std::move(kept);
   }
@@ -144,7 +138,7 @@ class Evolution {
   }
 
   bool near(const Candidate& a, const Candidate& b) const {
-    return std::abs(a.pose.theta - b.pose.theta) <= options_.heading_stride &&
+    return std::abs(a.pose.theta - b.pose.theta) <= kHeadingStride &&
            std::abs(a.pose.x - b.pose.x) <= WindowTiles::kSide &&
            std::abs(a.pose.y - b.pose.y) <= WindowTiles::kSide;
   }
@@ -158,7 +152,7 @@ class Evolution {
     while (children.size() < size(options_.children)) {
       Chromosome a = population_[wheel.spin(random_)].chromosome;
       Chromosome b = population_[wheel.spin(random_)].chromosome;
-      if (draw_unit(random_) < options_.crossover_rate)
+      if (draw_unit(random_) < kCrossoverRate)
         std::tie(a, b) = two_point_crossover(a, b, space_.bits(), random_);
       for (const Chromosome child : {a, b})
         children.push_back(born(mutate(child, space_.bits(), options_.mutation_rate, random_)));
@@ -169,13 +163,13 @@ class Evolution {
   // Improves the best individuals by a pattern search along the heading. Each chromosome takes over the
   // heading found (Lamarckian evolution).
   void descend() {
-    const std::size_t count = std::min(population_.size(), size(options_.descents));
+    const std::size_t count = std::min(population_.size(), size(kDescents));
     for (std::size_t i = 0; i < count; ++i) descend(population_[i]);
     std::sort(population_.begin(), population_.end(), fitter);
   }
 
   void descend(Individual& one) {
-    for (int step = std::max(1, options_.heading_stride / 2); step >= 1;)
+    for (int step = kHeadingStride / 2; step >= 1;)
       if (!turn_if_fitter(one, step) && !turn_if_fitter(one, -step)) step /= 2;
   }
 
@@ -196,7 +190,7 @@ class Evolution {
               [](const Candidate& a, const Candidate& b) { return a.better_than(b); });
     std::vector<Candidate> best;
     for (const Candidate& one : ranked) {
-      if (best.size() >= static_cast<std::size_t>(options_.polished)) break;
+      if (best.size() >= kPolished) break;
       if (std::none_of(best.begin(), best.end(), [&](const Candidate& other) { return near(one, other); }))
         best.push_back(one);
     }
@@ -219,7 +213,7 @@ class Evolution {
   FoundPeaks finish() {
     FoundPeaks peaks;
     peaks.evaluations = scorer_.evaluations();
-    peaks.genetic = effort_;
+    peaks.generations = generations_;
     pick_peaks(scored_, request_, peaks);
     return peaks;
   }
@@ -235,29 +229,26 @@ class Evolution {
   std::vector<Individual> population_;
   std::unordered_map<Chromosome, Candidate> known_;
   std::vector<Candidate> scored_;  // candidates scored on the finest level
-  GeneticEffort effort_;
+  int generations_ = 0;
 };
 
 }  // namespace
 
 FoundPeaks evolve_tiles(const SearchLattice& lattice, const TileSpace& space,
-                        const std::vector<Chromosome>& first_generation, bool pooled,
-                        const PeakRequest& request, const MemeticGeneticOptions& options, Random& random) {
-  return Evolution(lattice, space, request, options, random).run(first_generation, pooled);
+                        const std::vector<Chromosome>& first_generation, const PeakRequest& request,
+                        const MemeticGeneticOptions& options, Random& random) {
+  return Evolution(lattice, space, request, options, random).run(first_generation);
 }
 
 FoundPeaks memetic_search(const SearchLattice& lattice, const PeakRequest& request,
                           const MemeticGeneticOptions& options) {
-  const WindowTiles tiles(lattice.window(), options.gray_code);
+  const WindowTiles tiles(lattice.window());
   const bool one_block = tiles.columns() * tiles.rows() == 1;
   if (!one_block && !lattice.grid().has_pyramid())
     throw std::invalid_argument("the memetic search needs the score grid's pyramid");
   Random random = random_for(request.seed);
-  Seeds seeds;
-  if (options.seed_coarse) seeds = coarse_seeds(lattice, tiles, options, random);
-  FoundPeaks peaks =
-      evolve_tiles(lattice, tiles, seeds.chromosomes, options.pooled_fitness && lattice.grid().has_pyramid(),
-                   request, options, random);
+  const Seeds seeds = coarse_seeds(lattice, tiles, options, random);
+  FoundPeaks peaks = evolve_tiles(lattice, tiles, seeds.chromosomes, request, options, random);
   peaks.evaluations += seeds.evaluations;
   return peaks;
 }

@@ -26,7 +26,7 @@ class Search {
       population = offspring(population);
       score(population);
     }
-    peaks_.genetic.generations = options_.generations;
+    peaks_.generations = options_.generations;
     pick_peaks(scored_, request_, peaks_);
     return peaks_;
   }
@@ -42,8 +42,6 @@ class Search {
       scored_.push_back({sum, pose});
       fitness_.push_back(lattice_.response(sum));
       ++peaks_.evaluations;
-      ++peaks_.genetic.decoded;
-      if (!code_.inside(chromosome)) ++peaks_.genetic.repaired;
     }
   }
 

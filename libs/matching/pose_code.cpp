@@ -55,8 +55,4 @@ LatticePose PoseCode::decode(Chromosome chromosome) const {
           static_cast<int>(angle(chromosome) % angles_) - n_theta_};
 }
 
-bool PoseCode::inside(Chromosome chromosome) const {
-  return position(chromosome) < positions_ && angle(chromosome) < angles_;
-}
-
 }  // namespace psi_slam

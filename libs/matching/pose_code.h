@@ -39,9 +39,6 @@ class PoseCode {
   /// Decodes any bits() bits: codes outside the window are replaced by their remainder.
   LatticePose decode(Chromosome chromosome) const;
 
-  /// Returns whether the chromosome is a code of the window; decode() repairs all others.
-  bool inside(Chromosome chromosome) const;
-
  private:
   std::uint64_t position(Chromosome chromosome) const;
   std::uint64_t angle(Chromosome chromosome) const;

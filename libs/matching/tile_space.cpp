@@ -19,14 +19,14 @@ Chromosome from_gray(Chromosome gray) {
   return gray;
 }
 
-Chromosome code_of(std::size_t number, bool gray) {
-  return gray ? number ^ (number >> 1) : number;
+Chromosome to_gray(std::size_t number) {
+  return number ^ (number >> 1);
 }
 
 // Decodes the number in the bits [first, first + bits). Takes it modulo `count`.
-int number_in(Chromosome chromosome, int first, int bits, std::size_t count, bool gray) {
+int number_in(Chromosome chromosome, int first, int bits, std::size_t count) {
   const Chromosome code = (chromosome >> first) & ((Chromosome{1} << bits) - 1);
-  return static_cast<int>((gray ? from_gray(code) : code) % count);
+  return static_cast<int>(from_gray(code) % count);
 }
 
 int ceil_divide(int a, int b) {
@@ -35,7 +35,7 @@ int ceil_divide(int a, int b) {
 
 }  // namespace
 
-WindowTiles::WindowTiles(const SearchWindow& window, bool gray) : window_(window), gray_(gray) {
+WindowTiles::WindowTiles(const SearchWindow& window) : window_(window) {
   const int width = 2 * window.n_x + 1;
   const int height = 2 * window.n_y + 1;
   const bool one_block = width <= kWhole && height <= kWhole;
@@ -49,14 +49,14 @@ WindowTiles::WindowTiles(const SearchWindow& window, bool gray) : window_(window
 }
 
 Chromosome WindowTiles::encode(int theta, int column, int row) const {
-  return code_of(static_cast<std::size_t>(theta + window_.n_theta), gray_) |
-         (code_of(static_cast<std::size_t>(column), gray_) << theta_bits_) |
-         (code_of(static_cast<std::size_t>(row), gray_) << (theta_bits_ + column_bits_));
+  return to_gray(static_cast<std::size_t>(theta + window_.n_theta)) |
+         (to_gray(static_cast<std::size_t>(column)) << theta_bits_) |
+         (to_gray(static_cast<std::size_t>(row)) << (theta_bits_ + column_bits_));
 }
 
 WindowTiles::Place WindowTiles::decode(Chromosome chromosome) const {
   const auto number = [&](int first, int bits, int count) {
-    return number_in(chromosome, first, bits, static_cast<std::size_t>(count), gray_);
+    return number_in(chromosome, first, bits, static_cast<std::size_t>(count));
   };
   return {number(0, theta_bits_, turns()) - window_.n_theta, number(theta_bits_, column_bits_, columns_),
           number(theta_bits_ + column_bits_, row_bits_, rows_)};
@@ -84,35 +84,32 @@ std::optional<Chromosome> WindowTiles::turned(Chromosome chromosome, int steps) 
   return encode(theta, place.column, place.row);
 }
 
-CellTiles::CellTiles(const SearchWindow& window, std::vector<Tile> cells, int turns, bool gray)
+CellTiles::CellTiles(const SearchWindow& window, std::vector<Tile> cells)
     : window_(window),
       cells_(std::move(cells)),
-      turns_(turns),
-      gray_(gray),
-      turn_bits_(bits_for(static_cast<std::size_t>(turns))),
+      turn_bits_(bits_for(kHeadingStride)),
       cell_bits_(bits_for(cells_.size())) {}
 
 Chromosome CellTiles::encode(std::size_t cell) const {
-  return encode(Place{cell, turns_ / 2});
+  return encode(Place{cell, kHeadingStride / 2});
 }
 
 Chromosome CellTiles::encode(const Place& place) const {
-  return code_of(static_cast<std::size_t>(place.turn), gray_) | (code_of(place.cell, gray_) << turn_bits_);
+  return to_gray(static_cast<std::size_t>(place.turn)) | (to_gray(place.cell) << turn_bits_);
 }
 
 // Decodes a cell and a heading. Limits the heading to the window.
 CellTiles::Place CellTiles::decode(Chromosome chromosome) const {
-  const auto cell =
-      static_cast<std::size_t>(number_in(chromosome, turn_bits_, cell_bits_, cells_.size(), gray_));
-  const int turn = number_in(chromosome, 0, turn_bits_, static_cast<std::size_t>(turns_), gray_);
-  const int first = cells_[cell].theta - turns_ / 2;
+  const auto cell = static_cast<std::size_t>(number_in(chromosome, turn_bits_, cell_bits_, cells_.size()));
+  const int turn = number_in(chromosome, 0, turn_bits_, kHeadingStride);
+  const int first = cells_[cell].theta - kHeadingStride / 2;
   return {cell, std::clamp(first + turn, -window_.n_theta, window_.n_theta) - first};
 }
 
 Tile CellTiles::tile(Chromosome chromosome) const {
   const Place place = decode(chromosome);
   Tile tile = cells_[place.cell];
-  tile.theta += place.turn - turns_ / 2;
+  tile.theta += place.turn - kHeadingStride / 2;
   return tile;
 }
 
@@ -123,8 +120,8 @@ Chromosome CellTiles::repaired(Chromosome chromosome) const {
 std::optional<Chromosome> CellTiles::turned(Chromosome chromosome, int steps) const {
   const Place place = decode(chromosome);
   const int turn = place.turn + steps;
-  const int theta = cells_[place.cell].theta + turn - turns_ / 2;
-  if (turn < 0 || turn >= turns_ || std::abs(theta) > window_.n_theta) return std::nullopt;
+  const int theta = cells_[place.cell].theta + turn - kHeadingStride / 2;
+  if (turn < 0 || turn >= kHeadingStride || std::abs(theta) > window_.n_theta) return std::nullopt;
   return encode(Place{place.cell, turn});
 }
 

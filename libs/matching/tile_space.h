@@ -11,6 +11,9 @@
 
 namespace psi_slam {
 
+/// Angular steps between the headings of coarse searches, and headings of a coarse cell.
+inline constexpr int kHeadingStride = 4;
+
 /// All shifts of a block at one heading. The sum kernel scores a tile at little more than the cost of one
 /// pose.
 struct Tile {
@@ -18,7 +21,7 @@ struct Tile {
   ShiftBlock block;
 };
 
-/// A set of tiles and their chromosomes.
+/// A set of tiles and their chromosomes, in Gray code: codes of neighbours along an axis differ in one bit.
 class TileSpace {
  public:
   virtual ~TileSpace() = default;
@@ -43,9 +46,7 @@ class WindowTiles : public TileSpace {
   static constexpr int kSide = 16;   ///< side of a block in shifts: the lanes of the sum kernel
   static constexpr int kWhole = 32;  ///< a window with at most this many shifts per side is one block
 
-  /// Cuts a window into blocks. If `gray` is true, codes of neighbours along each axis differ in one bit
-  /// (Gray code).
-  WindowTiles(const SearchWindow& window, bool gray);
+  explicit WindowTiles(const SearchWindow& window);
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
@@ -72,7 +73,6 @@ class WindowTiles : public TileSpace {
   Place decode(Chromosome chromosome) const;
 
   SearchWindow window_;
-  bool gray_;
   int width_;  // width of a block, in shifts
   int height_;
   int columns_;
@@ -87,14 +87,14 @@ class WindowTiles : public TileSpace {
 /// longer.
 class CellTiles : public TileSpace {
  public:
-  /// `cells` must not be empty. A cell with the middle heading theta spans the headings [theta - turns / 2,
-  /// theta - turns / 2 + turns).
-  CellTiles(const SearchWindow& window, std::vector<Tile> cells, int turns, bool gray);
+  /// `cells` must not be empty. A cell with the middle heading theta spans the headings [theta -
+  /// kHeadingStride / 2, theta + kHeadingStride / 2).
+  CellTiles(const SearchWindow& window, std::vector<Tile> cells);
 
   /// Returns the chromosome of the middle heading of a cell.
   Chromosome encode(std::size_t cell) const;
 
-  std::int64_t size() const override { return static_cast<std::int64_t>(cells_.size()) * turns_; }
+  std::int64_t size() const override { return static_cast<std::int64_t>(cells_.size()) * kHeadingStride; }
   int bits() const override { return turn_bits_ + cell_bits_; }
   Tile tile(Chromosome chromosome) const override;
   Chromosome repaired(Chromosome chromosome) const override;
@@ -103,15 +103,13 @@ class CellTiles : public TileSpace {
  private:
   struct Place {
     std::size_t cell;
-    int turn;  // heading inside the cell, 0 .. turns - 1
+    int turn;  // heading inside the cell, 0 .. kHeadingStride - 1
   };
   Place decode(Chromosome chromosome) const;
   Chromosome encode(const Place& place) const;
 
   SearchWindow window_;
   std::vector<Tile> cells_;
-  int turns_;
-  bool gray_;
   int turn_bits_;
   int cell_bits_;
 };

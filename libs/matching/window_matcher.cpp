@@ -53,7 +53,6 @@ MatchResult WindowMatcher::match(const MatchProblem& problem) const {
   const FoundPeaks peaks = find_peaks(lattice, request);
   result.search = peaks.search;
   result.evaluations = peaks.evaluations;
-  result.genetic = peaks.genetic;
   if (!peaks.best) return result;
 
   result.found = true;

@@ -44,7 +44,7 @@ struct FoundPeaks {
   std::optional<Candidate> next;                ///< second peak; empty if none meets the conditions
   SearchKind search = SearchKind::kExhaustive;  ///< search that found `best`
   std::int64_t evaluations = 0;                 ///< number of poses scored, on all levels of the grid
-  GeneticEffort genetic;
+  int generations = 0;                          ///< of a genetic search
 };
 
 /// Selects the requested peaks from `scored`. Sets `best` and `next` of `peaks`.

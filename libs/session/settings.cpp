@@ -266,7 +266,17 @@ constexpr const char* kObsoleteOptions[] = {"map.write_print",
                                             "joint_refinement.prior_sigma_theta_deg",
                                             "joint_refinement.iterations",
                                             "joint_refinement.search_again_m",
-                                            "joint_refinement.min_points"};
+                                            "joint_refinement.min_points",
+                                            "genetic.crossover_rate",
+                                            "genetic.gray_code",
+                                            "genetic.niches",
+                                            "genetic.remember",
+                                            "genetic.pooled_fitness",
+                                            "genetic.descents",
+                                            "genetic.polished",
+                                            "genetic.seed_coarse",
+                                            "genetic.heading_stride",
+                                            "genetic.coarse_cells"};
 
 }  // namespace
 

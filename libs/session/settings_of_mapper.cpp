@@ -137,19 +137,9 @@ void describe_genetic(OptionTable& table, GeneticOptions& genetic) {
       .constant("genetic.elite", memetic.elite)
       .constant("genetic.generations", memetic.generations)
       .constant("genetic.patience", memetic.patience)
-      .constant("genetic.crossover_rate", memetic.crossover_rate)
       .constant("genetic.mutation_rate", memetic.mutation_rate)
-      .constant("genetic.gray_code", memetic.gray_code)
-      .constant("genetic.niches", memetic.niches)
-      .constant("genetic.remember", memetic.remember)
-      .constant("genetic.pooled_fitness", memetic.pooled_fitness)
-      .constant("genetic.descents", memetic.descents)
-      .constant("genetic.polished", memetic.polished)
-      .constant("genetic.seed_coarse", memetic.seed_coarse)
       .constant("genetic.seeds", memetic.seeds)
-      .constant("genetic.seed_points", memetic.seed_points)
-      .constant("genetic.heading_stride", memetic.heading_stride)
-      .constant("genetic.coarse_cells", genetic.coarse.cells);
+      .constant("genetic.seed_points", memetic.seed_points);
 }
 
 void name_evidence_of_loops(OptionTable& table, BackEndOptions& back_end) {

@@ -51,7 +51,6 @@ TEST_F(BenchApp, runs_only_the_chosen_parts) {
   const Json json = Json::parse(read_file(json_file));
   EXPECT_TRUE(json["matchers"].empty());
   EXPECT_EQ(json["windows"].size(), 24U);
-  EXPECT_FALSE(json.contains("local_maps"));
 }
 
 TEST_F(BenchApp, leaves_out_logs_without_a_trustworthy_truth) {

@@ -66,11 +66,9 @@ TEST(MatchFigures, agree_with_hand_computed_ones) {
   MatchTally tally;
   MatchResult match;
   match.evaluations = 10;
-  match.genetic = {3, 200, 50};
   tally.add(positive_case(), {true, true, false}, match, 4);
   tally.add(positive_case(), {true, false, false}, match, 1);
   match.evaluations = 70;
-  match.genetic = {3, 200, 10};
   match.search = SearchKind::kGenetic;
   tally.add(positive_case(), {false, false, false}, match, 2);
   tally.add(LoopCase(), {false, false, true}, match, 5);
@@ -88,7 +86,6 @@ TEST(MatchFigures, agree_with_hand_computed_ones) {
   EXPECT_DOUBLE_EQ(figures.time_ms.mean, 3);
   EXPECT_DOUBLE_EQ(figures.time_ms.p50, 3);
   EXPECT_DOUBLE_EQ(figures.time_ms.p95, 5);
-  EXPECT_DOUBLE_EQ(*figures.repaired_share, (2 * 50 + 3 * 10) / 1000.0);
 }
 
 TEST(MatchFigures, percentiles_are_values_at_their_ranks) {
@@ -107,7 +104,6 @@ TEST(MatchFigures, rates_without_cases_are_empty) {
   tally.add(positive_case(), {}, {}, 1);
   EXPECT_TRUE(tally.figures().success_rate);
   EXPECT_FALSE(tally.figures().false_accept_rate);
-  EXPECT_FALSE(tally.figures().repaired_share) << "no code was decoded";
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ struct Problem {
 
 TEST(CoarseCells, cover_the_window_in_the_order_of_their_sums) {
   const Problem problem;
-  const CoarseCells coarse = rank_coarse_cells(problem.lattice, 4, 1'000'000, 0);
+  const CoarseCells coarse = rank_coarse_cells(problem.lattice, 1'000'000, 0);
   ASSERT_EQ(coarse.best.size(), 6U * 5U * 4U)
       << "43 x 37 shifts in blocks of 8 x 8, and 15 headings in groups of 4";
   EXPECT_EQ(coarse.evaluations, 120);
@@ -61,8 +61,8 @@ TEST(CoarseCells, cover_the_window_in_the_order_of_their_sums) {
 
 TEST(CoarseCells, the_kept_cells_are_the_best_of_all) {
   const Problem problem;
-  const CoarseCells all = rank_coarse_cells(problem.lattice, 4, 1'000'000, 0);
-  const CoarseCells few = rank_coarse_cells(problem.lattice, 4, 9, 0);
+  const CoarseCells all = rank_coarse_cells(problem.lattice, 1'000'000, 0);
+  const CoarseCells few = rank_coarse_cells(problem.lattice, 9, 0);
   ASSERT_EQ(few.best.size(), 9U);
   for (std::size_t i = 0; i < 9; ++i) {
     EXPECT_EQ(few.best[i].theta, all.best[i].theta);
@@ -73,9 +73,9 @@ TEST(CoarseCells, the_kept_cells_are_the_best_of_all) {
 
 TEST(CoarseCells, cells_below_the_smallest_sum_are_dropped) {
   const Problem problem;
-  const CoarseCells all = rank_coarse_cells(problem.lattice, 4, 1'000'000, 0);
+  const CoarseCells all = rank_coarse_cells(problem.lattice, 1'000'000, 0);
   const std::uint32_t middle = slow_block_sum(problem.lattice, all.best[all.best.size() / 2]);
-  const CoarseCells upper = rank_coarse_cells(problem.lattice, 4, 1'000'000, middle);
+  const CoarseCells upper = rank_coarse_cells(problem.lattice, 1'000'000, middle);
   const auto reach = std::count_if(all.best.begin(), all.best.end(), [&](const Tile& cell) {
     return slow_block_sum(problem.lattice, cell) >= middle;
   });
@@ -85,7 +85,7 @@ TEST(CoarseCells, cells_below_the_smallest_sum_are_dropped) {
 // The sum of a cell is an upper bound of the sums of its poses at its middle heading.
 TEST(CoarseCells, sums_bound_the_poses_of_their_cells) {
   const Problem problem;
-  for (const Tile& cell : rank_coarse_cells(problem.lattice, 4, 20, 0).best)
+  for (const Tile& cell : rank_coarse_cells(problem.lattice, 20, 0).best)
     for (int y = 0; y < cell.block.height; y += 3)
       for (int x = 0; x < cell.block.width; x += 3)
         EXPECT_LE(slow_sum(problem.lattice, {cell.block.first.x + x, cell.block.first.y + y, cell.theta}),
@@ -97,7 +97,7 @@ TEST(CoarseCells, need_the_pyramid) {
   const ScoreGrid grid(0, 0, 0.05, 10, 10);
   const ScanPoints scan = random_points(random, 3, 1.0);
   const SearchLattice lattice(grid, scan, {0, 0, 0}, window_of_steps(1, 1, 1, 0.05));
-  EXPECT_THROW(rank_coarse_cells(lattice, 4, 10, 0), std::invalid_argument);
+  EXPECT_THROW(rank_coarse_cells(lattice, 10, 0), std::invalid_argument);
 }
 
 TEST(CoarseSeeds, of_one_block_are_evenly_spaced_headings) {
@@ -105,7 +105,7 @@ TEST(CoarseSeeds, of_one_block_are_evenly_spaced_headings) {
   const ScoreGrid grid = random_grid(random, 40, 40, 8);
   const ScanPoints scan = random_points(random, 10, 0.5);
   const SearchLattice lattice(grid, scan, {0, 0, 0}, window_of_steps(5, 5, 10, 0.05));
-  const WindowTiles tiles(lattice.window(), true);
+  const WindowTiles tiles(lattice.window());
   const Seeds seeds = coarse_seeds(lattice, tiles, {}, random);
   ASSERT_GE(seeds.chromosomes.size(), 5U);
   for (std::size_t i = 1; i < seeds.chromosomes.size(); ++i)
@@ -126,7 +126,7 @@ TEST(CoarseSeeds, are_few_and_distinct_and_one_of_the_first_is_at_the_robot) {
     const mrpt::math::TPose2D start(truth.x + 3 * share(random), truth.y + 3 * share(random),
                                     truth.phi + 0.4 * share(random));
     const SearchLattice lattice(grid, scan, start, window);
-    const WindowTiles tiles(window, true);
+    const WindowTiles tiles(window);
     MemeticGeneticOptions options;
     options.seeds = 40;
     const Seeds seeds = coarse_seeds(lattice, tiles, options, random);

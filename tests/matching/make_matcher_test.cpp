@@ -94,7 +94,6 @@ TEST_P(EveryMatcher, returns_the_response_of_its_pose_and_a_covariance) {
   EXPECT_GE(*match.ambiguity, 0);
   EXPECT_LE(*match.ambiguity, 1);
   EXPECT_GT(match.evaluations, 0);
-  EXPECT_EQ(match.genetic.decoded > 0, GetParam().kind != MatcherKind::kCsm);
 }
 
 // The window of 0.3 m has fewer poses than branch and bound is worth, and it is one block of the memetic

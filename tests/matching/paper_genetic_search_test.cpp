@@ -35,10 +35,7 @@ TEST(PaperGeneticSearch, scores_each_individual_of_each_generation_once) {
   options.generations = 7;
   const FoundPeaks peaks = paper_genetic_search(room.lattice, request_of(1), options);
   EXPECT_EQ(peaks.evaluations, 31 * 7);
-  EXPECT_EQ(peaks.genetic.decoded, 31 * 7);
-  EXPECT_EQ(peaks.genetic.generations, 7);
-  EXPECT_GT(peaks.genetic.repaired, 0) << "with 20 columns, codes outside the window are common";
-  EXPECT_LT(peaks.genetic.repaired, 31 * 7);
+  EXPECT_EQ(peaks.generations, 7);
 }
 
 TEST(PaperGeneticSearch, its_best_pose_has_the_returned_sum_and_does_not_exceed_the_best) {

@@ -64,9 +64,8 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
                             1 + member_count<SearchExtent>() + member_count<LoopVerificationOptions>() +
                             member_count<ScanContextOptions>() + member_count<LoopConsensusOptions>() - 3 +
                             member_count<FinalSearchOptions>() + kOfJointRefinement;
-  const std::size_t choice = member_count<PsiOptions>() + member_count<GeneticOptions>() - 3 +
-                             member_count<PaperGeneticOptions>() + member_count<MemeticGeneticOptions>() +
-                             member_count<CoarseCellOptions>();
+  const std::size_t choice = member_count<PsiOptions>() + member_count<GeneticOptions>() - 2 +
+                             member_count<PaperGeneticOptions>() + member_count<MemeticGeneticOptions>();
   // MapperOptions has three structs and the noise of the path as members, and takes two flags of the back end
   // from elsewhere. BackEndOptions has seven structs, and takes seed, threads and their priority from
   // elsewhere.

@@ -85,7 +85,7 @@ ExactBenchmark run_exact_benchmark(const std::vector<BenchmarkLog>& logs,
   std::vector<LoopCase> negative;
   MapperOptions mapper;
   for (const BenchmarkLog& log : logs) {
-    const MappedLog mapped = map_log(log, FrontEndOptions().nodes_per_local_map, [&](double share) {
+    const MappedLog mapped = map_log(log, [&](double share) {
       observer("mapping " + log.name + ' ' + fixed_text(100 * share, 0) + " %, in all", 0, 1);
     });
     mapper = mapped.options;

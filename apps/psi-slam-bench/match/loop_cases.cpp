@@ -109,21 +109,15 @@ void draw(const MappedLog& log, const CaseOptions& options, bool positive, std::
 
 }  // namespace
 
-MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
-                  const std::function<void(double)>& progress) {
+MappedLog map_log(const BenchmarkLog& log, const std::function<void(double)>& progress) {
   const Settings settings = benchmark_settings(log.ini);
   MappedLog mapped;
   mapped.name = log.name;
   mapped.options = settings.mapper;
-  FrontEndOptions& front_end = mapped.options.front_end;
-  front_end.local_map_travel_m *=
-      static_cast<double>(nodes_per_local_map) / static_cast<double>(front_end.nodes_per_local_map);
-  front_end.nodes_per_local_map = nodes_per_local_map;
-
   const std::unique_ptr<FrameSource> source = open_log(log.log, log_options(settings));
   Mapper mapper(mapped.options);
   // A second front end repeats the work of the mapper, whose local maps are not accessible.
-  FrontEnd places(front_end);
+  FrontEnd places(mapped.options.front_end);
   const auto keep = [&mapped](const std::vector<PlacedLocalMap>& finished) {
     for (const PlacedLocalMap& local_map : finished) remember_local_map(local_map, mapped.memory);
   };

@@ -29,11 +29,9 @@ struct MappedLog {
   double translation_error_m = 0;               ///< mean over the relations
 };
 
-/// Maps a log with relations. Local maps get `nodes_per_local_map` nodes, and a path of proportional length.
-/// Calls `progress` with the share of the log that is read. Throws UserError as open_log() and
-/// read_relations().
-MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
-                  const std::function<void(double)>& progress);
+/// Maps a log with relations. Calls `progress` with the share of the log that is read. Throws UserError as
+/// open_log() and read_relations().
+MappedLog map_log(const BenchmarkLog& log, const std::function<void(double)>& progress);
 
 struct CaseOptions {
   double window_m = 8;  ///< half-width of the search window

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <numeric>
 
 #include "base/number_text.h"
@@ -28,47 +27,19 @@ std::optional<double> share(std::size_t part, std::size_t all) {
   return static_cast<double>(part) / static_cast<double>(all);
 }
 
-/// The memetic genetic search with one of its steps switched off.
-struct Ablation {
-  const char* name;
-  void (*apply)(MemeticGeneticOptions&);
-};
-
-constexpr Ablation kAblations[] = {
-    {"ga without sparse search", [](MemeticGeneticOptions& options) { options.seed_coarse = false; }},
-    {"ga without generations", [](MemeticGeneticOptions& options) { options.generations = 0; }},
-    {"ga without crossover", [](MemeticGeneticOptions& options) { options.crossover_rate = 0; }},
-    {"ga without elite", [](MemeticGeneticOptions& options) { options.elite = 0; }},
-    {"ga without Gray code", [](MemeticGeneticOptions& options) { options.gray_code = false; }},
-    {"ga without niches", [](MemeticGeneticOptions& options) { options.niches = false; }},
-    {"ga without memory", [](MemeticGeneticOptions& options) { options.remember = false; }},
-    {"ga without pooled fitness", [](MemeticGeneticOptions& options) { options.pooled_fitness = false; }},
-    {"ga without descents", [](MemeticGeneticOptions& options) { options.descents = 0; }},
-    {"ga without polish", [](MemeticGeneticOptions& options) { options.polished = 0; }},
-    {"ga without early stop", [](MemeticGeneticOptions& options) { options.patience = 0; }},
-};
-
-const std::size_t kUsualNodesPerLocalMap = FrontEndOptions().nodes_per_local_map;
-constexpr std::size_t kFewerCases = 5;  // series over window and map sizes draw a fifth of the cases
+constexpr std::size_t kFewerCases = 5;  // series over window sizes draw a fifth of the cases
 
 std::string md5_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return mrpt::system::md5(std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
-MatchSeries make_series(std::string title, const MatchBenchmarkOptions& options,
-                        CandidateSet set = CandidateSet::kAll) {
+MatchSeries make_series(std::string title, const MatchBenchmarkOptions& options) {
   MatchSeries series;
-  series.set = set;
   series.title = std::move(title);
   series.cases.count = options.cases;
   series.cases.seed = options.seed;
   return series;
-}
-
-MatchBenchmarkOptions with_fewer_cases(MatchBenchmarkOptions options) {
-  options.cases = std::max<std::size_t>(1, options.cases / kFewerCases);
-  return options;
 }
 
 MatchBenchmark plan(const MatchBenchmarkOptions& options) {
@@ -77,27 +48,15 @@ MatchBenchmark plan(const MatchBenchmarkOptions& options) {
   benchmark.contexts = make_series("Scans with their context", options);
   benchmark.contexts.cases.context = true;
   if (options.has(kWindowsPart)) benchmark.windows = plan_windows(options);
-  if (!options.has(kLocalMapsPart)) return benchmark;
-  for (const std::size_t nodes :
-       {kUsualNodesPerLocalMap / 2, kUsualNodesPerLocalMap, 2 * kUsualNodesPerLocalMap}) {
-    MatchSeries series =
-        make_series(std::to_string(nodes) + " nodes", with_fewer_cases(options), CandidateSet::kMatchers);
-    series.nodes_per_local_map = nodes;
-    benchmark.local_maps.push_back(std::move(series));
-  }
   return benchmark;
 }
 
-/// All series by the number of nodes of their local maps. A log is mapped once for each number.
-std::map<std::size_t, std::vector<MatchSeries*>> series_by_nodes(MatchBenchmark& benchmark,
-                                                                 const MatchBenchmarkOptions& options) {
-  std::map<std::size_t, std::vector<MatchSeries*>> result;
-  const auto add = [&result](MatchSeries& series) { result[series.nodes_per_local_map].push_back(&series); };
-  if (options.has(kScansPart)) add(benchmark.scans);
-  if (options.has(kContextsPart)) add(benchmark.contexts);
-  for (MatchSeries& series : benchmark.windows) add(series);
-  for (MatchSeries& series : benchmark.local_maps) add(series);
-  return result;
+std::vector<MatchSeries*> chosen_series(MatchBenchmark& benchmark, const MatchBenchmarkOptions& options) {
+  std::vector<MatchSeries*> chosen;
+  if (options.has(kScansPart)) chosen.push_back(&benchmark.scans);
+  if (options.has(kContextsPart)) chosen.push_back(&benchmark.contexts);
+  for (MatchSeries& series : benchmark.windows) chosen.push_back(&series);
+  return chosen;
 }
 
 /// Clause about missing cases, such as "TITLE: the log has only 3 of 250 positive cases"; empty if none is
@@ -129,47 +88,45 @@ TimeFigures time_figures(std::vector<double> times_ms) {
 
 /// Number of matches of all series on one log.
 double planned_matches(const std::vector<MatchSeries*>& all_series) {
+  const auto candidates = static_cast<double>(match_candidates(MapperOptions()).size());
   double matches = 0;
   for (const MatchSeries* series : all_series)
-    matches += 2 * static_cast<double>(series->cases.count) *
-               static_cast<double>(match_candidates(series->set, MapperOptions()).size());
+    matches += 2 * static_cast<double>(series->cases.count) * candidates;
   return matches;
 }
 
-/// Maps a log with local maps of one size, and runs all series with such maps. Calls `progress` with what is
-/// being done and the number of matches made.
-void run_log(const BenchmarkLog& log, std::size_t nodes, const std::vector<MatchSeries*>& all_series,
-             LogNote& note, const std::function<void(const std::string& doing, double matches)>& progress) {
-  const bool usual = nodes == kUsualNodesPerLocalMap;
-  const std::string of_maps = usual ? "" : " with local maps of " + std::to_string(nodes) + " nodes";
-  const MappedLog mapped = map_log(log, nodes, [&](double share) {
-    progress("mapping " + log.name + of_maps + ' ' + fixed_text(100 * share, 0) + " %, in all", 0);
+/// Maps a log and runs all series on it. Calls `progress` with what is being done and the number of matches
+/// made.
+void run_log(const BenchmarkLog& log, const std::vector<MatchSeries*>& all_series, LogNote& note,
+             const std::function<void(const std::string& doing, double matches)>& progress) {
+  const MappedLog mapped = map_log(log, [&](double share) {
+    progress("mapping " + log.name + ' ' + fixed_text(100 * share, 0) + " %, in all", 0);
   });
-  if (usual) note.translation_error_m = mapped.translation_error_m;
+  note.translation_error_m = mapped.translation_error_m;
   if (mapped.translation_error_m > kTrustedError_m) {
-    if (usual) note.used = false;
-    add_remark(note, "left out" + of_maps + ": the error of its map over the relations, " +
+    note.used = false;
+    add_remark(note, "left out: the error of its map over the relations, " +
                          fixed_text(mapped.translation_error_m, 3) + " m, is too large for a truth");
     return;
   }
+  const std::vector<MatchCandidate> candidates = match_candidates(mapped.options);
   double matches = 0;
   for (MatchSeries* series : all_series) {
     const std::vector<LoopCase> cases = draw_cases(mapped, series->cases);
     const auto positive = static_cast<std::size_t>(
         std::count_if(cases.begin(), cases.end(), [](const LoopCase& one) { return one.positive; }));
     const std::size_t negative = cases.size() - positive;
-    if (series == all_series.front() && usual) {
+    if (series == all_series.front()) {
       note.positive = positive;
       note.negative = negative;
     }
     const std::string missing = missing_cases(positive, negative, *series);
     if (!missing.empty()) add_remark(note, missing);
-    const std::vector<MatchCandidate> all_candidates = match_candidates(series->set, mapped.options);
     const auto& verification = mapped.options.back_end.loop_closure.verification;
-    run_cases(cases, all_candidates,
+    run_cases(cases, candidates,
               series->cases.context ? verification.min_context_response : verification.min_response, *series,
               [&] {
-                matches += static_cast<double>(all_candidates.size());
+                matches += static_cast<double>(candidates.size());
                 progress(log.name + ", " + series->title, matches);
               });
   }
@@ -182,13 +139,14 @@ bool MatchBenchmarkOptions::has(const char* part) const {
 }
 
 std::vector<MatchSeries> plan_windows(const MatchBenchmarkOptions& options) {
+  MatchBenchmarkOptions fewer = options;
+  fewer.cases = std::max<std::size_t>(1, options.cases / kFewerCases);
   std::vector<MatchSeries> windows;
   for (const bool context : {false, true}) {
     for (const double window_deg : {30.0, 180.0}) {
       for (const double window_m : {2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
         MatchSeries series =
-            make_series("±" + fixed_text(window_m, 0) + " m, ±" + fixed_text(window_deg, 0) + "°",
-                        with_fewer_cases(options), CandidateSet::kMatchers);
+            make_series("±" + fixed_text(window_m, 0) + " m, ±" + fixed_text(window_deg, 0) + "°", fewer);
         series.cases.context = context;
         // Keeps window_m + clear_m constant, so that windows of all sizes have the same negative pairs.
         series.cases.clear_m += series.cases.window_m - window_m;
@@ -222,8 +180,6 @@ void MatchTally::add(const LoopCase& loop_case, const Judgement& judgement, cons
   false_accepts_ += judgement.false_accept ? 1 : 0;
   ++searches_[static_cast<std::size_t>(match.search)];
   evaluations_ += match.evaluations;
-  genetic_.decoded += match.genetic.decoded;
-  genetic_.repaired += match.genetic.repaired;
   (loop_case.positive ? loop_times_ms_ : no_loop_times_ms_).push_back(time_ms);
 }
 
@@ -236,8 +192,6 @@ MatchFigures MatchTally::figures() const {
   figures.success_rate = share(successes_, figures.positive);
   figures.same_optimum_rate = share(same_optima_, figures.positive);
   figures.false_accept_rate = share(false_accepts_, figures.negative);
-  if (genetic_.decoded > 0)
-    figures.repaired_share = static_cast<double>(genetic_.repaired) / static_cast<double>(genetic_.decoded);
   if (figures.cases == 0) return figures;
   figures.evaluations = static_cast<double>(evaluations_) / static_cast<double>(figures.cases);
   std::vector<double> all = loop_times_ms_;
@@ -248,30 +202,16 @@ MatchFigures MatchTally::figures() const {
   return figures;
 }
 
-std::vector<MatchCandidate> match_candidates(CandidateSet set, const MapperOptions& options) {
-  GeneticOptions genetic = options.back_end.genetic;
-  genetic.variant = GeneticVariant::kMemetic;
-  const auto make = [&options](MatcherKind kind, const GeneticOptions& how) {
-    return std::shared_ptr<const Matcher>(make_matcher(kind, options.back_end.loop_matcher, how));
-  };
-  GeneticOptions paper = genetic;
-  paper.variant = GeneticVariant::kPaper;
+std::vector<MatchCandidate> match_candidates(const MapperOptions& options) {
   std::vector<MatchCandidate> all;
-  for (const MatcherKind kind : kMatcherKinds) all.push_back({name(kind), make(kind, genetic)});
-  all.push_back({"ga_paper", make(MatcherKind::kGa, paper)});
-  if (set == CandidateSet::kMatchers) return all;
-  for (const Ablation& ablation : kAblations) {
-    GeneticOptions without = genetic;
-    ablation.apply(without.memetic);
-    all.push_back({ablation.name, make(MatcherKind::kGa, without)});
-  }
-  all.push_back({"csm_ga_paper", make(MatcherKind::kCsmGa, paper)});
-  GeneticOptions few_cells = genetic;
-  few_cells.coarse.cells = 256;
-  all.push_back({"csm_ga with 256 cells", make(MatcherKind::kCsmGa, few_cells)});
-  GeneticOptions no_generations = genetic;
-  no_generations.memetic.generations = 0;
-  all.push_back({"csm_ga without generations", make(MatcherKind::kCsmGa, no_generations)});
+  const auto add = [&](const std::string& candidate, MatcherKind kind, GeneticVariant variant) {
+    GeneticOptions genetic = options.back_end.genetic;
+    genetic.variant = variant;
+    all.push_back({candidate, make_matcher(kind, options.back_end.loop_matcher, genetic)});
+  };
+  for (const MatcherKind kind : kMatcherKinds) add(name(kind), kind, GeneticVariant::kMemetic);
+  for (const MatcherKind kind : {MatcherKind::kCsmGa, MatcherKind::kGa})
+    add(name(kind) + std::string("_paper"), kind, GeneticVariant::kPaper);
   return all;
 }
 
@@ -306,23 +246,21 @@ void run_cases(const std::vector<LoopCase>& cases, const std::vector<MatchCandid
 MatchBenchmark run_match_benchmark(const std::vector<BenchmarkLog>& logs,
                                    const MatchBenchmarkOptions& options, const ProgressObserver& observer) {
   MatchBenchmark benchmark = plan(options);
-  const auto by_nodes = series_by_nodes(benchmark, options);
-  double all = 0;  // progress counts only matches, because mapping takes much less time
-  for (const auto& [nodes, all_series] : by_nodes)
-    all += static_cast<double>(logs.size()) * planned_matches(all_series);
+  const std::vector<MatchSeries*> all_series = chosen_series(benchmark, options);
+  const double of_a_log = planned_matches(all_series);  // progress counts only matches; mapping is quicker
   double done = 0;
   for (const BenchmarkLog& log : logs) {
     LogNote& note = benchmark.logs.emplace_back();
     note.name = log.name;
     note.md5 = md5_of(log.log);
     note.used = log.relations.has_value();
-    if (!note.used) add_remark(note, "left out: it has no relations to check its map");
-    for (const auto& [nodes, all_series] : by_nodes) {
-      if (note.used)
-        run_log(log, nodes, all_series, note,
-                [&](const std::string& doing, double matches) { observer(doing, done + matches, all); });
-      done += planned_matches(all_series);
-    }
+    if (note.used)
+      run_log(log, all_series, note, [&](const std::string& doing, double matches) {
+        observer(doing, done + matches, static_cast<double>(logs.size()) * of_a_log);
+      });
+    else
+      add_remark(note, "left out: it has no relations to check its map");
+    done += of_a_log;
   }
   if (std::none_of(benchmark.logs.begin(), benchmark.logs.end(), [](const LogNote& log) { return log.used; }))
     throw UserError("no log can be used: " + benchmark.logs.front().name + " was " +

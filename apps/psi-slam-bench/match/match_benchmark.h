@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares matchers: the matchers of the settings, the genetic search of the paper, and genetic searches with
-// one step switched off. Runs every candidate on every case.
+// Compares the matchers, each genetic one with both genetic searches. Runs every candidate on every case.
 #pragma once
 
 #include <array>
@@ -57,8 +56,6 @@ struct MatchFigures {
   TimeFigures time_ms;          ///< over all cases
   TimeFigures loop_time_ms;     ///< over the positive cases
   TimeFigures no_loop_time_ms;  ///< over the negative cases
-  /// Share of the decoded chromosomes that lay outside the window; empty for matchers without chromosomes.
-  std::optional<double> repaired_share;
 };
 
 /// Sums up the figures of a matcher over the cases.
@@ -75,7 +72,6 @@ class MatchTally {
   std::size_t false_accepts_ = 0;
   std::array<std::size_t, kSearchKinds.size()> searches_{};
   std::int64_t evaluations_ = 0;
-  GeneticEffort genetic_;
   std::vector<double> loop_times_ms_;     // one for each positive case
   std::vector<double> no_loop_times_ms_;  // one for each negative case
 };
@@ -86,20 +82,14 @@ struct MatchCandidate {
   std::shared_ptr<const Matcher> matcher;
 };
 
-enum class CandidateSet {
-  kAll,       ///< all matchers and all ablations
-  kMatchers,  ///< csm, csm_ga, ga and ga_paper
-};
-
-/// Makes the candidates. The first is exact CSM, with which all other candidates are compared.
-std::vector<MatchCandidate> match_candidates(CandidateSet set, const MapperOptions& options);
+/// Makes the candidates: csm, csm_ga and ga, then the last two with the genetic search of the paper. The
+/// first is exact CSM, with which all others are compared.
+std::vector<MatchCandidate> match_candidates(const MapperOptions& options);
 
 /// Cases of one kind, drawn from every log: one table of the report.
 struct MatchSeries {
   std::string title;
   CaseOptions cases;
-  std::size_t nodes_per_local_map = FrontEndOptions().nodes_per_local_map;
-  CandidateSet set = CandidateSet::kAll;
 
   struct Row {
     std::string matcher;
@@ -112,7 +102,6 @@ struct MatchSeries {
 inline constexpr const char* kScansPart = "scans";
 inline constexpr const char* kContextsPart = "contexts";
 inline constexpr const char* kWindowsPart = "windows";  ///< scans and contexts over sizes of the window
-inline constexpr const char* kLocalMapsPart = "local-maps";
 
 struct MatchBenchmarkOptions {
   std::size_t cases = 250;  ///< number of positive cases from each log, and of negative cases
@@ -135,10 +124,9 @@ struct LogNote {
 
 struct MatchBenchmark {
   std::vector<LogNote> logs;
-  MatchSeries scans;                    ///< without rows if the part was not run
-  MatchSeries contexts;                 ///< without rows if the part was not run
-  std::vector<MatchSeries> windows;     ///< one for each size of the window, see plan_windows(); may be empty
-  std::vector<MatchSeries> local_maps;  ///< one for each number of nodes of a local map; may be empty
+  MatchSeries scans;                 ///< without rows if the part was not run
+  MatchSeries contexts;              ///< without rows if the part was not run
+  std::vector<MatchSeries> windows;  ///< one for each size of the window, see plan_windows(); may be empty
 };
 
 /// The series over sizes of the window: single scans, then scans with their context; for each of them windows
@@ -159,9 +147,8 @@ MatchBenchmark run_match_benchmark(const std::vector<BenchmarkLog>& logs,
                                    const MatchBenchmarkOptions& options, const ProgressObserver& observer);
 
 /// The report of the `match` command. JSON has the rows of the single scans as "matchers", and those of scans
-/// with their context as "context", over window sizes as "windows" and over sizes of local maps as
-/// "local_maps". A rate without cases is null. CSV has the rows of all series. The plots show the mean time
-/// over the half-width of the window and over the size of the local maps.
+/// with their context as "context" and over window sizes as "windows". A rate without cases is null. CSV has
+/// the rows of all series. The plots show the mean time over the half-width of the window.
 BenchReport match_report(const MatchBenchmark& benchmark, const MatchBenchmarkOptions& options,
                          const std::string& machine);
 

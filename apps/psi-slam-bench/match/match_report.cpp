@@ -93,7 +93,6 @@ ReportTable table_of_series(const std::vector<MatchSeries>& all_series, const st
        no_loop_time("mean", &TimeFigures::mean),
        no_loop_time("p99", &TimeFigures::p99),
        no_loop_time("max", &TimeFigures::max),
-       share("repaired %", "repaired_share", &MatchFigures::repaired_share),
        {{"search that ran", "searches", true},
         [](const Row& row) { return searches_cell(row.figures.searches); }}},
       rows_of(all_series));
@@ -165,12 +164,6 @@ std::string windows_text(const MatchBenchmark& benchmark) {
   return text;
 }
 
-std::string sizes_text(const std::string& title, const std::string& series_head, const std::string& note,
-                       const std::vector<MatchSeries>& sizes) {
-  if (sizes.empty()) return {};
-  return "## " + title + "\n\n" + note + "\n\n" + table_of_series(sizes, series_head).markdown() + '\n';
-}
-
 ReportTable logs_table(const std::vector<LogNote>& logs) {
   using Log = LogNote;
   return table_of<Log>({column("log", "name", &Log::name),
@@ -193,40 +186,25 @@ ReportTable logs_table(const std::vector<LogNote>& logs) {
                        logs);
 }
 
-Json repaired_json(const MatchSeries& series) {
-  Json shares = Json::object();
-  for (const CandidateRow& row : rows_of({series}))
-    if (const auto& share = row.figures.repaired_share) shares[row.matcher] = rounded(share, 6);
-  return shares;
-}
-
-Json sizes_json(const std::vector<MatchSeries>& sizes) {
+Json windows_json(const std::vector<MatchSeries>& windows) {
   Json list = Json::array();
-  for (const MatchSeries& series : sizes)
+  for (const MatchSeries& series : windows)
     list.push_back({{"window_m", series.cases.window_m},
                     {"window_deg", rounded(series.cases.window_rad * 180 / M_PI, 6)},
                     {"context", series.cases.context},
-                    {"nodes_per_local_map", series.nodes_per_local_map},
                     {"matchers", table_of_series({series}, {}).json()}});
   return list;
 }
 
 /// Adds a label for each of the series, and the mean times of each matcher at these labels as a line.
-void add_times(const std::vector<MatchSeries>& sizes, GrowthPlot& plot) {
-  for (const MatchSeries& series : sizes) {
+void add_times(const std::vector<MatchSeries>& windows, GrowthPlot& plot) {
+  for (const MatchSeries& series : windows) {
     plot.labels.push_back(series.title);
     for (std::size_t i = 0; i < series.rows.size(); ++i) {
       if (plot.lines.size() <= i) plot.lines.push_back({series.rows[i].matcher, {}});
       plot.lines[i].values.push_back(spread_of({series.rows[i].tally.figures().time_ms.mean}));
     }
   }
-}
-
-std::string time_plot(const std::string& title, const std::vector<MatchSeries>& sizes) {
-  GrowthPlot plot;
-  plot.title = title;
-  add_times(sizes, plot);
-  return growth_svg(plot);
 }
 
 /// Plot of the windows of +-180 degrees, with those of +-30 degrees as faint lines.
@@ -266,13 +244,9 @@ std::string markdown_of(const MatchBenchmark& benchmark, const MatchBenchmarkOpt
       "closing would accept before it verifies the match\n"
       "- search that ran: matchers choose it by the size of the window; see matchers.md for the names\n"
       "- evaluations: mean number of poses scored, on all levels of the score grid; times are processor "
-      "times over all cases\n"
-      "- repaired: share of the codes decoded to poses that lay outside the window\n\n" +
+      "times over all cases\n\n" +
       logs_table(benchmark.logs).markdown() + '\n';
-  text += series_text(benchmark.scans) + series_text(benchmark.contexts);
-  text += windows_text(benchmark);
-  text += sizes_text("Sizes of local maps", "local maps of", "Every log is mapped with each size.",
-                     benchmark.local_maps);
+  text += series_text(benchmark.scans) + series_text(benchmark.contexts) + windows_text(benchmark);
   text.pop_back();
   return text;
 }
@@ -286,10 +260,8 @@ Json json_of(const MatchBenchmark& benchmark, const MatchBenchmarkOptions& optio
                            {"window_m", cases.window_m},
                            {"window_deg", rounded(cases.window_rad * 180 / M_PI, 6)},
                            {"logs", logs_table(benchmark.logs).json()},
-                           {"repaired_share", repaired_json(benchmark.scans)},
                            {"context", {{"matchers", table_of_series({benchmark.contexts}, {}).json()}}}}));
-  if (!benchmark.windows.empty()) json["windows"] = sizes_json(benchmark.windows);
-  if (!benchmark.local_maps.empty()) json["local_maps"] = sizes_json(benchmark.local_maps);
+  if (!benchmark.windows.empty()) json["windows"] = windows_json(benchmark.windows);
   return json;
 }
 
@@ -299,7 +271,6 @@ BenchReport match_report(const MatchBenchmark& benchmark, const MatchBenchmarkOp
                          const std::string& machine) {
   std::vector<MatchSeries> all_series{benchmark.scans, benchmark.contexts};
   all_series.insert(all_series.end(), benchmark.windows.begin(), benchmark.windows.end());
-  all_series.insert(all_series.end(), benchmark.local_maps.begin(), benchmark.local_maps.end());
   BenchReport report{"match.md",
                      markdown_of(benchmark, options, machine),
                      json_file_text(json_of(benchmark, options, machine)),
@@ -311,10 +282,6 @@ BenchReport match_report(const MatchBenchmark& benchmark, const MatchBenchmarkOp
           {context ? "match-windows-context.svg" : "match-windows.svg",
            windows_plot(windows, std::string("Mean time of a match by its window (faint: ±30°), ") +
                                      (context ? "scans with context" : "single scans"))});
-  if (!benchmark.local_maps.empty())
-    report.plots.push_back(
-        {"match-local-maps.svg",
-         time_plot("Mean time of a match over the size of the local map", benchmark.local_maps)});
   return report;
 }
 

@@ -50,8 +50,8 @@ std::vector<CandidateRow> rows_of(const std::vector<MatchSeries>& all_series) {
   return rows;
 }
 
-/// The table of several series; `series_head` is the head of the column that names them.
-ReportTable table_of_series(const std::vector<MatchSeries>& all_series, const std::string& series_head) {
+/// The table of several series, whose names only JSON and CSV have.
+ReportTable table_of_series(const std::vector<MatchSeries>& all_series) {
   using Row = CandidateRow;
   const auto share = [](const std::string& head, const std::string& key,
                         std::optional<double> MatchFigures::*value) {
@@ -72,7 +72,7 @@ ReportTable table_of_series(const std::vector<MatchSeries>& all_series, const st
     return time_of({}, "no_loop_time_ms." + key, &MatchFigures::no_loop_time_ms, value);
   };
   return table_of<Row>(
-      {column(series_head, "series", &Row::series),
+      {column({}, "series", &Row::series),
        column("matcher", "matcher", &Row::matcher),
        {{"cases", "cases"}, [](const Row& row) { return cell(row.figures.cases); }},
        share("success %", "success_rate", &MatchFigures::success_rate),
@@ -118,7 +118,7 @@ ReportTable against_csm(const MatchSeries& series) {
 
 std::string series_text(const MatchSeries& series) {
   if (series.rows.empty()) return {};
-  return "## " + series.title + "\n\n" + table_of_series({series}, {}).markdown() + '\n' +
+  return "## " + series.title + "\n\n" + table_of_series({series}).markdown() + '\n' +
          against_csm(series).markdown() + '\n';
 }
 
@@ -192,7 +192,7 @@ Json windows_json(const std::vector<MatchSeries>& windows) {
     list.push_back({{"window_m", series.cases.window_m},
                     {"window_deg", rounded(series.cases.window_rad * 180 / M_PI, 6)},
                     {"context", series.cases.context},
-                    {"matchers", table_of_series({series}, {}).json()}});
+                    {"matchers", table_of_series({series}).json()}});
   return list;
 }
 
@@ -254,13 +254,13 @@ std::string markdown_of(const MatchBenchmark& benchmark, const MatchBenchmarkOpt
 Json json_of(const MatchBenchmark& benchmark, const MatchBenchmarkOptions& options,
              const std::string& machine) {
   const CaseOptions& cases = benchmark.scans.cases;
-  Json json = {{"matchers", table_of_series({benchmark.scans}, {}).json()}};
+  Json json = {{"matchers", table_of_series({benchmark.scans}).json()}};
   json.update(report_json("psi-slam-match-benchmark", machine,
                           {{"seed", options.seed},
                            {"window_m", cases.window_m},
                            {"window_deg", rounded(cases.window_rad * 180 / M_PI, 6)},
                            {"logs", logs_table(benchmark.logs).json()},
-                           {"context", {{"matchers", table_of_series({benchmark.contexts}, {}).json()}}}}));
+                           {"context", {{"matchers", table_of_series({benchmark.contexts}).json()}}}}));
   if (!benchmark.windows.empty()) json["windows"] = windows_json(benchmark.windows);
   return json;
 }
@@ -274,7 +274,7 @@ BenchReport match_report(const MatchBenchmark& benchmark, const MatchBenchmarkOp
   BenchReport report{"match.md",
                      markdown_of(benchmark, options, machine),
                      json_file_text(json_of(benchmark, options, machine)),
-                     table_of_series(all_series, {}).csv(),
+                     table_of_series(all_series).csv(),
                      {}};
   for (const bool context : {false, true})
     if (const auto windows = windows_of(benchmark, context); !windows.empty())

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/exit_code.h"
-#include "base/text_parts.h"
 #include "batch/kept_run.h"
 #include "common/bench_command.h"
 #include "document_options.h"
@@ -411,15 +410,6 @@ void add_live_command(CLI::App& app, const Streams& streams) {
       });
 }
 
-/// Returns the arguments in the order that CLI11 expects, last first. Replaces old names of options.
-std::vector<std::string> for_parser(const std::vector<std::string>& arguments) {
-  constexpr std::string_view kOld = "--rival";
-  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
-  for (std::string& argument : reversed)
-    if (starts_with(argument, kOld)) argument.replace(0, kOld.size(), "--baseline");
-  return reversed;
-}
-
 }  // namespace
 
 int run_bench_app(const std::vector<std::string>& arguments, const Streams& streams) noexcept {
@@ -442,7 +432,8 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_document_options(app,
                          {{"The benchmark is complete.", "Something failed, such as a run or a full disk.",
                            "The arguments, the settings or a log are invalid or missing."}});
-    app.parse(for_parser(arguments));
+    // CLI11 expects the last argument first.
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
     return kExitDone;
   });
 }

@@ -14,7 +14,6 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr std::uint32_t kSeveralLasers = 2;  // first version with several lasers
 // Protects against damaged files, because the mapper's memory grows with it.
 constexpr std::uint32_t kMostLasers = 64;
 // Logs have bearings within two turns. The correction of a moving robot's scans turns them by half a turn
@@ -73,7 +72,7 @@ std::string sensor_bytes(const LaserScan& scan) {
   return bytes;
 }
 
-LaserScan read_sensor(ByteCursor& bytes, std::uint32_t version) {
+LaserScan read_sensor(ByteCursor& bytes) {
   LaserScan sensor;
   std::vector<float> bearings_rad = read_floats(bytes);
   if (!std::all_of(bearings_rad.begin(), bearings_rad.end(),
@@ -88,7 +87,7 @@ LaserScan read_sensor(ByteCursor& bytes, std::uint32_t version) {
     throw MalformedBytes("a laser is more than 100 m from the robot's centre");
   sensor.sweep_time_s = bytes.number<float>();
   if (!std::isfinite(sensor.sweep_time_s)) throw MalformedBytes("the sweep time of a laser is not finite");
-  if (version >= kSeveralLasers) sensor.laser = bytes.number<std::uint32_t>();
+  sensor.laser = bytes.number<std::uint32_t>();
   if (sensor.laser >= kMostLasers) throw MalformedBytes("the number of a laser is too high");
   return sensor;
 }
@@ -141,7 +140,7 @@ Frame FrameReader::read(ByteCursor& bytes) {
   frame.time_us = read_time(bytes);
   frame.odom_T_robot = read_pose(bytes);
   LaserScan& sensor = sensors_[0];
-  if ((flags & kOtherSensor) != 0) sensor = read_sensor(bytes, version_);
+  if ((flags & kOtherSensor) != 0) sensor = read_sensor(bytes);
   if (!sensor.bearings_rad) throw MalformedBytes("the first scan has no sensor description");
   frame.scan = sensor;
   read_ranges(bytes, frame.scan);
@@ -164,7 +163,7 @@ std::vector<CompanionScan> FrameReader::read_companions(ByteCursor& bytes, std::
     if (!is_possible_mount(companion.frame_T_robot))
       throw MalformedBytes("the robot moves by more than 100 m between the scans of a frame");
     LaserScan& sensor = sensors_[i + 1];
-    if (flags != 0) sensor = read_sensor(bytes, version_);
+    if (flags != 0) sensor = read_sensor(bytes);
     if (!sensor.bearings_rad) throw MalformedBytes("the first scan of a laser has no sensor description");
     companion.scan = sensor;
     if (sensor.laser <= (companions.empty() ? first_laser : companions.back().scan.laser))

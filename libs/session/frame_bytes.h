@@ -42,16 +42,12 @@ class FrameWriter {
 /// Reads the frames of a FrameWriter, in the same order.
 class FrameReader {
  public:
-  /// Reads frames of this version of the format, see kSessionVersion.
-  explicit FrameReader(std::uint32_t version) : version_(version) {}
-
   /// Reads a frame, without its number. Throws MalformedBytes if the bytes are damaged.
   Frame read(ByteCursor& bytes);
 
  private:
   std::vector<CompanionScan> read_companions(ByteCursor& bytes, std::size_t first_laser);
 
-  std::uint32_t version_;
   std::map<std::size_t, LaserScan> sensors_;  ///< see FrameWriter
 };
 

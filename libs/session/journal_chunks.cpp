@@ -89,7 +89,7 @@ SessionRecording read_journal(std::string_view bytes, const std::filesystem::pat
   const auto version =
       ByteCursor(bytes.substr(kJournalMagic.size(), sizeof(std::uint32_t))).number<std::uint32_t>();
   require_known_version(version, path);
-  SessionContentReader content(version, path, bytes.size());
+  SessionContentReader content(path, bytes.size());
   SessionRecording recording;
   std::size_t offset = 0;
   while (const auto chunk = intact_chunk(bytes, offset)) {

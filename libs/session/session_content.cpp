@@ -24,8 +24,6 @@ constexpr std::uint64_t kMemoryOfAnySession = std::uint64_t{1} << 28;
 constexpr std::uint64_t kMostBytesOfFacts = std::uint64_t{1}
                                             << 24;  // JSON takes much more memory than its text
 
-constexpr std::uint32_t kFactsOfEachLog = 3;  // first version with the damage and skipped lines of every log
-
 Json pose_json(const TPose2D& pose) {
   return Json::array({pose.x, pose.y, pose.phi});
 }
@@ -92,27 +90,25 @@ Json json_of(const SessionFacts& facts) {
 }
 
 /// Reads the damage of a log, its skipped lines, and whether scans were left unread.
-void read_faults(const Json& json, std::uint32_t version, RecordedLog& log) {
+void read_faults(const Json& json, RecordedLog& log) {
   const Json& skipped = json.at("skipped_lines");
-  log.skipped = {skipped.at("count").get<std::size_t>(), skipped.at("first").get<std::string>()};
-  if (version >= kFactsOfEachLog) log.skipped.spare_scans = skipped.at("spare_scans").get<std::size_t>();
+  log.skipped = {skipped.at("count").get<std::size_t>(), skipped.at("first").get<std::string>(),
+                 skipped.at("spare_scans").get<std::size_t>()};
   if (const auto broken_off = json.at("broken_off").get<std::string>(); !broken_off.empty())
     log.broken_off = broken_off;
   log.scans_left = json.at("scans_left").get<bool>();
 }
 
-SessionFacts facts_of(const Json& json, std::uint32_t version, const fs::path& path) {
+SessionFacts facts_of(const Json& json, const fs::path& path) {
   SessionFacts facts;
   facts.program_version = json.at("program_version").get<std::string>();
   for (const Json& log : json.at("logs")) {
     facts.logs.push_back({log.at("name").get<std::string>(), log.at("sha256").get<std::string>(),
                           log.at("scans").get<std::size_t>()});
-    if (version >= kFactsOfEachLog) read_faults(log, version, facts.logs.back());
+    read_faults(log, facts.logs.back());
     if (log.contains("calibration")) facts.logs.back().calibration = calibration_of(log.at("calibration"));
     facts.logs.back().assumptions = log.value("assumptions", std::vector<std::string>());
   }
-  // Older versions have these facts only for the last log.
-  if (version < kFactsOfEachLog && !facts.logs.empty()) read_faults(json, version, facts.logs.back());
   for (const Json& run : json.at("drives"))
     facts.runs.push_back({run.at("scan").get<std::size_t>(),
                           {run.at("node").get<std::size_t>(), pose_of(run.at("node_T_robot")),
@@ -137,7 +133,11 @@ std::string compressed(const std::string& bytes, int level) {
 }  // namespace
 
 void require_known_version(std::uint32_t version, const fs::path& path) {
-  if (version != 0 && version <= kSessionVersion) return;
+  if (version >= kOldestSessionVersion && version <= kSessionVersion) return;
+  if (version < kOldestSessionVersion)
+    throw UserError(path.string() + " is a session of version " + std::to_string(version) +
+                    ", made by a psi-slam before 0.1.0. This one reads versions from " +
+                    std::to_string(kOldestSessionVersion) + " on. Map the log again");
   throw UserError(path.string() + " is a session of version " + std::to_string(version) +
                   ", made by a newer psi-slam. This one reads versions up to " +
                   std::to_string(kSessionVersion) + ". Install the newer psi-slam");
@@ -180,11 +180,8 @@ std::string SessionContentWriter::packed(const std::string& facts, const std::ve
   return bytes += small;
 }
 
-SessionContentReader::SessionContentReader(std::uint32_t version, fs::path path, std::size_t file_bytes)
-    : frames_(version),
-      version_(version),
-      path_(std::move(path)),
-      most_memory_bytes_(kMemoryOfAnySession + kMostMemoryPerByte * file_bytes) {}
+SessionContentReader::SessionContentReader(fs::path path, std::size_t file_bytes)
+    : path_(std::move(path)), most_memory_bytes_(kMemoryOfAnySession + kMostMemoryPerByte * file_bytes) {}
 
 void SessionContentReader::count_memory(std::uint64_t bytes) {
   memory_bytes_ += std::min(bytes, most_memory_bytes_ + 1);
@@ -205,7 +202,7 @@ void SessionContentReader::add(ByteCursor& packed, SessionRecording& recording) 
                          " bytes, expected at most " + std::to_string(kMostBytesOfFacts));
   const std::string_view facts = bytes.take(size_of_facts);
   try {
-    if (!facts.empty()) recording.facts = facts_of(Json::parse(facts), version_, path_);
+    if (!facts.empty()) recording.facts = facts_of(Json::parse(facts), path_);
   } catch (const Json::exception&) {
     throw MalformedBytes("its description is not valid JSON");
   }

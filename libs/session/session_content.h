@@ -14,13 +14,14 @@
 
 namespace psi_slam {
 
-/// Version of the files that are written. Files of this and all older versions can be read.
+/// Version of the files that are written. Files of psi-slam 0.1.0, which have version 3, can be read, too.
 inline constexpr std::uint32_t kSessionVersion = 4;
+inline constexpr std::uint32_t kOldestSessionVersion = 3;
 
 /// Advice that ends the messages about damaged files.
 inline constexpr const char* kUseACopy = "Use a copy of it, or map the log again.";
 
-/// Throws UserError if this program does not know the version of the file `path`.
+/// Throws UserError if this program does not read this version of the file `path`.
 void require_known_version(std::uint32_t version, const std::filesystem::path& path);
 
 /// Throws MalformedBytes if facts and frames of a recording contradict each other.
@@ -43,8 +44,8 @@ class SessionContentWriter {
 /// Unpacks what a SessionContentWriter packed, in the same order.
 class SessionContentReader {
  public:
-  /// Reads content of this version of the format, from the file `path` of this size.
-  SessionContentReader(std::uint32_t version, std::filesystem::path path, std::size_t file_bytes);
+  /// Reads content from the file `path` of this size.
+  SessionContentReader(std::filesystem::path path, std::size_t file_bytes);
 
   /// Replaces the facts of the recording, unless the part has none, and appends its frames. Throws
   /// MalformedBytes, or UserError for malformed edits, if the bytes are damaged, and if all parts together
@@ -56,7 +57,6 @@ class SessionContentReader {
   void count_memory(std::uint64_t bytes);
 
   FrameReader frames_;
-  std::uint32_t version_;
   std::filesystem::path path_;
   std::uint64_t most_memory_bytes_;
   std::uint64_t memory_bytes_ = 0;

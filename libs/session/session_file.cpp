@@ -64,7 +64,7 @@ SessionRecording read_whole_session(std::string_view bytes, const fs::path& path
   const auto version = cursor.number<std::uint32_t>();
   require_known_version(version, path);
   SessionRecording recording;
-  SessionContentReader(version, path, bytes.size()).add(cursor, recording);
+  SessionContentReader(path, bytes.size()).add(cursor, recording);
   return recording;
 }
 

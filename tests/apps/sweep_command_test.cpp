@@ -105,9 +105,9 @@ TEST_F(SweepCommand, makes_every_run_once) {
 }
 
 TEST_F(SweepCommand, warns_once_of_an_old_option_name) {
-  const AppRun run = sweep("out", {"--set", "last_pass.passes=1"});
+  const AppRun run = sweep("out", {"--set", "log.odometry_topic=none"});
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_EQ(run.err, "psi-slam: --set: section [last_pass] was renamed; write [final_search]\n");
+  EXPECT_EQ(run.err, "psi-slam: --set: option log.odometry_topic was renamed; write log.odometry\n");
 }
 
 TEST_F(SweepCommand, runs_are_those_of_psi_slam_itself) {

@@ -240,14 +240,14 @@ TEST_F(WrongInput, mistakes_in_a_settings_file_have_file_and_line) {
 
 TEST_F(WrongInput, old_option_names_give_warnings) {
   const std::string ini = (folder_.path() / "my.ini").string();
-  write_bytes(ini, "[last_pass]\npasses = 1\n");
+  write_bytes(ini, "[log]\nodometry_topic = none\n");
   const AppRun run = run_app({"--dump-config", "-c", ini, "--set", "front_end.window_m=0.3"});
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(run.err,
             "psi-slam: " + ini +
-                ":2: section [last_pass] was renamed; write [final_search]\n"
+                ":2: option log.odometry_topic was renamed; write log.odometry\n"
                 "psi-slam: --set: front_end.window_m (always 0.15) has no effect any more; remove it\n");
-  EXPECT_THAT(run.out, AllOf(HasSubstr("\npasses = 1\n"), Not(HasSubstr("window_m"))));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("\nodometry = none\n"), Not(HasSubstr("\nwindow_m"))));
 }
 
 TEST_F(WrongInput, mistakes_in_overrides_name_the_option) {

@@ -119,8 +119,6 @@ TEST_F(FreiburgCommand, wrong_usage_and_input_give_one_sentence_and_exit_code_2)
   EXPECT_THAT(refusal({"--seeds", "0"}), HasSubstr("--seeds"));
   EXPECT_THAT(refusal({"--seeds", "-1"}), HasSubstr("--seeds"));
   EXPECT_THAT(refusal({"--baseline-limit-s", "5"}), HasSubstr("--baselines"));
-  EXPECT_THAT(refusal({"--rivals", "--rival-limit-s", "0"}), HasSubstr("--baseline-limit-s"))
-      << "the old names";
   EXPECT_THAT(refusal({"--baselines", "--baseline-limit-s", "0"}), HasSubstr("--baseline-limit-s"));
   EXPECT_THAT(refusal({"--processes", "0"}), HasSubstr("--processes"));
   EXPECT_THAT(refusal({"--threads", "some"}), HasSubstr("--threads"));

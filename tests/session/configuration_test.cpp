@@ -65,10 +65,10 @@ TEST(Configuration, copies_are_independent) {
 
 TEST(Configuration, warns_about_old_names) {
   Configuration configuration;
-  configuration.set("last_pass.passes", "1");
-  EXPECT_EQ(configuration.value("final_search.passes"), "1");
+  configuration.set("log.odometry_topic", "/odom");
+  EXPECT_EQ(configuration.value("log.odometry"), "/odom");
   ASSERT_EQ(configuration.warnings().size(), 1U);
-  EXPECT_THAT(configuration.warnings().front(), HasSubstr("final_search"));
+  EXPECT_THAT(configuration.warnings().front(), HasSubstr("write log.odometry"));
 }
 
 TEST(Configuration, names_the_mistake) {

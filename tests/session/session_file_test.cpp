@@ -105,13 +105,15 @@ TEST_F(SessionFileTest, reports_a_truncated_file) {
   EXPECT_THAT(complaint_about(bytes_.substr(0, 15)), HasSubstr("is not a session of psi-slam"));
 }
 
-TEST_F(SessionFileTest, reports_a_newer_version) {
-  std::string newer = bytes_;
-  newer[16] = 5;
+TEST_F(SessionFileTest, reports_a_newer_or_too_old_version) {
+  std::string other = bytes_;
+  other[16] = 5;
   EXPECT_THAT(
-      complaint_about(sealed(newer)),
+      complaint_about(sealed(other)),
       HasSubstr(
           "my.session is a session of version 5, made by a newer psi-slam. This one reads versions up to 4"));
+  other[16] = 2;
+  EXPECT_THAT(complaint_about(sealed(other)), HasSubstr("of version 2, made by a psi-slam before 0.1.0"));
 }
 
 TEST_F(SessionFileTest, reports_a_file_that_is_no_session) {

@@ -130,19 +130,19 @@ TEST_F(SettingsTest, rejects_values_whose_squares_overflow) {
 }
 
 TEST_F(SettingsTest, old_option_names_are_accepted_with_a_warning) {
-  apply(parse_ini("[last_pass]\npasses = 1\n", "my.ini"), table_);
-  EXPECT_EQ(settings_.mapper.back_end.final_search.passes, 1);
+  apply(parse_ini("[log]\nodometry_topic = /odom\n", "my.ini"), table_);
+  EXPECT_THAT(dump(table_), HasSubstr("\nodometry = /odom\n"));
   EXPECT_THAT(table_.take_warnings(),
-              testing::ElementsAre("my.ini:2: section [last_pass] was renamed; write [final_search]"));
+              testing::ElementsAre("my.ini:2: option log.odometry_topic was renamed; write log.odometry"));
 }
 
 TEST_F(SettingsTest, files_cannot_change_constants_of_the_method) {
-  apply(parse_ini("[consensus]\nmemory_m = 9\n[front_end]\nwindow_m = 0.15\nmax_strain_m = 2\n", "my.ini"),
+  apply(parse_ini("[consensus]\nmemory_m = 9\n[front_end]\nwindow_m = 0.15\nmin_range_m = 2\n", "my.ini"),
         table_);
   EXPECT_EQ(settings_.mapper.back_end.loop_consensus.memory_m, LoopConsensusOptions().memory_m);
   EXPECT_THAT(
       table_.take_warnings(),
-      testing::ElementsAre("my.ini:2: consensus.memory_m (always 4), front_end.max_strain_m have no effect "
+      testing::ElementsAre("my.ini:2: consensus.memory_m (always 4), front_end.min_range_m have no effect "
                            "any more; remove them"));
   apply_override("consensus.memory_m=9", table_, true);
   EXPECT_EQ(settings_.mapper.back_end.loop_consensus.memory_m, 9);

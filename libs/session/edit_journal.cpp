@@ -98,7 +98,7 @@ TimedEdit parse_edit_line(std::string_view line) {
   timed.time = time_of(values);
   if (values.has("attempt")) {
     const std::string& attempt = values.text("attempt");
-    if (attempt != "final_search")
+    if (attempt != "final_search" && attempt != "last_pass")  // last_pass is the old name of final_search
       throw UserError("attempt=" + quotable(attempt) + ": expected final_search");
     timed.edit.of_final_search = true;
   }

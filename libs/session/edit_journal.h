@@ -23,7 +23,7 @@
 // Without `after`, an edit is made as soon as its scan and its local map exist. x_m, y_m and yaw_deg are the
 // pose of the robot at the scan in the frame of the local map; window_m and window_deg are half-widths of the
 // search window. `match` also works without these five. attempt=final_search forces a match that only the
-// final loop search finds.
+// final loop search finds. Older files call it attempt=last_pass.
 //
 //     pose time_s=1700000000.5 x_m=1 y_m=2 yaw_deg=90 sigma_m=0.02 sigma_deg=1
 //     tag name=A x_m=4 y_m=5 sigma_m=0.02

@@ -219,7 +219,10 @@ void require_at_most(const Named& smaller, const Named& larger) {
 }
 
 // Options that once set numbers of the method. A settings file that still has them is accepted.
-constexpr const char* kObsoleteOptions[] = {"map.write_print",
+constexpr const char* kObsoleteOptions[] = {"front_end.max_strain_m",
+                                            "front_end.strain_travel_m",
+                                            "consensus.max_rival_share",
+                                            "map.write_print",
                                             "map.print_dpi",
                                             "front_end.min_range_m",
                                             "front_end.refine_max_iterations",
@@ -287,7 +290,7 @@ void describe(OptionTable& table, Settings& settings) {
   describe_localization(table, settings.localization);
   describe_live(table, settings);
   describe_run(table, settings.run);
-  table.alias("log.odometry_topic", "log.odometry");
+  table.alias("last_pass", "final_search").alias("log.odometry_topic", "log.odometry");
   for (const char* name : kObsoleteOptions) table.obsolete(name);
 }
 

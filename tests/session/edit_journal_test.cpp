@@ -64,6 +64,9 @@ TEST_F(EditJournalTest, survives_its_file_to_the_last_bit) {
   EXPECT_TRUE(back.edits()[0].edit.of_final_search);
   EXPECT_THAT(complaint("force scan=1 local_map=2 attempt=first"),
               HasSubstr("attempt=first: expected final_search"));
+  EXPECT_TRUE(
+      EditJournal::parse("force scan=1 local_map=2 attempt=last_pass", "").edits().at(0).edit.of_final_search)
+      << "last_pass is the old name of final_search";
   const LoopEdit& read = back.edits()[3].edit;
   EXPECT_EQ(read.kind, Kind::kMatch);
   EXPECT_EQ(read.matcher, MatcherKind::kCsmGa);

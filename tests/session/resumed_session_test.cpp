@@ -575,8 +575,9 @@ TEST_F(ResumedSession, ignores_obsolete_options_with_a_warning) {
               ElementsAre("old.session: ignores obsolete options: front_end.magic, gone.key"));
   EXPECT_EQ(bound.settings.mapper.front_end.node_distance_m, 0.2);
   EXPECT_EQ(bound.settings.mapper.front_end.window_m, 0.2) << "constants of the recorded run are restored";
-  facts.settings = "[log]\nodometry_topic = /odom\n";
+  facts.settings = "[log]\nodometry_topic = /odom\n[last_pass]\npasses = 1\n";
   EXPECT_THAT(load_recorded(bound, facts, "old.session"), IsEmpty());
+  EXPECT_EQ(bound.settings.mapper.back_end.final_search.passes, 1);
   EXPECT_EQ(bound.table.option("log.odometry", "").text(), "/odom");
   facts.settings = "[front_end]\nnode_distance_m = -1\n";
   EXPECT_THAT(sentence_of([&] { load_recorded(bound, facts, "old.session"); }),

@@ -130,10 +130,11 @@ TEST_F(SettingsTest, rejects_values_whose_squares_overflow) {
 }
 
 TEST_F(SettingsTest, old_option_names_are_accepted_with_a_warning) {
-  apply(parse_ini("[log]\nodometry_topic = /odom\n", "my.ini"), table_);
+  apply(parse_ini("[log]\nodometry_topic = /odom\n[last_pass]\npasses = 1\n", "my.ini"), table_);
   EXPECT_THAT(dump(table_), HasSubstr("\nodometry = /odom\n"));
   EXPECT_THAT(table_.take_warnings(),
-              testing::ElementsAre("my.ini:2: option log.odometry_topic was renamed; write log.odometry"));
+              testing::ElementsAre("my.ini:2: option log.odometry_topic was renamed; write log.odometry",
+                                   "my.ini:4: section [last_pass] was renamed; write [final_search]"));
 }
 
 TEST_F(SettingsTest, files_cannot_change_constants_of_the_method) {

@@ -21,7 +21,7 @@ namespace {
 
 /// The widest usual text of each column.
 constexpr std::array<const char*, LoopTable::kColumns> kWidest{
-    "00000", "0000", "000", "coarse_genetic, final", "0.000", "0.000", "00.00", "0.000", "switched off", ""};
+    "00000", "0000", "000", "coarse_genetic, final", "0.000", "0.000", "00.00", "0.000", "candidate", ""};
 constexpr int kNarrowestReason = 150;
 constexpr int kPictureWidth = 330;
 constexpr int kScrollBar = 16;
@@ -36,7 +36,7 @@ LoopList::LoopList(wxWindow* parent)
                  wxLC_REPORT | wxLC_VIRTUAL | wxLC_SINGLE_SEL | wxLC_HRULES) {
   SetName("loops");
   for (std::size_t column = 0; column < LoopTable::kColumns; ++column) {
-    const bool is_text = column == LoopTable::kSearch || column >= LoopTable::kVerdict;
+    const bool is_text = column == LoopTable::kSearch || column >= LoopTable::kState;
     const int width = std::max(GetTextExtent(LoopTable::title(column)).GetWidth(),
                                GetTextExtent(kWidest[column]).GetWidth());
     AppendColumn(LoopTable::title(column), is_text ? wxLIST_FORMAT_LEFT : wxLIST_FORMAT_RIGHT,
@@ -74,7 +74,7 @@ wxString LoopList::OnGetItemText(long row, long column) const {
 
 wxListItemAttr* LoopList::OnGetItemAttr(long row) const {
   if (row < 0 || static_cast<std::size_t>(row) >= table.rows()) return nullptr;
-  attribute_.SetTextColour(colour_of(verdict_colour(table.loop(static_cast<std::size_t>(row)).verdict)));
+  attribute_.SetTextColour(colour_of(state_colour(table.loop(static_cast<std::size_t>(row)))));
   return &attribute_;
 }
 
@@ -83,10 +83,9 @@ LoopInspector::LoopInspector(wxWindow* parent, std::function<void(std::optional<
   const int gap = FromDIP(4);
   filter_ = new wxChoice(this, wxID_ANY);
   filter_->Append("All");
-  for (const LoopVerdict verdict : kLoopVerdicts)
-    filter_->Append(wxString(verdict_text(verdict)).Capitalize());
+  for (const LoopState state : kLoopStates) filter_->Append(wxString(state_text(state)).Capitalize());
   filter_->SetSelection(0);
-  filter_->SetToolTip("List only loops with this verdict");
+  filter_->SetToolTip("List only loops in this state");
   filter_->Bind(wxEVT_CHOICE, [this](wxCommandEvent&) { filter(); });
   summary_ = new wxStaticText(this, wxID_ANY, "", wxDefaultPosition, wxDefaultSize,
                               wxST_NO_AUTORESIZE | wxST_ELLIPSIZE_END);
@@ -94,7 +93,7 @@ LoopInspector::LoopInspector(wxWindow* parent, std::function<void(std::optional<
   row->Add(filter_, 0, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
   row->Add(summary_, 1, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
   add_action(*row, kDeleteLoop, "Delete", "Remove the selected loop from the graph (Delete)");
-  add_action(*row, kForceLoop, "Force", "Put the selected loop into the graph and never switch it off");
+  add_action(*row, kForceLoop, "Force", "Put the selected loop into the graph and never reject it");
   add_action(*row, kMatchLoop, "Match again", "Match the selected scan and local map with another matcher");
   add_action(*row, kRestoreLoop, "Restore", "Undo all edits of the selected loop");
   add_action(*row, kAddLoop, "Add…", "Add a loop by two clicks on the same object in the map (L)");
@@ -150,7 +149,7 @@ void LoopInspector::show(const std::shared_ptr<const ReplaySnapshot>& snapshot) 
 }
 
 /// Finds the selected loop again after the list of loops has changed. Shows the loop's picture again if its
-/// verdict or pose has changed.
+/// state or pose has changed.
 void LoopInspector::find_chosen() {
   if (!chosen_) return;
   const std::vector<LoopRecord>& loops = *snapshot_->loops;
@@ -158,7 +157,7 @@ void LoopInspector::find_chosen() {
     return loop.frame == chosen_->frame && loop.local_map == chosen_->local_map;
   };
   if (const LoopRecord* const now = selected_loop(); now != nullptr && is_chosen(*now)) {
-    if (now->verdict == chosen_->verdict && now->anchor_T_node == chosen_->anchor_T_node) return;
+    if (now->state == chosen_->state && now->anchor_T_node == chosen_->anchor_T_node) return;
   } else {
     const auto found = std::find_if(loops.rbegin(), loops.rend(), is_chosen);
     selected_.reset();
@@ -218,8 +217,8 @@ void LoopInspector::sort(int column) {
 
 void LoopInspector::filter() {
   const int choice = filter_->GetSelection();
-  list_->table.set_filter(
-      choice <= 0 ? std::nullopt : std::optional(kLoopVerdicts.at(static_cast<std::size_t>(choice - 1))));
+  list_->table.set_filter(choice <= 0 ? std::nullopt
+                                      : std::optional(kLoopStates.at(static_cast<std::size_t>(choice - 1))));
   refresh_rows();
 }
 

@@ -13,15 +13,15 @@ namespace psi_slam {
 namespace {
 
 constexpr std::array<const char*, LoopTable::kColumns> kTitles{
-    "Frame",     "Node",      "Map",          "Search",  "Response",
-    "Ambiguity", "Moved [m]", "Residual [m]", "Verdict", "Reason"};
+    "Frame",     "Node",      "Map",          "Search", "Response",
+    "Ambiguity", "Moved [m]", "Residual [m]", "State",  "Reason"};
 
 }  // namespace
 
 std::string describe_loop(const LoopRecord& loop) {
   const std::string words = "Node " + std::to_string(loop.node) + " on local map " +
-                            std::to_string(loop.local_map) + ", " + verdict_text(loop.verdict);
-  return loop.refusal ? words + ": " + text_of(loop.refusal) : words;
+                            std::to_string(loop.local_map) + ", " + state_text(loop.state);
+  return loop.rejection ? words + ": " + text_of(loop.rejection) : words;
 }
 
 const char* LoopTable::title(std::size_t column) {
@@ -36,8 +36,8 @@ bool LoopTable::show(const std::shared_ptr<const ReplaySnapshot>& snapshot) {
   return !same;
 }
 
-void LoopTable::set_filter(std::optional<LoopVerdict> verdict) {
-  filter_ = verdict;
+void LoopTable::set_filter(std::optional<LoopState> state) {
+  filter_ = state;
   arrange();
 }
 
@@ -59,10 +59,10 @@ LoopTable::Cell LoopTable::cell(const LoopRecord& loop, std::size_t column) cons
   if (column == kResponse) return number(loop.response, 3);
   if (column == kAmbiguity) return number(loop.ambiguity, 3);
   if (column == kMoved) return number(loop.moved_m, 2);
-  if (column == kVerdict) return {0, verdict_text(loop.verdict)};
-  if (column == kReason) return {0, text_of(loop.refusal)};
-  // kResidual: empty for matches that are not constraints of the graph
-  if (loop.verdict == LoopVerdict::kAccepted || loop.verdict == LoopVerdict::kSwitchedOff)
+  if (column == kState) return {0, state_text(loop.state)};
+  if (column == kReason) return {0, text_of(loop.rejection)};
+  // kResidual: empty for matches that never were constraints of the graph
+  if (loop.state == LoopState::kAccepted || is_outlier(loop))
     return number(loop_residual_m(loop, *snapshot_->map_T_node), 3);
   return {std::numeric_limits<double>::infinity() * (ascending_ ? 1 : -1), ""};  // listed last
 }
@@ -73,7 +73,7 @@ void LoopTable::arrange() {
   const std::vector<LoopRecord>& loops = *snapshot_->loops;
   std::vector<Cell> keys(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (filter_ && loops[i].verdict != *filter_) continue;
+    if (filter_ && loops[i].state != *filter_) continue;
     order_.push_back(i);
     keys[i] = cell(loops[i], column_);
   }
@@ -98,11 +98,11 @@ std::string LoopTable::summary() const {
   if (!snapshot_ || snapshot_->loops->empty()) return "No loop has been searched yet";
   std::string text = std::to_string(snapshot_->loops->size()) + " searches:";
   const char* comma = " ";
-  for (const LoopVerdict verdict : kLoopVerdicts) {
+  for (const LoopState state : kLoopStates) {
     const auto count = std::count_if(snapshot_->loops->begin(), snapshot_->loops->end(),
-                                     [&](const LoopRecord& loop) { return loop.verdict == verdict; });
+                                     [&](const LoopRecord& loop) { return loop.state == state; });
     if (count == 0) continue;
-    text += comma + std::to_string(count) + ' ' + verdict_text(verdict);
+    text += comma + std::to_string(count) + ' ' + state_text(state);
     comma = ", ";
   }
   return text;

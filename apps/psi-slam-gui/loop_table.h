@@ -11,7 +11,7 @@
 
 namespace psi_slam {
 
-/// Describes a loop, such as "Node 12 on local map 3, refused: the response is too low: 0.31, minimum 0.45".
+/// Describes a loop, such as "Node 12 on local map 3, rejected: the response is too low: 0.31, minimum 0.45".
 std::string describe_loop(const LoopRecord& loop);
 
 /// Rows of the loop inspector: filters and sorts the loops of a snapshot and gives the texts of the cells.
@@ -26,7 +26,7 @@ class LoopTable {
     kAmbiguity,
     kMoved,
     kResidual,
-    kVerdict,
+    kState,
     kReason,
   };
   static constexpr std::size_t kColumns = 10;
@@ -34,8 +34,8 @@ class LoopTable {
 
   /// Shows the loops of a snapshot. Returns true if loops or node poses have changed since the last call.
   bool show(const std::shared_ptr<const ReplaySnapshot>& snapshot);
-  /// Lists only loops with `verdict`, or all loops if it is empty.
-  void set_filter(std::optional<LoopVerdict> verdict);
+  /// Lists only loops in `state`, or all loops if it is empty.
+  void set_filter(std::optional<LoopState> state);
   void sort_by(std::size_t column, bool ascending);
   std::size_t sorted_by() const { return column_; }
   bool ascending() const { return ascending_; }
@@ -47,7 +47,7 @@ class LoopTable {
   const LoopRecord& loop(std::size_t row) const { return (*snapshot_->loops)[order_[row]]; }
   std::string text(std::size_t row, std::size_t column) const;
 
-  /// Counts the verdicts, such as "120 searches: 35 accepted, 80 refused, 5 switched off".
+  /// Counts the states, such as "120 searches: 35 accepted, 85 rejected".
   std::string summary() const;
 
  private:
@@ -59,7 +59,7 @@ class LoopTable {
   Cell cell(const LoopRecord& loop, std::size_t column) const;
 
   std::shared_ptr<const ReplaySnapshot> snapshot_;
-  std::optional<LoopVerdict> filter_;
+  std::optional<LoopState> filter_;
   std::size_t column_ = kFrame;
   bool ascending_ = true;
   std::vector<std::size_t> order_;

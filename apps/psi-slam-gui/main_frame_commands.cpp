@@ -156,10 +156,10 @@ void MainFrame::bind_view_commands() {
       canvas_->map_scene().set_visible(layer, GetMenuBar()->IsChecked(kLayer + static_cast<int>(i)));
       show_layers();
     });
-  for (const int command : {kRefusedLoops, kLoopsByMatcher, kLoopsByResidual})
+  for (const int command : {kRejectedLoops, kLoopsByMatcher, kLoopsByResidual})
     on(command, [this] {
       LoopStyle style;
-      style.refused = GetMenuBar()->IsChecked(kRefusedLoops);
+      style.rejected = GetMenuBar()->IsChecked(kRejectedLoops);
       if (GetMenuBar()->IsChecked(kLoopsByResidual)) style.colour = LoopStyle::Colour::kResidual;
       canvas_->map_scene().set_loop_style(style);
       show_layers();
@@ -194,7 +194,7 @@ void MainFrame::check_choices() {
   const MapScene& scene = canvas_->map_scene();
   for (std::size_t i = 0; i < kMapLayers; ++i)
     menu.Check(kLayer + static_cast<int>(i), scene.visible(static_cast<MapLayer>(i)));
-  menu.Check(kRefusedLoops, scene.loop_style().refused);
+  menu.Check(kRejectedLoops, scene.loop_style().rejected);
   const bool residual = scene.loop_style().colour == LoopStyle::Colour::kResidual;
   menu.Check(residual ? kLoopsByResidual : kLoopsByMatcher, true);
   for (const auto& [pane, command] : optional_panes()) menu.Check(command, panes_.GetPane(pane).IsShown());

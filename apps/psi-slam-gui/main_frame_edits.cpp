@@ -110,8 +110,8 @@ void MainFrame::report_edit(const ReplaySnapshot& snapshot) {
   if (!outcome.reason.empty())
     words += ": " + outcome.reason;
   else if (loop != nullptr)
-    words += std::string(": ") + verdict_text(loop->verdict) +
-             (loop->verdict == LoopVerdict::kDeleted || !loop->refusal ? "" : ", " + text_of(loop->refusal));
+    words += std::string(": ") + state_text(loop->state) +
+             (loop->rejection ? ", " + text_of(loop->rejection) : "");
   if (messages_->asks())
     show_status(words);  // the message bar keeps its question
   else
@@ -129,8 +129,8 @@ void MainFrame::enable_edit_commands() {
     GetMenuBar()->Enable(command, enabled);
     loops_->enable_action(command, enabled);
   };
-  enable(kDeleteLoop, loop != nullptr && loop->verdict != LoopVerdict::kDeleted);
-  enable(kForceLoop, loop != nullptr && loop->verdict != LoopVerdict::kNotFound);
+  enable(kDeleteLoop, loop != nullptr && !rejected_by(*loop, LoopRejection::Reason::kDeletedByHand));
+  enable(kForceLoop, loop != nullptr && !found_nothing(*loop));
   enable(kRestoreLoop, loop != nullptr && loop->by_hand);
   loops_->enable_action(kMatchLoop, loop != nullptr);
   for (std::size_t i = 0; i < kMatcherKinds.size(); ++i)

@@ -94,7 +94,7 @@ wxMenu* view_menu() {
     menu->AppendCheckItem(kLayer + static_cast<int>(i),
                           name_of(static_cast<MapLayer>(i)) +
                               (i < 10 ? wxString::Format("\tCtrl+%zu", (i + 1) % 10) : wxString()));
-  return append(menu, {{kRefusedLoops, "Refused loops", wxITEM_CHECK},
+  return append(menu, {{kRejectedLoops, "Rejected loops", wxITEM_CHECK},
                        {},
                        {kLoopsByMatcher, "Colour loops by matcher", wxITEM_RADIO},
                        {kLoopsByResidual, "Colour loops by residual", wxITEM_RADIO},

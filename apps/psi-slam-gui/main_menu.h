@@ -62,7 +62,7 @@ enum Command : int {
   kTopView,
   kFollow,
   kMeasure,
-  kRefusedLoops,
+  kRejectedLoops,
   kLoopsByMatcher,
   kLoopsByResidual,
   kPaneSettings,

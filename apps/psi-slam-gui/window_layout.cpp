@@ -101,7 +101,7 @@ void save_layers(wxConfigBase& config, const MapScene& scene) {
   config.Write("version", kVersion);
   for (std::size_t i = 0; i < kMapLayers; ++i)
     config.Write(key_of(static_cast<MapLayer>(i)), scene.visible(static_cast<MapLayer>(i)));
-  config.Write("layers/refused", scene.loop_style().refused);
+  config.Write("layers/rejected", scene.loop_style().rejected);
   config.Write("layers/residual", scene.loop_style().colour == LoopStyle::Colour::kResidual);
   config.Flush();
 }
@@ -130,7 +130,7 @@ void restore_layout(wxConfigBase& config, wxFrame& frame, wxAuiManager& panes, M
     scene.set_visible(layer, config.ReadBool(key_of(layer), shown_at_first(layer)));
   }
   LoopStyle style;
-  style.refused = config.ReadBool("layers/refused", false);
+  style.rejected = config.ReadBool("layers/rejected", false);
   if (config.ReadBool("layers/residual", false)) style.colour = LoopStyle::Colour::kResidual;
   scene.set_loop_style(style);
 }

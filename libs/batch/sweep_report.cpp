@@ -31,7 +31,7 @@ const char* state_of(const std::optional<SweepOutcome>& outcome) {
 /// CSV fields with the figures of a run, in the order of kFigureHeads. The fields are empty if the run has no
 /// figures.
 std::vector<std::string> figure_fields(const std::optional<SweepOutcome>& outcome) {
-  if (!outcome || !outcome->figures) return std::vector<std::string>(11);
+  if (!outcome || !outcome->figures) return std::vector<std::string>(10);
   const SweepFigures& figures = *outcome->figures;
   std::vector<std::string> fields;
   for (const MeanAndStd& error : {figures.errors.translation_abs_m, figures.errors.rotation_abs_deg}) {
@@ -39,8 +39,8 @@ std::vector<std::string> figure_fields(const std::optional<SweepOutcome>& outcom
     fields.push_back(figures.has_errors ? fixed_text(error.std, kErrorDecimals) : "");
   }
   fields.push_back(figures.has_errors ? std::to_string(figures.relations_used) : "");
-  for (const std::size_t count : {figures.scans, figures.nodes, figures.loops_accepted, figures.loops_refused,
-                                  figures.loops_switched_off})
+  for (const std::size_t count :
+       {figures.scans, figures.nodes, figures.loops_accepted, figures.loops_rejected})
     fields.push_back(std::to_string(count));
   fields.push_back(fixed_text(figures.path_length_m, kTimeDecimals));
   return fields;
@@ -48,7 +48,7 @@ std::vector<std::string> figure_fields(const std::optional<SweepOutcome>& outcom
 
 constexpr const char* kFigureHeads =
     "translation_abs_m_mean,translation_abs_m_std,rotation_abs_deg_mean,rotation_abs_deg_std,relations_used,"
-    "scans,nodes,loops_accepted,loops_refused,loops_switched_off,path_length_m,";
+    "scans,nodes,loops_accepted,loops_rejected,path_length_m,";
 
 std::string time_fields(const std::optional<SweepOutcome>& outcome) {
   if (!outcome || !outcome->figures) return ",,,";
@@ -161,8 +161,7 @@ std::vector<std::pair<std::string, ReportTable>> titled_tables(const SweepPlan& 
       {"rotation [deg]", [](const Figures& f) { return f.errors.rotation_abs_deg.mean; }, 3, true},
       {"nodes", [](const Figures& f) { return static_cast<double>(f.nodes); }, 1},
       {"loops", [](const Figures& f) { return static_cast<double>(f.loops_accepted); }, 1},
-      {"refused", [](const Figures& f) { return static_cast<double>(f.loops_refused); }, 1},
-      {"switched off", [](const Figures& f) { return static_cast<double>(f.loops_switched_off); }, 1},
+      {"rejected", [](const Figures& f) { return static_cast<double>(f.loops_rejected); }, 1},
       {"path [m]", [](const Figures& f) { return f.path_length_m; }, 2}};
   const std::vector<Measure> times{{"time [s]", [](const Figures& f) { return f.wall_s; }, 2},
                                    {"processor time [s]", [](const Figures& f) { return f.cpu_s; }, 2},
@@ -224,7 +223,7 @@ std::string sweep_json(const SweepPlan& plan, const SweepResult& result) {
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
     runs.push_back(run_json(plan, plan.runs[i], result.outcomes[i]));
   const Json json = {{"schema", "psi-slam-sweep"},
-                     {"schema_version", 1},
+                     {"schema_version", 2},
                      {"logs", logs},
                      {"varies", plan.columns},
                      {"runs", runs}};

@@ -65,8 +65,7 @@ SweepFigures figures_of(const fs::path& folder, const fs::path& relations) {
   summary.at("path_length_m").get_to(figures.path_length_m);
   const Json& loops = summary.at("loop_counts");
   loops.at("accepted").get_to(figures.loops_accepted);
-  loops.at("refused").get_to(figures.loops_refused);
-  loops.at("switched_off").get_to(figures.loops_switched_off);
+  loops.at("rejected").get_to(figures.loops_rejected);
   return figures;
 }
 

@@ -35,8 +35,7 @@ struct SweepFigures : RunFigures {
   bool has_errors = false;  ///< whether the log has true relations; if not, `errors` is not set
   std::size_t nodes = 0;
   std::size_t loops_accepted = 0;
-  std::size_t loops_refused = 0;
-  std::size_t loops_switched_off = 0;
+  std::size_t loops_rejected = 0;
   double path_length_m = 0;
 
   /// Calls visit(key, member) for each figure of the map.
@@ -44,8 +43,7 @@ struct SweepFigures : RunFigures {
   static void visit_map(Figures& figures, const Visit& visit) {
     visit("nodes", figures.nodes);
     visit("loops_accepted", figures.loops_accepted);
-    visit("loops_refused", figures.loops_refused);
-    visit("loops_switched_off", figures.loops_switched_off);
+    visit("loops_rejected", figures.loops_rejected);
     visit("path_length_m", figures.path_length_m);
   }
 };

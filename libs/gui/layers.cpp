@@ -356,16 +356,16 @@ void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopSty
   const std::vector<std::size_t> drawn = drawn_loops(*snapshot.loops);
   const auto of_mapping = std::count_if(drawn.begin(), drawn.end(), [&](std::size_t i) {
     const LoopRecord& loop = (*snapshot.loops)[i];
-    return loop.verdict == LoopVerdict::kAccepted && !loop.in_final_search;
+    return loop.state == LoopState::kAccepted && !loop.in_final_search;
   });
   const double crowd = std::max(1.0, static_cast<double>(of_mapping) / kClearLoops);
   const auto clear = static_cast<std::uint8_t>(std::max(kPalest, kClear / std::sqrt(crowd)));
   for (const std::size_t index : drawn) {
     const LoopRecord& loop = (*snapshot.loops)[index];
-    if (loop.verdict == LoopVerdict::kNotFound) continue;
-    if (was_no_loop(loop.verdict) && !style.refused) continue;
+    const bool was_no_loop = loop.state == LoopState::kRejected && !is_outlier(loop);
+    if (was_no_loop && !style.rejected) continue;
     mrpt::img::TColor colour = loop_colour(loop, snapshot, style);
-    const bool faint = loop.in_final_search || was_no_loop(loop.verdict);
+    const bool faint = loop.in_final_search || was_no_loop;
     colour.A = faint ? kFaint : clear;
     CSetOfLines::Ptr& lines = by_colour[{!faint, colour.R, colour.G, colour.B}];
     if (!lines) lines = lines_of(colour, faint ? 1.0F : 1.5F);

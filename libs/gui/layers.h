@@ -68,7 +68,7 @@ const HotSpot* hot_spot_at(const ReplaySnapshot& snapshot, const mrpt::math::TPo
 /// Returns what the verdict says about a hot spot and what would help, as two sentences.
 std::string hot_spot_hint(const HotSpot& spot);
 
-/// Draws the loops that drawn_loops() chooses: at most 500 of each verdict, as in the report.
+/// Draws the loops that drawn_loops() chooses: at most 500 of each kind, as in the report.
 void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style);
 /// Draws the selected loop and the window in which it was searched.
 void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop);

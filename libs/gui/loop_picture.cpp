@@ -69,7 +69,7 @@ std::optional<LoopPicture> loop_picture(const ReplaySnapshot& snapshot, std::siz
   LoopPicture picture{raster_of(points_of(snapshot.local_maps[loop.local_map], snapshot.nodes)),
                       placed(scan, loop.anchor_T_predicted),
                       {}};
-  if (loop.verdict != LoopVerdict::kNotFound) picture.after = placed(scan, loop.anchor_T_node);
+  if (!found_nothing(loop)) picture.after = placed(scan, loop.anchor_T_node);
   return picture;
 }
 

@@ -42,9 +42,11 @@ bool shown_at_first(MapLayer layer);
 struct LoopStyle {
   enum class Colour { kMatcher, kResidual };
   Colour colour = Colour::kMatcher;
-  bool refused = false;  ///< whether to draw matches that were refused or deleted
+  bool rejected = false;  ///< whether to draw rejected loops other than outlier loops
 
-  bool operator==(const LoopStyle& other) const { return colour == other.colour && refused == other.refused; }
+  bool operator==(const LoopStyle& other) const {
+    return colour == other.colour && rejected == other.rejected;
+  }
 };
 
 /// Residuals of this size and larger ones have the last colour of the scale.

@@ -27,12 +27,10 @@ TColor matcher_colour(MatcherKind matcher) {
   return kColours.at(matcher);
 }
 
-TColor verdict_colour(LoopVerdict verdict) {
-  static const std::map<LoopVerdict, TColor> kColours{
-      {LoopVerdict::kAccepted, {0, 130, 70}},    {LoopVerdict::kPending, {176, 112, 0}},
-      {LoopVerdict::kRefused, {120, 124, 130}},  {LoopVerdict::kSwitchedOff, {196, 30, 40}},
-      {LoopVerdict::kNotFound, {160, 164, 170}}, {LoopVerdict::kDeleted, {150, 20, 110}}};
-  return kColours.at(verdict);
+TColor state_colour(const LoopRecord& loop) {
+  if (loop.state == LoopState::kAccepted) return {0, 130, 70};
+  if (loop.state == LoopState::kCandidate) return {176, 112, 0};
+  return is_outlier(loop) ? TColor(196, 30, 40) : TColor(120, 124, 130);
 }
 
 TColor map_edit_colour(MapEdit::Kind kind) {
@@ -55,33 +53,26 @@ TColor heat_colour(double share) {
   return {mixed(0), mixed(1), mixed(2)};
 }
 
-bool was_no_loop(LoopVerdict verdict) {
-  return verdict == LoopVerdict::kRefused || verdict == LoopVerdict::kDeleted;
-}
-
 TColor loop_colour(const LoopRecord& loop, const ReplaySnapshot& snapshot, const LoopStyle& style) {
-  if (loop.verdict != LoopVerdict::kAccepted) return verdict_colour(loop.verdict);
+  if (loop.state != LoopState::kAccepted) return state_colour(loop);
   if (style.colour == LoopStyle::Colour::kMatcher) return matcher_colour(loop.matcher);
   const double share = loop_residual_m(loop, *snapshot.map_T_node) / kWorstResidual_m;
   return heat_colour(std::round(share * kResidualShades) / kResidualShades);
 }
 
 LoopLegend loop_legend(const ReplaySnapshot& snapshot, const LoopStyle& style) {
-  const auto any = [&](const auto& condition) {
-    return std::any_of(snapshot.loops->begin(), snapshot.loops->end(), condition);
-  };
-  const auto any_with = [&](LoopVerdict verdict) {
-    return any([verdict](const LoopRecord& loop) { return loop.verdict == verdict; });
-  };
   LoopLegend legend;
+  const auto add = [&](const char* name, const auto& belongs) {
+    const auto loop = std::find_if(snapshot.loops->begin(), snapshot.loops->end(), belongs);
+    if (loop != snapshot.loops->end()) legend.entries.push_back({name, loop_colour(*loop, snapshot, style)});
+  };
+  const auto is_accepted = [](const LoopRecord& loop) { return loop.state == LoopState::kAccepted; };
   if (style.colour == LoopStyle::Colour::kMatcher) {
     legend.title = "Loops, by matcher";
     for (const MatcherKind matcher : kMatcherKinds)
-      if (any([&](const LoopRecord& loop) {
-            return loop.verdict == LoopVerdict::kAccepted && loop.matcher == matcher;
-          }))
-        legend.entries.push_back({name(matcher), matcher_colour(matcher)});
-  } else if (any_with(LoopVerdict::kAccepted)) {
+      add(name(matcher),
+          [&](const LoopRecord& loop) { return is_accepted(loop) && loop.matcher == matcher; });
+  } else if (std::any_of(snapshot.loops->begin(), snapshot.loops->end(), is_accepted)) {
     legend.title = "Loops, by residual";
     for (int step = 0; step <= kScaleSteps; ++step) {
       const double share = static_cast<double>(step) / kScaleSteps;
@@ -89,10 +80,12 @@ LoopLegend loop_legend(const ReplaySnapshot& snapshot, const LoopStyle& style) {
       legend.entries.push_back({fixed_text(share * kWorstResidual_m, 2) + unit, heat_colour(share)});
     }
   }
-  for (const LoopVerdict verdict :
-       {LoopVerdict::kPending, LoopVerdict::kSwitchedOff, LoopVerdict::kRefused, LoopVerdict::kDeleted})
-    if ((style.refused || !was_no_loop(verdict)) && any_with(verdict))
-      legend.entries.push_back({verdict_text(verdict), verdict_colour(verdict)});
+  add("candidate", [](const LoopRecord& loop) { return loop.state == LoopState::kCandidate; });
+  add("rejected as outlier", is_outlier);
+  if (style.rejected)
+    add("rejected otherwise", [](const LoopRecord& loop) {
+      return loop.state == LoopState::kRejected && !is_outlier(loop) && !found_nothing(loop);
+    });
   if (legend.title.empty()) legend.title = "Loops";
   return legend;
 }

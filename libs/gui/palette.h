@@ -32,17 +32,14 @@ inline constexpr mrpt::img::TColor kAfter{0, 130, 80};
 /// Colour of a matcher in plots, tables and scenes.
 mrpt::img::TColor matcher_colour(MatcherKind matcher);
 
-/// Colour of a verdict in tables and scenes.
-mrpt::img::TColor verdict_colour(LoopVerdict verdict);
+/// Colour of a loop in tables: of its state, and of outlier loops among the rejected ones.
+mrpt::img::TColor state_colour(const LoopRecord& loop);
 
 /// Colour of an edit of the drawn map while it is drawn, and of zones.
 mrpt::img::TColor map_edit_colour(MapEdit::Kind kind);
 
 /// Colour from green (0) over yellow to red (1); values outside [0, 1] are clamped.
 mrpt::img::TColor heat_colour(double share);
-
-/// Returns whether a match was rejected or deleted. Scenes draw such matches only with LoopStyle::refused.
-bool was_no_loop(LoopVerdict verdict);
 
 /// Colour in which a scene with this style draws a loop.
 mrpt::img::TColor loop_colour(const LoopRecord& loop, const ReplaySnapshot& snapshot, const LoopStyle& style);
@@ -59,7 +56,7 @@ struct LoopLegend {
   bool operator==(const LoopLegend& other) const { return title == other.title && entries == other.entries; }
 };
 
-/// Legend of the drawn loops: matchers or the residual scale for accepted loops, verdicts for all others.
+/// Legend of the drawn loops: matchers or the residual scale for accepted loops, states for all others.
 LoopLegend loop_legend(const ReplaySnapshot& snapshot, const LoopStyle& style);
 
 }  // namespace psi_slam

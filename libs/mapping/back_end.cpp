@@ -44,12 +44,12 @@ void BackEnd::enter(LoopCloser::Outcome&& outcome, const KeyframeStore& keyframe
   loops.effort = outcome.effort;
   loops.effort_of = std::move(outcome.effort_of);
   for (LoopRecord& loop : outcome.loops) {
-    const bool waits = loop.verdict == LoopVerdict::kPending;
+    const bool waits = loop.state == LoopState::kCandidate;
     for (const std::size_t confirmed : confirmed_by(ledger_.add(std::move(loop)), keyframes, graph)) {
       const std::optional<double> residual = ledger_.accept(confirmed, graph);
       if (!residual) continue;
       ++loops.accepted;
-      // A match that confirms pending loops locates the robot in the map, so the optimisation is urgent.
+      // A match that confirms candidates locates the robot in the map, so the optimisation is urgent.
       schedule_.add_residual(waits ? std::max(*residual, OptimizationSchedule::kUrgentResidual) : *residual);
     }
   }
@@ -57,8 +57,8 @@ void BackEnd::enter(LoopCloser::Outcome&& outcome, const KeyframeStore& keyframe
 
 // Searches the wide windows that the last nodes left to later nodes, because no nodes follow: those of the
 // nodes whose matches can still confirm each other. Ends early if `progress` was cut short.
-LoopEffort BackEnd::search_pending(const KeyframeStore& keyframes, PoseGraph& graph,
-                                   const NodeMatchers& matchers, FinalProgress& progress) {
+LoopEffort BackEnd::search_left_windows(const KeyframeStore& keyframes, PoseGraph& graph,
+                                        const NodeMatchers& matchers, FinalProgress& progress) {
   // A reopened map goes on as if this search had not been made.
   const LoopConsensus consensus = consensus_;
   const OptimizationSchedule schedule = schedule_;
@@ -89,17 +89,17 @@ LoopEffort BackEnd::search_pending(const KeyframeStore& keyframes, PoseGraph& gr
 }
 
 // Returns the loops to accept after the loop `index` was found. An accepted loop confirms only itself. A
-// pending loop confirms itself and all pending loops that agree with it, if LoopConsensus is satisfied.
+// candidate confirms itself and all candidates that agree with it, if LoopConsensus is satisfied.
 std::vector<std::size_t> BackEnd::confirmed_by(std::size_t index, const KeyframeStore& keyframes,
                                                const PoseGraph& graph) {
   const LoopRecord& loop = ledger_.loops()[index];
-  if (loop.verdict == LoopVerdict::kAccepted) return {index};
-  if (loop.verdict != LoopVerdict::kPending) return {};
+  if (loop.state == LoopState::kAccepted) return {index};
+  if (loop.state != LoopState::kCandidate) return {};
   const NodeScan& here = keyframes.nodes[loop.node];
   return consensus_.add(
       {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity,
        loop.response, loop.prior},
-      graph, [&](std::size_t other) { return ledger_.loops()[other].verdict == LoopVerdict::kPending; });
+      graph, [&](std::size_t other) { return ledger_.loops()[other].state == LoopState::kCandidate; });
 }
 
 std::optional<double> BackEnd::optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver) {
@@ -132,8 +132,8 @@ std::pair<MatcherKind, LoopEffort> BackEnd::finish_loops(const KeyframeStore& ke
                                                          FinalProgress& progress, KnownLandmarks* known) {
   const NodeMatchers matchers = policy_.matchers(std::numeric_limits<double>::infinity());
   LoopEffort effort;
-  loop_clock_.time([&] { effort += search_pending(keyframes, graph, matchers, progress); });
-  ledger_.refuse_pending();
+  loop_clock_.time([&] { effort += search_left_windows(keyframes, graph, matchers, progress); });
+  ledger_.reject_candidates();
   settle(graph, solver, known);
   for (int pass = 0; pass < progress.passes() && !progress.cut_short(); ++pass) {
     final_search_clock_.time([&] {
@@ -143,7 +143,7 @@ std::pair<MatcherKind, LoopEffort> BackEnd::finish_loops(const KeyframeStore& ke
     });
     settle(graph, solver, known);
   }
-  ledger_.refuse_pending();
+  ledger_.reject_candidates();
   return {matchers.by_psi.kind, effort};
 }
 
@@ -158,7 +158,7 @@ LoopEffort BackEnd::run_final_search(const KeyframeStore& keyframes, PoseGraph& 
                                             options_.final_search, known, options_.seed, pool_, progress);
   for (LoopRecord& loop : outcome.loops) {
     const std::size_t entered = ledger_.add(std::move(loop));
-    if (ledger_.loops()[entered].verdict == LoopVerdict::kAccepted) ledger_.accept(entered, graph);
+    if (ledger_.loops()[entered].state == LoopState::kAccepted) ledger_.accept(entered, graph);
   }
   return outcome.effort;
 }
@@ -200,14 +200,14 @@ bool BackEnd::match_by_hand(const LoopEdit& edit, std::size_t node, const Keyfra
     loop = closer_.match(node, candidate, keyframes, {{edit.matcher, *matcher}}, pool_);
   });
   if (!loop) return false;
-  if (loop->verdict == LoopVerdict::kPending) loop->verdict = LoopVerdict::kAccepted;
+  if (loop->state == LoopState::kCandidate) loop->state = LoopState::kAccepted;
   ledger_.replace(*std::move(loop), graph);
   return true;
 }
 
 std::size_t BackEnd::accepted() const {
   return static_cast<std::size_t>(std::count_if(loops().begin(), loops().end(), [](const LoopRecord& loop) {
-    return loop.verdict == LoopVerdict::kAccepted;
+    return loop.state == LoopState::kAccepted;
   }));
 }
 

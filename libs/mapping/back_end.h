@@ -55,7 +55,7 @@ struct NodeLoops {
   bool searched = false;                    ///< whether the node searched for loops
   LoopEffort effort;
   std::map<MatcherKind, LoopEffort> effort_of;  ///< the same effort, divided by matcher
-  int accepted = 0;  ///< number of new constraints, including pending loops of earlier nodes now confirmed
+  int accepted = 0;  ///< number of new constraints, including candidates of earlier nodes now confirmed
   double milliseconds = 0;
 };
 
@@ -94,7 +94,7 @@ class BackEnd {
   void move(double odometry_m, const mrpt::math::TPoint2D& robot) { factor_.move(odometry_m, robot); }
   LoopClosureFactor::Value factor() const { return factor_.value(); }
 
-  /// Searches for loops of a node, and adds accepted loops to the graph. Also adds pending loops of earlier
+  /// Searches for loops of a node, and adds accepted loops to the graph. Also adds candidates of earlier
   /// nodes that are now confirmed. Call it for every node in order.
   NodeLoops close(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph);
 
@@ -106,13 +106,13 @@ class BackEnd {
 
   /// Makes the searches in wide windows that the last nodes left to later nodes, and runs the final loop
   /// search after the last scan. Before the first pass and after each pass, optimises the
-  /// graph and switches off outlier loops. Refuses all pending loops. Returns the matcher of the largest
+  /// graph and rejects outlier loops. Rejects all remaining candidates. Returns the matcher of the largest
   /// Psi, which searched all windows, and its effort. `known` are the landmarks of the graph; null: none.
   std::pair<MatcherKind, LoopEffort> finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
                                                   SparsePoseAdjustment& solver, FinalProgress& progress,
                                                   KnownLandmarks* known = nullptr);
 
-  /// Optimises the graph and switches off outlier loops, and landmarks that the scans or each other
+  /// Optimises the graph, and rejects outlier loops and landmarks that the scans or each other
   /// contradict. `known` may be null.
   void settle(PoseGraph& graph, SparsePoseAdjustment& solver, KnownLandmarks* known);
 
@@ -137,8 +137,8 @@ class BackEnd {
   NodeLoops search(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph);
   void enter(LoopCloser::Outcome&& outcome, const KeyframeStore& keyframes, PoseGraph& graph,
              NodeLoops& loops);
-  LoopEffort search_pending(const KeyframeStore& keyframes, PoseGraph& graph, const NodeMatchers& matchers,
-                            FinalProgress& progress);
+  LoopEffort search_left_windows(const KeyframeStore& keyframes, PoseGraph& graph,
+                                 const NodeMatchers& matchers, FinalProgress& progress);
   LoopEffort run_final_search(const KeyframeStore& keyframes, PoseGraph& graph, const NodeMatchers& matchers,
                               const std::function<bool(double)>& progress);
 

@@ -273,7 +273,7 @@ void Mapper::Implementation::finish_loops(FinalProgress& progress) {
 
 void Mapper::Implementation::count_accepted_loops() {
   for (const LoopRecord& loop : loops()) {
-    if (loop.verdict != LoopVerdict::kAccepted) continue;
+    if (loop.state != LoopState::kAccepted) continue;
     LoopMatcherRecord& matcher = result_.loop_matchers[loop.matcher];
     ++matcher.accepted;
     ++matcher.accepted_by_search[static_cast<std::size_t>(loop.search)];

@@ -38,7 +38,7 @@ std::optional<std::size_t> unjoined_log(const MappingResult& result) {
   std::vector<std::size_t> group(result.later_run_frames.size() + 1);
   std::iota(group.begin(), group.end(), 0U);
   for (const LoopRecord& loop : result.loops) {
-    if (loop.verdict != LoopVerdict::kAccepted) continue;
+    if (loop.state != LoopState::kAccepted) continue;
     const auto [low, high] = std::minmax({group[run_of_node(loop.node)], group[run_of_node(loop.anchor)]});
     std::replace(group.begin(), group.end(), high, low);
   }

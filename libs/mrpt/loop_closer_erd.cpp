@@ -78,7 +78,7 @@ void CPsiLoopCloserERD::finish(const std::function<bool(double)>& progress) {
     scans.points = [&](std::size_t node) { return *map.keyframes.nodes[node].points; };
     back_end.refine(scans, graph, steps);
   } else {
-    back_end.ledger().refuse_pending();
+    back_end.ledger().reject_candidates();
   }
   map.mirror.publish(*m_graph);
   map.mirror.remove_disabled(*m_graph);

@@ -90,12 +90,12 @@ py::object loop_array(const std::vector<LoopRecord>& loops) {
   py::list rows;
   std::size_t longest = 0;
   for (const LoopRecord& loop : loops) {
-    const std::string reason = text_of(loop.refusal);
+    const std::string reason = text_of(loop.rejection);
     longest = std::max(longest, reason.size());
     const auto sigma = [&](int i) { return std::sqrt(loop.covariance(i, i)); };
     const py::tuple numbers = py::make_tuple(loop.frame, loop.node, loop.local_map, loop.anchor);
     const py::tuple texts =
-        py::make_tuple(verdict_text(loop.verdict), reason, name(loop.matcher), name(loop.search));
+        py::make_tuple(state_text(loop.state), reason, name(loop.matcher), name(loop.search));
     rows.append(numbers + texts +
                 py::make_tuple(loop.in_final_search, loop.by_hand, loop.anchor_T_node.x, loop.anchor_T_node.y,
                                loop.anchor_T_node.phi, sigma(0), sigma(1), sigma(2), loop.response,
@@ -107,7 +107,7 @@ py::object loop_array(const std::vector<LoopRecord>& loops) {
     for (const char* field : names) fields.append(py::make_tuple(field, type));
   };
   add("i8", {"frame", "node", "local_map", "anchor"});
-  add("U12", {"verdict"});
+  add("U9", {"state"});
   add(text_type(longest).c_str(), {"reason"});
   add("U16", {"matcher", "search"});
   add("?", {"in_final_search", "by_hand"});
@@ -267,7 +267,7 @@ std::string PythonResult::repr() {
     const std::vector<LoopRecord>& loops = session->result().loops;
     const auto accepted =
         static_cast<std::size_t>(std::count_if(loops.begin(), loops.end(), [](const LoopRecord& loop) {
-          return loop.verdict == LoopVerdict::kAccepted;
+          return loop.state == LoopState::kAccepted;
         }));
     return "<psi_slam.Result: " + counted(session->result().frames.size(), "scan") + ", " +
            counted(accepted, "loop") + " closed>";
@@ -412,8 +412,8 @@ void bind_result(py::module_& module) {
           "Attempts to close loops: a structured array with the columns of loops.csv. (x_m, y_m, yaw_rad) "
           "is\n"
           "the matched pose of the node in the frame of the anchor, sigma_* its standard deviations. "
-          "verdict\n"
-          "is \"accepted\", \"pending\", \"refused\", \"switched off\", \"not found\" or \"deleted\".")
+          "state\n"
+          "is \"candidate\", \"accepted\" or \"rejected\"; reason says why a loop was rejected.")
       .def_property_readonly("grid_map", &PythonResult::grid_map, "The drawn map with its edits: a GridMap.")
       .def_property_readonly("verdict", &PythonResult::verdict,
                              "Whether the map is good, judged without ground truth: a Verdict.")

@@ -19,7 +19,7 @@ constexpr const char* kGoodRun =
     "for f in graph.g2o frames.csv loops.csv trajectory.carmen map.png; do echo $f > \"$4/$f\"; done\n"
     "printf '0 0 0 0 0 0 0 1\\n1 1 0 0 0 0 0 1\\n' > \"$4/trajectory.tum\"\n"
     "echo '{\"interrupted\": false, \"log\": {\"scans\": 2, \"duration_s\": 1}, \"nodes\": 2,"
-    " \"path_length_m\": 1, \"loop_counts\": {\"accepted\": 3, \"refused\": 4, \"switched_off\": 5}}'"
+    " \"path_length_m\": 1, \"loop_counts\": {\"accepted\": 3, \"rejected\": 9}}'"
     " > \"$4/summary.json\"\n";
 
 class SweepRunTest : public testing::Test {

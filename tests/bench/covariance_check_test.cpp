@@ -92,7 +92,7 @@ TEST(CovarianceCheck, distinguishes_local_maps_loops_and_pairs) {
   LoopRecord loop;
   loop.anchor = 0;
   loop.node = kNodes - 1;
-  loop.verdict = LoopVerdict::kAccepted;
+  loop.state = LoopState::kAccepted;
   result.loops.push_back(loop);
   SparsePoseAdjustment().optimize(graph);
   result.graph = graph;

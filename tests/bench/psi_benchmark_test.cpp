@@ -37,10 +37,10 @@ TEST(PsiBenchmark, searches_of_scans_are_counted_in_their_strata) {
   map.add_ms = {20, 8, 30, 40};
   LoopRecord loop;
   loop.frame = 3;
-  loop.verdict = LoopVerdict::kRefused;
+  reject(loop, {LoopRejection::Reason::kLowResponse});
   loop.response = 0.5;
   map.result.loops = {loop, loop, loop};
-  map.result.loops[1].verdict = LoopVerdict::kNotFound;
+  reject(map.result.loops[1], {LoopRejection::Reason::kNothingFound});
   map.result.loops[2].in_final_search = true;
   const PsiStrata strata = psi_strata(map);
   EXPECT_EQ(strata[0].scans, 1U);
@@ -49,7 +49,7 @@ TEST(PsiBenchmark, searches_of_scans_are_counted_in_their_strata) {
   EXPECT_EQ(strata[1].windows, 3U);
   EXPECT_EQ(strata[1].loops, 2U);
   EXPECT_EQ(strata[1].scan_ms, std::vector<double>{8}) << "the whole scan took less processor time";
-  EXPECT_EQ(strata.back().found, 1U) << "a refused match was found, too";
+  EXPECT_EQ(strata.back().found, 1U) << "a rejected match was found, too";
   EXPECT_EQ(strata.back().response_sum, 0.5);
   EXPECT_EQ(strata.back().searches[static_cast<std::size_t>(SearchKind::kGenetic)], 3U);
   PsiStratum sum = strata[0];

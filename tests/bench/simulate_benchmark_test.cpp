@@ -70,7 +70,7 @@ TEST(SimulateBenchmark, false_loops_contradict_the_truth) {
   MappingResult result;
   result.node_frames = {0, 2};
   LoopRecord loop;
-  loop.verdict = LoopVerdict::kAccepted;
+  loop.state = LoopState::kAccepted;
   loop.frame = 2;
   loop.node = 1;
   loop.anchor = 0;
@@ -80,7 +80,7 @@ TEST(SimulateBenchmark, false_loops_contradict_the_truth) {
     result.loops.push_back(loop);
   }
   EXPECT_EQ(count_false_loops(result, truth), 2U);
-  for (LoopRecord& record : result.loops) record.verdict = LoopVerdict::kSwitchedOff;
+  for (LoopRecord& record : result.loops) reject(record, {LoopRejection::Reason::kContradicted});
   EXPECT_EQ(count_false_loops(result, truth), 0U);
 }
 

@@ -8,16 +8,16 @@ namespace {
 
 using testing::ElementsAre;
 
-LoopRecord loop(std::size_t frame, double response, LoopVerdict verdict) {
+LoopRecord loop(std::size_t frame, double response, LoopState state) {
   LoopRecord record;
   record.frame = frame;
   record.node = 1;
   record.matcher = MatcherKind::kGa;
   record.search = SearchKind::kGenetic;
   record.response = response;
-  record.verdict = verdict;
-  if (verdict != LoopVerdict::kAccepted)
-    record.refusal = LoopRefusal{LoopRefusal::Reason::kLowResponse, 0.31, 0.45};
+  record.state = state;
+  if (state != LoopState::kAccepted)
+    record.rejection = LoopRejection{LoopRejection::Reason::kLowResponse, 0.31, 0.45};
   return record;
 }
 
@@ -27,8 +27,8 @@ class LoopTableTest : public testing::Test {
     auto snapshot = std::make_shared<ReplaySnapshot>();
     snapshot->map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(2);
     snapshot->loops = std::make_shared<std::vector<LoopRecord>>(
-        std::vector<LoopRecord>{loop(7, 0.5, LoopVerdict::kAccepted), loop(3, 0.3, LoopVerdict::kRefused),
-                                loop(5, 0.9, LoopVerdict::kAccepted)});
+        std::vector<LoopRecord>{loop(7, 0.5, LoopState::kAccepted), loop(3, 0.3, LoopState::kRejected),
+                                loop(5, 0.9, LoopState::kAccepted)});
     snapshot_ = snapshot;
     table_.show(snapshot_);
   }
@@ -56,9 +56,9 @@ TEST_F(LoopTableTest, lists_loops_without_a_residual_last) {
   auto snapshot = std::make_shared<ReplaySnapshot>(*snapshot_);
   auto loops = *snapshot_->loops;
   loops[0].reference_T_node = {0.1, 0, 0};  // both nodes are at the origin
-  loops[1].reference_T_node = {9, 0, 0};    // refused
+  loops[1].reference_T_node = {9, 0, 0};    // rejected, never a constraint
   loops[2].reference_T_node = {0.2, 0, 0};
-  loops[2].verdict = LoopVerdict::kSwitchedOff;
+  reject(loops[2], {LoopRejection::Reason::kContradicted});
   snapshot->loops = std::make_shared<std::vector<LoopRecord>>(loops);
   table_.show(snapshot);
   table_.sort_by(LoopTable::kResidual, true);
@@ -68,8 +68,8 @@ TEST_F(LoopTableTest, lists_loops_without_a_residual_last) {
   EXPECT_THAT(order(), ElementsAre(2, 0, 1));
 }
 
-TEST_F(LoopTableTest, filters_by_verdict) {
-  table_.set_filter(LoopVerdict::kAccepted);
+TEST_F(LoopTableTest, filters_by_state) {
+  table_.set_filter(LoopState::kAccepted);
   EXPECT_THAT(order(), ElementsAre(2, 0));
   EXPECT_EQ(table_.row_of(0), 1U);
   EXPECT_FALSE(table_.row_of(1).has_value());
@@ -79,16 +79,16 @@ TEST_F(LoopTableTest, has_the_texts_of_all_cells) {
   EXPECT_EQ(table_.text(0, LoopTable::kFrame), "3");
   EXPECT_EQ(table_.text(0, LoopTable::kSearch), "genetic");
   EXPECT_EQ(table_.text(0, LoopTable::kResponse), "0.300");
-  EXPECT_EQ(table_.text(0, LoopTable::kVerdict), "refused");
+  EXPECT_EQ(table_.text(0, LoopTable::kState), "rejected");
   EXPECT_EQ(table_.text(0, LoopTable::kReason), "the response is too low: 0.31, minimum 0.45");
   EXPECT_EQ(table_.text(0, LoopTable::kResidual), "") << "only constraints have a residual";
   EXPECT_EQ(table_.text(1, LoopTable::kResidual), "0.000");
-  EXPECT_EQ(table_.summary(), "3 searches: 2 accepted, 1 refused");
+  EXPECT_EQ(table_.summary(), "3 searches: 2 accepted, 1 rejected");
 }
 
 TEST_F(LoopTableTest, describes_a_loop_in_words) {
   EXPECT_EQ(describe_loop(table_.loop(0)),
-            "Node 1 on local map 0, refused: the response is too low: 0.31, minimum 0.45");
+            "Node 1 on local map 0, rejected: the response is too low: 0.31, minimum 0.45");
   EXPECT_EQ(describe_loop(table_.loop(1)), "Node 1 on local map 0, accepted");
 }
 

@@ -110,7 +110,7 @@ TEST_F(MainFrameTest, shows_details_and_a_picture_of_the_selected_loop) {
         EXPECT_FALSE(frame.loops().canvas().empty());
         const LoopRecord& loop = frame.replay()->snapshot()->loops->at(frame.loops().table().loop_of(2));
         EXPECT_THAT(frame.loops().details(), HasSubstr(std::to_string(loop.frame)));
-        EXPECT_THAT(frame.loops().details(), HasSubstr(verdict_text(loop.verdict)));
+        EXPECT_THAT(frame.loops().details(), HasSubstr(state_text(loop.state)));
         EXPECT_TRUE(frame.GetMenuBar()->IsEnabled(kDeleteLoop));
       });
   EXPECT_EQ(gui_.run({room_log()}), 0);
@@ -132,7 +132,7 @@ TEST_F(MainFrameTest, shows_unmatched_scans) {
 }
 
 TEST_F(MainFrameTest, all_columns_of_the_loop_table_fit_into_a_small_window) {
-  std::size_t refused = 0;
+  std::size_t rejected = 0;
   gui_.then([](MainFrame& frame) { frame.SetSize(frame.FromDIP(wxSize(1280, 800))); })
       .when_phase(ReplayPhase::kPaused)
       .command(kPlayOrPause)
@@ -151,17 +151,19 @@ TEST_F(MainFrameTest, all_columns_of_the_loop_table_fit_into_a_small_window) {
         }
         EXPECT_LE(all, list.GetSize().GetWidth()) << "no horizontal scrolling is needed";
         const auto& loops = *frame.replay()->snapshot()->loops;
-        while (refused < loops.size() && loops[refused].verdict != LoopVerdict::kRefused) ++refused;
-        ASSERT_LT(refused, loops.size());
+        while (rejected < loops.size() &&
+               (loops[rejected].state != LoopState::kRejected || found_nothing(loops[rejected])))
+          ++rejected;
+        ASSERT_LT(rejected, loops.size());
         EXPECT_THAT(frame.loops().details(), HasSubstr("Select a loop"));
       })
       .screenshot("small_window")
       .then([&](MainFrame& frame) {
-        frame.loops().select(refused);
-        const LoopRecord& loop = (*frame.replay()->snapshot()->loops)[refused];
-        EXPECT_THAT(frame.loops().details(), HasSubstr("refused: " + text_of(loop.refusal)));
+        frame.loops().select(rejected);
+        const LoopRecord& loop = (*frame.replay()->snapshot()->loops)[rejected];
+        EXPECT_THAT(frame.loops().details(), HasSubstr("rejected: " + text_of(loop.rejection)));
       })
-      .screenshot("refused_loop");
+      .screenshot("rejected_loop");
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
@@ -208,20 +210,28 @@ const LoopRecord& selected_loop(MainFrame& frame) {
   return frame.replay()->snapshot()->loops->at(frame.loops().selected().value());
 }
 
+bool is_accepted(const LoopRecord& loop) {
+  return loop.state == LoopState::kAccepted;
+}
+
+bool is_deleted(const LoopRecord& loop) {
+  return rejected_by(loop, LoopRejection::Reason::kDeletedByHand);
+}
+
 void select_first_accepted(MainFrame& frame) {
   const auto& loops = *frame.replay()->snapshot()->loops;
   for (std::size_t i = 0; i < loops.size(); ++i)
-    if (loops[i].verdict == LoopVerdict::kAccepted) return frame.loops().select(i);
+    if (loops[i].state == LoopState::kAccepted) return frame.loops().select(i);
   FAIL() << "no loop was closed";
 }
 
 TEST_F(MainFrameTest, loops_can_be_deleted_matched_again_and_forced) {
   const std::string log = room_log();
   const std::filesystem::path edits = gui_.folder() / "my.edits";
-  const auto selected_is = [](LoopVerdict verdict) {
-    return [verdict](MainFrame& frame) {
+  const auto selected_is = [](bool (*condition)(const LoopRecord&)) {
+    return [condition](MainFrame& frame) {
       return frame.replay()->snapshot()->phase == ReplayPhase::kFinished && frame.loops().selected() &&
-             selected_loop(frame).verdict == verdict;
+             condition(selected_loop(frame));
     };
   };
   gui_.when_phase(ReplayPhase::kPaused)
@@ -238,15 +248,14 @@ TEST_F(MainFrameTest, loops_can_be_deleted_matched_again_and_forced) {
   gui_.screenshot("loop_deleted")
       .command(kUndo)
       .when("it is accepted again",
-            [](MainFrame& frame) { return selected_loop(frame).verdict == LoopVerdict::kAccepted; })
+            [](MainFrame& frame) { return selected_loop(frame).state == LoopState::kAccepted; })
       .command(kRedo)
-      .when("it is deleted again",
-            [](MainFrame& frame) { return selected_loop(frame).verdict == LoopVerdict::kDeleted; })
+      .when("it is deleted again", [](MainFrame& frame) { return is_deleted(selected_loop(frame)); })
       .command(kSpeed + 3)
       .command(kPlayOrPause)
-      .when("it survives the rest of the log", selected_is(LoopVerdict::kDeleted))
+      .when("it survives the rest of the log", selected_is(is_deleted))
       .command(kMatchLoopBy + 2)
-      .when("it is matched again", selected_is(LoopVerdict::kAccepted))
+      .when("it is matched again", selected_is(is_accepted))
       .then([](MainFrame& frame) {
         EXPECT_EQ(selected_loop(frame).matcher, MatcherKind::kGa);
         EXPECT_TRUE(selected_loop(frame).by_hand);
@@ -297,8 +306,8 @@ TEST_F(MainFrameTest, two_clicks_add_a_loop) {
         EXPECT_FALSE(frame.map().pointing());
         ASSERT_TRUE(frame.loops().selected().has_value());
         EXPECT_TRUE(selected_loop(frame).by_hand);
-        EXPECT_EQ(selected_loop(frame).verdict, LoopVerdict::kAccepted)
-            << text_of(selected_loop(frame).refusal);
+        EXPECT_EQ(selected_loop(frame).state, LoopState::kAccepted)
+            << text_of(selected_loop(frame).rejection);
       })
       .screenshot("loop_added");
   EXPECT_EQ(gui_.run({room_log()}), 0);
@@ -435,12 +444,11 @@ TEST_F(MainFrameTest, after_finishing_early_an_edit_can_be_restored) {
       .when("loops are listed", [](MainFrame& frame) { return frame.loops().table().rows() > 0; })
       .then([](MainFrame& frame) { select_first_accepted(frame); })
       .command(kDeleteLoop)
-      .when("it is deleted",
-            [](MainFrame& frame) { return selected_loop(frame).verdict == LoopVerdict::kDeleted; })
+      .when("it is deleted", [](MainFrame& frame) { return is_deleted(selected_loop(frame)); })
       .when_phase(ReplayPhase::kFinished)
       .command(kRestoreLoop)
       .when("it is restored",
-            [](MainFrame& frame) { return selected_loop(frame).verdict == LoopVerdict::kAccepted; })
+            [](MainFrame& frame) { return selected_loop(frame).state == LoopState::kAccepted; })
       .when_phase(ReplayPhase::kFinished)
       .then([](MainFrame& frame) { EXPECT_EQ(scans(frame), 140U); });
   EXPECT_EQ(gui_.run({room_log()}), 0);
@@ -667,7 +675,7 @@ TEST_F(MainFrameTest, shows_a_benchmark_log) {
         double farthest_m = 0;
         for (std::size_t i = 0; i < loops.size(); ++i) {
           const mrpt::math::TPose2D moved = loops[i].anchor_T_node - loops[i].anchor_T_predicted;
-          if (loops[i].verdict != LoopVerdict::kAccepted || moved.norm() <= farthest_m) continue;
+          if (loops[i].state != LoopState::kAccepted || moved.norm() <= farthest_m) continue;
           far = i;
           farthest_m = moved.norm();
         }

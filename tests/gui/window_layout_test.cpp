@@ -47,7 +47,7 @@ TEST_F(WindowLayoutTest, is_kept_for_the_next_window) {
       .then([&](MainFrame&) {
         GuiRun::choose(*window, kPanePlots);
         GuiRun::choose(*window, nodes);
-        GuiRun::choose(*window, kRefusedLoops);
+        GuiRun::choose(*window, kRejectedLoops);
         GuiRun::choose(*window, kLoopsByResidual);
         window->Close(true);
       })
@@ -64,7 +64,7 @@ TEST_F(WindowLayoutTest, is_kept_for_the_next_window) {
         EXPECT_FALSE(window->GetMenuBar()->IsChecked(kPanePlots));
         EXPECT_TRUE(window->GetMenuBar()->IsChecked(nodes));
         EXPECT_TRUE(window->map().map_scene().visible(MapLayer::kNodes));
-        EXPECT_TRUE(window->map().map_scene().loop_style().refused);
+        EXPECT_TRUE(window->map().map_scene().loop_style().rejected);
         EXPECT_TRUE(window->GetMenuBar()->IsChecked(kLoopsByResidual));
         GuiRun::choose(*window, kDefaultLayout);
         EXPECT_TRUE(shown(*window, "plots"));

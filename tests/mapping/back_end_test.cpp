@@ -132,7 +132,7 @@ TEST(BackEnd, a_final_search_cut_short_is_reported_and_not_refined) {
   back_end.refine(none, graph, progress);
 }
 
-TEST(BackEnd, a_loop_that_the_graph_contradicts_is_switched_off_at_the_end) {
+TEST(BackEnd, a_loop_that_the_graph_contradicts_is_rejected_at_the_end) {
   PoseGraph graph = two_rounds().graph();
   BackEndOptions options = near_maps_too();
   options.final_search.passes = 0;
@@ -153,27 +153,25 @@ TEST(BackEnd, a_loop_that_the_graph_contradicts_is_switched_off_at_the_end) {
   finish(back_end, graph, progress);
   EXPECT_LT(back_end.accepted(), before);
   EXPECT_FALSE(graph.enabled(loop));
-  EXPECT_TRUE(std::any_of(back_end.loops().begin(), back_end.loops().end(), [](const LoopRecord& record) {
-    return record.refusal && record.refusal->reason == LoopRefusal::Reason::kContradicted;
-  }));
+  EXPECT_TRUE(std::any_of(back_end.loops().begin(), back_end.loops().end(), is_outlier));
 }
 
-TEST(BackEnd, loops_pending_at_the_end_are_refused) {
+TEST(BackEnd, candidates_at_the_end_are_rejected) {
   PoseGraph graph = two_rounds().graph();
   BackEndOptions options = near_maps_too();
   options.final_search.passes = 0;
-  options.loop_closure.verification.wide_window_m = 0;  // every window is wide, so all loops are pending
+  options.loop_closure.verification.wide_window_m = 0;  // every window is wide, so all loops are candidates
   options.loop_consensus.min_weight = 1e6;              // so high that no loop is confirmed
   BackEnd back_end(options);
   EXPECT_EQ(close_all(back_end, graph), 0U);
-  const auto pending = [&] {
+  const auto candidates = [&] {
     return std::count_if(back_end.loops().begin(), back_end.loops().end(),
-                         [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kPending; });
+                         [](const LoopRecord& loop) { return loop.state == LoopState::kCandidate; });
   };
-  EXPECT_GT(pending(), 0);
+  EXPECT_GT(candidates(), 0);
   FinalProgress progress(options, {});
   finish(back_end, graph, progress);
-  EXPECT_EQ(pending(), 0);
+  EXPECT_EQ(candidates(), 0);
   EXPECT_EQ(back_end.accepted(), 0U);
 }
 

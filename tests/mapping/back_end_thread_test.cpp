@@ -103,7 +103,7 @@ TEST(BackEndThread, the_finished_map_does_not_depend_on_running_ahead) {
 MappingResult edited_runs(bool ahead) {
   const auto accepted =
       std::find_if(at_once().result.loops.begin(), at_once().result.loops.end(), [](const LoopRecord& loop) {
-        return loop.verdict == LoopVerdict::kAccepted && loop.frame < rounds().size() * 9 / 10;
+        return loop.state == LoopState::kAccepted && loop.frame < rounds().size() * 9 / 10;
       });
   if (accepted == at_once().result.loops.end()) throw std::logic_error("the drive has no such loop");
   const LoopEdit deleted{LoopEdit::Kind::kDelete, accepted->frame, accepted->local_map};
@@ -128,8 +128,9 @@ TEST(BackEndThread, edits_and_a_second_run_do_not_depend_on_running_ahead) {
   const MappingResult expected = edited_runs(false);
   expect_same_map(expected, edited_runs(true));
   ASSERT_EQ(expected.later_run_frames.size(), 1U);
-  EXPECT_TRUE(std::any_of(expected.loops.begin(), expected.loops.end(),
-                          [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kDeleted; }));
+  EXPECT_TRUE(std::any_of(expected.loops.begin(), expected.loops.end(), [](const LoopRecord& loop) {
+    return rejected_by(loop, LoopRejection::Reason::kDeletedByHand);
+  }));
 }
 
 TEST(BackEndThread, an_edit_that_cannot_be_made_yet_is_not_waited_for) {

@@ -41,7 +41,7 @@ std::string bytes_of(const MappingResult& result) {
       bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   for (const LoopRecord& loop : result.loops)
     bytes += std::to_string(loop.frame) + ',' + std::to_string(loop.local_map) + ',' +
-             std::to_string(static_cast<int>(loop.verdict)) + text_of(loop.refusal) + '\n';
+             std::to_string(static_cast<int>(loop.state)) + text_of(loop.rejection) + '\n';
   return bytes;
 }
 
@@ -60,10 +60,12 @@ class MapperEditsTest : public testing::Test {
     for (const Frame& frame : round_drive().frames) mapper_.add(frame);
   }
 
-  const LoopRecord& first(LoopVerdict verdict) const {
+  /// Returns the first match in a state.
+  const LoopRecord& first(LoopState state) const {
     const auto& loops = mapper_.loops();
-    const auto found = std::find_if(loops.begin(), loops.end(),
-                                    [&](const LoopRecord& loop) { return loop.verdict == verdict; });
+    const auto found = std::find_if(loops.begin(), loops.end(), [&](const LoopRecord& loop) {
+      return loop.state == state && !found_nothing(loop);
+    });
     if (found == loops.end()) throw std::logic_error("the drive has no such loop");
     return *found;
   }
@@ -96,17 +98,17 @@ class MapperEditsTest : public testing::Test {
 
 TEST_F(MapperEditsTest, a_deleted_loop_stays_deleted_in_the_final_search) {
   map_all();
-  const LoopRecord loop = first(LoopVerdict::kAccepted);
+  const LoopRecord loop = first(LoopState::kAccepted);
   ASSERT_TRUE(is_constraint(loop));
   const LoopEdit edit = edit_of(Kind::kDelete, loop);
   EXPECT_EQ(mapper_.edit(edit).state, State::kDone);
   EXPECT_FALSE(is_constraint(loop));
-  EXPECT_EQ(attempt(edit).verdict, LoopVerdict::kDeleted);
+  EXPECT_TRUE(rejected_by(attempt(edit), LoopRejection::Reason::kDeletedByHand));
   EXPECT_TRUE(attempt(edit).by_hand);
   const MappingResult result = mapper_.finish();
   for (const LoopRecord& end : result.loops) {
     if (end.frame != loop.frame || end.local_map != loop.local_map) continue;
-    EXPECT_EQ(end.verdict, LoopVerdict::kDeleted);
+    EXPECT_TRUE(rejected_by(end, LoopRejection::Reason::kDeletedByHand));
   }
 }
 
@@ -116,7 +118,7 @@ TEST_F(MapperEditsTest, the_graph_is_optimised_at_once) {
   const TPose2D closed = mapper_.graph().poses().back();
   const auto for_accepted = [&](Kind kind) {
     for (const LoopRecord& loop : loops)
-      if (loop.verdict == LoopVerdict::kAccepted) mapper_.edit(edit_of(kind, loop));
+      if (loop.state == LoopState::kAccepted) mapper_.edit(edit_of(kind, loop));
     const TPose2D now = mapper_.graph().poses().back();
     return std::hypot(now.x - closed.x, now.y - closed.y);
   };
@@ -129,7 +131,7 @@ TEST_F(MapperEditsTest, the_graph_is_optimised_at_once) {
 
 TEST_F(MapperEditsTest, a_loop_deleted_before_it_is_found_never_becomes_a_constraint) {
   map_all();
-  const LoopRecord loop = first(LoopVerdict::kAccepted);
+  const LoopRecord loop = first(LoopState::kAccepted);
   Mapper early;
   EXPECT_EQ(early.edit(edit_of(Kind::kDelete, loop)).state, State::kWaits);
   for (const Frame& frame : round_drive().frames) early.add(frame);
@@ -139,23 +141,23 @@ TEST_F(MapperEditsTest, a_loop_deleted_before_it_is_found_never_becomes_a_constr
   for (const LoopRecord& end : result.loops) {
     if (end.frame != loop.frame || end.local_map != loop.local_map) continue;
     ++attempts;
-    EXPECT_EQ(end.verdict, LoopVerdict::kDeleted);
+    EXPECT_TRUE(rejected_by(end, LoopRejection::Reason::kDeletedByHand));
   }
   EXPECT_EQ(attempts, 1U);
 }
 
-TEST_F(MapperEditsTest, a_refused_loop_can_be_forced_and_nothing_switches_it_off) {
+TEST_F(MapperEditsTest, a_rejected_loop_can_be_forced_and_nothing_rejects_it) {
   map_all();
-  const LoopRecord loop = first(LoopVerdict::kRefused);
+  const LoopRecord loop = first(LoopState::kRejected);
   ASSERT_FALSE(is_constraint(loop));
   const LoopEdit edit = edit_of(Kind::kForce, loop);
   EXPECT_EQ(mapper_.edit(edit).state, State::kDone);
   EXPECT_TRUE(is_constraint(loop));
-  EXPECT_EQ(attempt(edit).verdict, LoopVerdict::kAccepted);
+  EXPECT_EQ(attempt(edit).state, LoopState::kAccepted);
   const MappingResult result = mapper_.finish();
   const auto kept = std::count_if(result.loops.begin(), result.loops.end(), [&](const LoopRecord& end) {
-    return end.frame == loop.frame && end.local_map == loop.local_map &&
-           end.verdict == LoopVerdict::kAccepted && end.by_hand;
+    return end.frame == loop.frame && end.local_map == loop.local_map && end.state == LoopState::kAccepted &&
+           end.by_hand;
   });
   EXPECT_EQ(kept, 1);
 }
@@ -165,14 +167,14 @@ TEST_F(MapperEditsTest, a_loop_is_matched_again_by_any_matcher) {
   const LoopRecord loop =
       *std::max_element(mapper_.loops().begin(), mapper_.loops().end(),
                         [](const LoopRecord& a, const LoopRecord& b) { return a.response < b.response; });
-  ASSERT_EQ(loop.verdict, LoopVerdict::kAccepted);
+  ASSERT_EQ(loop.state, LoopState::kAccepted);
   for (const MatcherKind matcher : {MatcherKind::kGa, MatcherKind::kCsmGa, MatcherKind::kCsm}) {
     LoopEdit edit = edit_of(Kind::kMatch, loop);
     edit.matcher = matcher;
     EXPECT_EQ(mapper_.edit(edit).state, State::kDone);
     const LoopRecord& again = attempt(edit);
     EXPECT_EQ(again.matcher, matcher);
-    EXPECT_EQ(again.verdict, LoopVerdict::kAccepted) << text_of(again.refusal);
+    EXPECT_EQ(again.state, LoopState::kAccepted) << text_of(again.rejection);
     EXPECT_TRUE(is_constraint(again));
     EXPECT_NEAR(again.anchor_T_node.x, loop.anchor_T_node.x, 0.05);
     EXPECT_NEAR(again.anchor_T_node.y, loop.anchor_T_node.y, 0.05);
@@ -181,31 +183,31 @@ TEST_F(MapperEditsTest, a_loop_is_matched_again_by_any_matcher) {
 
 TEST_F(MapperEditsTest, a_match_by_hand_searches_the_given_place) {
   map_all();
-  const LoopRecord loop = first(LoopVerdict::kAccepted);
+  const LoopRecord loop = first(LoopState::kAccepted);
   LoopEdit edit = edit_of(Kind::kMatch, loop);
   edit.place = LoopPlace{loop.anchor_T_node + TPose2D(0.8, -0.6, 0.2), {1.5, 1.5, 0.5}};
   ASSERT_EQ(mapper_.edit(edit).state, State::kDone);
   EXPECT_NEAR(attempt(edit).anchor_T_node.x, loop.anchor_T_node.x, 0.05);
-  EXPECT_EQ(attempt(edit).verdict, LoopVerdict::kAccepted) << "a match by hand needs no consensus";
+  EXPECT_EQ(attempt(edit).state, LoopState::kAccepted) << "a match by hand needs no consensus";
   edit.place->anchor_T_node = loop.anchor_T_node + TPose2D(300, 0, 0);
   ASSERT_EQ(mapper_.edit(edit).state, State::kDone);
-  EXPECT_EQ(attempt(edit).verdict, LoopVerdict::kNotFound);
+  EXPECT_TRUE(found_nothing(attempt(edit)));
   EXPECT_FALSE(is_constraint(loop)) << "the earlier match no longer counts";
 }
 
 TEST_F(MapperEditsTest, a_restored_loop_is_as_the_mapper_found_it) {
   map_all();
-  for (const LoopVerdict verdict : {LoopVerdict::kAccepted, LoopVerdict::kRefused}) {
-    const LoopRecord loop = first(verdict);
+  for (const LoopState state : {LoopState::kAccepted, LoopState::kRejected}) {
+    const LoopRecord loop = first(state);
     for (const Kind kind : {Kind::kDelete, Kind::kForce, Kind::kMatch}) {
       mapper_.edit(edit_of(kind, loop));
       EXPECT_EQ(mapper_.edit(edit_of(Kind::kRestore, loop)).state, State::kDone);
       const LoopRecord& again = attempt(edit_of(kind, loop));
-      EXPECT_EQ(again.verdict, verdict);
+      EXPECT_EQ(again.state, state);
       EXPECT_EQ(again.anchor_T_node, loop.anchor_T_node);
       EXPECT_EQ(again.matcher, loop.matcher);
       EXPECT_FALSE(again.by_hand);
-      EXPECT_EQ(is_constraint(again), verdict == LoopVerdict::kAccepted);
+      EXPECT_EQ(is_constraint(again), state == LoopState::kAccepted);
     }
     EXPECT_EQ(mapper_.edit(edit_of(Kind::kRestore, loop)).state, State::kImpossible);
   }
@@ -263,7 +265,7 @@ TEST_F(MapperEditsTest, an_edit_after_reopening_gives_the_same_map_as_before_fin
   MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
   const auto in_final_search = std::find_if(
       result.loops.begin(), result.loops.end(),
-      [](const LoopRecord& loop) { return loop.in_final_search && loop.verdict == LoopVerdict::kAccepted; });
+      [](const LoopRecord& loop) { return loop.in_final_search && loop.state == LoopState::kAccepted; });
   ASSERT_NE(in_final_search, result.loops.end());
   const LoopEdit edit = edit_of(Kind::kDelete, *in_final_search);
   mapper_.reopen(std::move(result));
@@ -276,21 +278,21 @@ TEST_F(MapperEditsTest, an_edit_after_reopening_gives_the_same_map_as_before_fin
     return loop.frame == edit.frame && loop.local_map == edit.local_map;
   });
   ASSERT_NE(deleted, edited.loops.end()) << "a deleted loop stays in the list, so it can be restored";
-  EXPECT_EQ(deleted->verdict, LoopVerdict::kDeleted);
+  EXPECT_TRUE(rejected_by(*deleted, LoopRejection::Reason::kDeletedByHand));
 }
 
 TEST_F(MapperEditsTest, forcing_a_loop_of_the_final_search_takes_its_match) {
   map_all();
   MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
-  // Searches for a pair that was refused while mapping and accepted by the final search. The edit must force
+  // Searches for a pair that was rejected while mapping and accepted by the final search. The edit must force
   // the second match.
   std::optional<LoopRecord> chosen;
   for (const LoopRecord& loop : result.loops) {
-    if (!loop.in_final_search || loop.verdict != LoopVerdict::kAccepted) continue;
+    if (!loop.in_final_search || loop.state != LoopState::kAccepted) continue;
     if (!chosen) chosen = loop;
     for (const LoopRecord& other : result.loops)
-      if (!other.in_final_search && other.verdict == LoopVerdict::kRefused && other.node == loop.node &&
-          other.local_map == loop.local_map)
+      if (!other.in_final_search && other.state == LoopState::kRejected && !found_nothing(other) &&
+          other.node == loop.node && other.local_map == loop.local_map)
         chosen = loop;
   }
   ASSERT_TRUE(chosen.has_value());
@@ -307,7 +309,7 @@ TEST_F(MapperEditsTest, forcing_a_loop_of_the_final_search_takes_its_match) {
   ASSERT_NE(found, forced.loops.rend());
   EXPECT_TRUE(found->in_final_search);
   EXPECT_TRUE(found->by_hand);
-  EXPECT_EQ(found->verdict, LoopVerdict::kAccepted);
+  EXPECT_EQ(found->state, LoopState::kAccepted);
   EXPECT_NEAR(found->anchor_T_node.x, chosen->anchor_T_node.x, 0.05);
   EXPECT_NEAR(found->anchor_T_node.y, chosen->anchor_T_node.y, 0.05);
 }
@@ -316,7 +318,7 @@ TEST_F(MapperEditsTest, the_final_search_may_find_a_loop_that_was_added_and_rest
   map_all();
   MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
   const auto only_final_search = [&](const LoopRecord& loop) {
-    return loop.in_final_search && loop.verdict == LoopVerdict::kAccepted &&
+    return loop.in_final_search && loop.state == LoopState::kAccepted &&
            std::count_if(result.loops.begin(), result.loops.end(), [&](const LoopRecord& other) {
              return other.node == loop.node && other.local_map == loop.local_map;
            }) == 1;
@@ -333,7 +335,7 @@ TEST_F(MapperEditsTest, the_final_search_may_find_a_loop_that_was_added_and_rest
   const MappingResult again = mapper_.finish();
   EXPECT_TRUE(std::any_of(again.loops.begin(), again.loops.end(), [&](const LoopRecord& now) {
     return now.node == loop.node && now.local_map == loop.local_map && now.in_final_search &&
-           now.verdict == LoopVerdict::kAccepted && !now.by_hand;
+           now.state == LoopState::kAccepted && !now.by_hand;
   }));
 }
 

@@ -83,20 +83,20 @@ void expect_consistent(const MappingResult& result, std::size_t frames) {
     ASSERT_LT(loop.local_map, result.local_maps.size());
     EXPECT_EQ(loop.anchor, result.local_maps[loop.local_map].anchor);
     EXPECT_EQ(loop.frame, result.node_frames[loop.node]);
-    EXPECT_EQ(loop.verdict == LoopVerdict::kAccepted, !loop.refusal.has_value()) << text_of(loop.refusal);
-    EXPECT_NE(loop.verdict, LoopVerdict::kPending) << "no loop is pending at the end";
+    EXPECT_EQ(loop.state == LoopState::kAccepted, !loop.rejection.has_value()) << text_of(loop.rejection);
+    EXPECT_NE(loop.state, LoopState::kCandidate) << "no loop is a candidate at the end";
   }
 }
 
 std::size_t accepted_loops(const MappingResult& result) {
   return static_cast<std::size_t>(
       std::count_if(result.loops.begin(), result.loops.end(),
-                    [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
+                    [](const LoopRecord& loop) { return loop.state == LoopState::kAccepted; }));
 }
 
 void expect_no_false_loop(const MappingResult& result, const std::vector<TPose2D>& truth) {
   for (const LoopRecord& loop : result.loops) {
-    if (loop.verdict != LoopVerdict::kAccepted) continue;
+    if (loop.state != LoopState::kAccepted) continue;
     const TPose2D off =
         loop.anchor_T_node - (truth[result.node_frames[loop.node]] - truth[result.node_frames[loop.anchor]]);
     EXPECT_LT(std::hypot(off.x, off.y), 0.3) << loop.node << " seen from " << loop.anchor;
@@ -130,7 +130,7 @@ TEST(Mapper, closes_loops_while_mapping_and_in_the_final_search) {
   const auto& loops = office_map().loops;
   for (const bool in_final_search : {false, true})
     EXPECT_TRUE(std::any_of(loops.begin(), loops.end(), [&](const LoopRecord& loop) {
-      return loop.in_final_search == in_final_search && loop.verdict == LoopVerdict::kAccepted;
+      return loop.in_final_search == in_final_search && loop.state == LoopState::kAccepted;
     })) << in_final_search;
 }
 
@@ -221,7 +221,7 @@ TEST(Mapper, the_same_log_gives_the_same_poses_to_the_last_bit) {
   ASSERT_EQ(again.loops.size(), first.loops.size());
   for (std::size_t i = 0; i < first.loops.size(); ++i) {
     EXPECT_EQ(again.loops[i].node, first.loops[i].node);
-    EXPECT_EQ(again.loops[i].verdict, first.loops[i].verdict);
+    EXPECT_EQ(again.loops[i].state, first.loops[i].state);
     EXPECT_EQ(again.loops[i].response, first.loops[i].response);
   }
 }
@@ -237,7 +237,7 @@ TEST(Mapper, any_number_of_threads_makes_the_same_map) {
 
 TEST(Mapper, counts_the_loops_that_became_constraints_at_each_frame) {
   MapperOptions options;
-  // Most windows count as wide, so many loops are pending.
+  // Most windows count as wide, so many loops are candidates.
   options.back_end.loop_closure.verification.wide_window_m = options.back_end.final_search.window_m;
   Mapper mapper(options);
   for (const Frame& frame : office_drive().frames) mapper.add(frame);
@@ -251,7 +251,7 @@ TEST(Mapper, counts_the_loops_that_became_constraints_at_each_frame) {
     EXPECT_TRUE(frame.node || frame.loops_accepted == 0);
   }
   std::size_t constraints = 0;
-  for (const LoopRecord& loop : loops) constraints += loop.verdict == LoopVerdict::kAccepted ? 1 : 0;
+  for (const LoopRecord& loop : loops) constraints += loop.state == LoopState::kAccepted ? 1 : 0;
   EXPECT_EQ(counted, constraints);
   EXPECT_TRUE(several_at_once) << "loops found at earlier frames were confirmed";
 }
@@ -266,9 +266,8 @@ TEST(Mapper, counts_attempts_without_a_match) {
     final_search += matcher.final_search_effort;
     accepted += matcher.accepted;
   }
-  const auto not_found = std::count_if(result.loops.begin(), result.loops.end(), [](const LoopRecord& loop) {
-    return loop.verdict == LoopVerdict::kNotFound;
-  });
+  const auto not_found = std::count_if(result.loops.begin(), result.loops.end(),
+                                       [](const LoopRecord& loop) { return found_nothing(loop); });
   EXPECT_EQ(sum.found, result.loops.size() - static_cast<std::size_t>(not_found));
   EXPECT_GT(sum.attempts, sum.found);
   EXPECT_EQ(accepted, accepted_loops(result));
@@ -368,7 +367,7 @@ TEST(Mapper, uses_the_matcher_chosen_by_psi_and_that_of_frequent_loops_in_the_fi
   EXPECT_EQ(fixed.loop_matchers.begin()->first, MatcherKind::kCsmGa);
 }
 
-TEST(Mapper, outlier_loops_are_switched_off_without_a_final_search_too) {
+TEST(Mapper, outlier_loops_are_rejected_without_a_final_search_too) {
   MapperOptions options;
   options.back_end.final_search.passes = 0;
   LoopVerificationOptions& verification = options.back_end.loop_closure.verification;
@@ -378,22 +377,21 @@ TEST(Mapper, outlier_loops_are_switched_off_without_a_final_search_too) {
   Mapper mapper(options);
   for (const Frame& frame : office_drive().frames) mapper.add(frame);
   const auto& loops = mapper.loops();
-  const auto true_loop = std::find_if(loops.begin(), loops.end(), [](const LoopRecord& loop) {
-    return loop.verdict == LoopVerdict::kAccepted;
-  });
+  const auto true_loop = std::find_if(
+      loops.begin(), loops.end(), [](const LoopRecord& loop) { return loop.state == LoopState::kAccepted; });
   ASSERT_NE(true_loop, loops.end());
   // A person has it matched again 1.5 m along the corridor.
   LoopEdit edit{LoopEdit::Kind::kMatch, true_loop->frame, true_loop->local_map};
   edit.place = LoopPlace{true_loop->anchor_T_node + TPose2D(1.5, 0, 0), {0.3, 0.3, 0.05}};
   ASSERT_EQ(mapper.edit(edit).state, LoopEditOutcome::State::kDone);
-  ASSERT_EQ(true_loop->verdict, LoopVerdict::kAccepted);
+  ASSERT_EQ(true_loop->state, LoopState::kAccepted);
   const MappingResult result = mapper.finish();
   expect_consistent(result, office_drive().frames.size());
   std::size_t off = 0;
   for (const LoopRecord& loop : result.loops) {
-    if (loop.verdict != LoopVerdict::kSwitchedOff) continue;
+    if (!is_outlier(loop)) continue;
     ++off;
-    EXPECT_EQ(loop.refusal.value().reason, LoopRefusal::Reason::kContradicted);
+    EXPECT_EQ(loop.state, LoopState::kRejected);
   }
   EXPECT_GT(off, 0U);
   EXPECT_GT(accepted_loops(result), 0U);

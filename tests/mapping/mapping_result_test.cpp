@@ -16,11 +16,11 @@ MappingResult three_drives() {
   return result;
 }
 
-LoopRecord loop(std::size_t anchor, std::size_t node, LoopVerdict verdict = LoopVerdict::kAccepted) {
+LoopRecord loop(std::size_t anchor, std::size_t node, LoopState state = LoopState::kAccepted) {
   LoopRecord record;
   record.anchor = anchor;
   record.node = node;
-  record.verdict = verdict;
+  record.state = state;
   return record;
 }
 
@@ -40,7 +40,7 @@ TEST(MappingResult, only_accepted_loops_with_other_runs_join_a_run) {
   EXPECT_EQ(unjoined_log(result), 1U) << "without loops, run 1 is the first unjoined run";
   result.loops = {loop(0, 2), loop(5, 6)};
   EXPECT_EQ(unjoined_log(result), 2U) << "a loop within run 2 does not join it to another run";
-  result.loops.push_back(loop(3, 5, LoopVerdict::kSwitchedOff));
+  result.loops.push_back(loop(3, 5, LoopState::kRejected));
   EXPECT_EQ(unjoined_log(result), 2U);
   result.loops.push_back(loop(6, 3));
   EXPECT_EQ(unjoined_log(result), std::nullopt);

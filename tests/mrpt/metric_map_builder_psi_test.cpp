@@ -149,7 +149,7 @@ TEST(MetricMapBuilderPsi, maps_a_rawlog_in_ten_lines) {
   // skips the first scan.
   const MappingResult expected = map_by_the_reader(kRawlog, 1);
   EXPECT_TRUE(std::any_of(expected.loops.begin(), expected.loops.end(),
-                          [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
+                          [](const LoopRecord& loop) { return loop.state == LoopState::kAccepted; }));
   ASSERT_EQ(builder.getCurrentlyBuiltMapSize(), expected.node_frames.size());
   const std::vector<TPose2D> poses = node_poses(builder);
   for (std::size_t node = 0; node < poses.size(); ++node)

@@ -89,14 +89,14 @@ def test_loops_equal_the_table(turned):
     assert len(rows) == len(result.loops) > 0
     for name in ("frame", "node", "local_map", "anchor", "evaluations"):
         assert [int(row[name]) for row in rows] == result.loops[name].tolist()
-    for name in ("verdict", "reason", "matcher", "search"):
+    for name in ("state", "reason", "matcher", "search"):
         assert [row[name] for row in rows] == result.loops[name].tolist()
     assert [row["in_last_pass"] == "1" for row in rows] == result.loops["in_final_search"].tolist()
     columns = {"x_m": "x_m", "theta_rad": "yaw_rad", "std_y_m": "sigma_y_m", "std_theta_rad": "sigma_yaw_rad"}
     for name, field in columns.items():
         table = np.array([float(row[name]) for row in rows])
         np.testing.assert_allclose(result.loops[field], table, rtol=0, atol=1e-6)
-    accepted = (result.loops["verdict"] == "accepted").sum()
+    accepted = (result.loops["state"] == "accepted").sum()
     assert accepted == result.summary["loop_counts"]["accepted"] > 0
 
 

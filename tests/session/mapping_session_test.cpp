@@ -394,7 +394,7 @@ class MappingSessionEditsTest : public MappingSessionTest {
 
   static const LoopRecord& accepted(const std::vector<LoopRecord>& loops) {
     for (const LoopRecord& loop : loops)
-      if (loop.verdict == LoopVerdict::kAccepted) return loop;
+      if (loop.state == LoopState::kAccepted) return loop;
     throw std::logic_error("no loop was closed");
   }
 
@@ -452,7 +452,7 @@ TEST_F(MappingSessionEditsTest, change_the_map) {
   edited.add_edits(edits);
   edited.run(go_on_);
   for (const LoopRecord& loop : edited.result().loops)
-    EXPECT_NE(loop.verdict, LoopVerdict::kAccepted) << loop.frame << ' ' << loop.local_map;
+    EXPECT_NE(loop.state, LoopState::kAccepted) << loop.frame << ' ' << loop.local_map;
   const RunSummary summary = edited.export_to(OutputFolder::prepare(folder_.path() / "edited", false));
   EXPECT_EQ(summary.loops.accepted, 0U);
   EXPECT_GT(summary.loops.by_hand, 0U);

@@ -102,7 +102,7 @@ TEST_F(MergedRuns, mapping_a_saved_session_again_gives_the_same_bytes) {
     session.run(go_on_);
     EditJournal edits;
     for (const LoopRecord& loop : session.result().loops)
-      if (loop.verdict == LoopVerdict::kAccepted && loop.frame % 2 == 0) {
+      if (loop.state == LoopState::kAccepted && loop.frame % 2 == 0) {
         const EditTime times[] = {{}, {EditTime::Kind::kAfterScan, run.frames.size() - 1}};
         edits.add({{LoopEdit::Kind::kDelete, loop.frame, loop.local_map}, times[edits.edits().size() % 2]});
       }

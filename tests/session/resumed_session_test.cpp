@@ -172,7 +172,7 @@ TEST_F(ResumedSession, keeps_edits_and_accepts_further_ones) {
   EditJournal early;
   EditJournal late;
   for (const LoopRecord& loop : plain.result().loops)
-    if (loop.verdict == LoopVerdict::kAccepted)
+    if (loop.state == LoopState::kAccepted)
       (loop.frame < 130 ? early : late).add({{LoopEdit::Kind::kDelete, loop.frame, loop.local_map}, {}});
   ASSERT_FALSE(early.empty());
   ASSERT_FALSE(late.empty());
@@ -290,9 +290,8 @@ TEST_F(ResumedJournal, keeps_edits_made_while_mapping) {
     for (MappingSession* session : {&whole, &crashed}) {
       for (int i = 0; i < 148; ++i) session->step();
       const std::vector<LoopRecord> loops = session->mapper().loops();
-      const auto loop = std::find_if(loops.begin(), loops.end(), [](const LoopRecord& any) {
-        return any.verdict == LoopVerdict::kAccepted;
-      });
+      const auto loop = std::find_if(loops.begin(), loops.end(),
+                                     [](const LoopRecord& any) { return any.state == LoopState::kAccepted; });
       ASSERT_NE(loop, loops.end());
       session->edit({LoopEdit::Kind::kDelete, loop->frame, loop->local_map});
     }

@@ -264,7 +264,7 @@ TEST_F(SessionPriorTest, a_session_that_stays_open_is_aligned_again_after_every_
   expect_same_results(first, export_of(session, "again"));
   const auto& loops = session.result().loops;
   const auto loop = std::find_if(loops.begin(), loops.end(), [](const LoopRecord& candidate) {
-    return candidate.verdict == LoopVerdict::kAccepted;
+    return candidate.state == LoopState::kAccepted;
   });
   ASSERT_NE(loop, loops.end());
   session.edit(LoopEdit{LoopEdit::Kind::kDelete, loop->frame, loop->local_map});

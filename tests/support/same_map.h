@@ -32,7 +32,7 @@ inline void expect_same_map(const MappingResult& a, const MappingResult& b) {
     ASSERT_EQ(a.loops[i].node, b.loops[i].node) << "loop " << i;
     ASSERT_EQ(a.loops[i].local_map, b.loops[i].local_map) << "loop " << i;
     ASSERT_EQ(a.loops[i].anchor_T_node, b.loops[i].anchor_T_node) << "loop " << i;
-    ASSERT_EQ(a.loops[i].verdict, b.loops[i].verdict) << "loop " << i;
+    ASSERT_EQ(a.loops[i].state, b.loops[i].state) << "loop " << i;
   }
 }
 

@@ -81,7 +81,7 @@ MappingResult map_source(FrameSource& source, const MapperOptions& options,
 std::size_t loops_accepted(const MappingResult& result) {
   return static_cast<std::size_t>(
       std::count_if(result.loops.begin(), result.loops.end(),
-                    [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
+                    [](const LoopRecord& loop) { return loop.state == LoopState::kAccepted; }));
 }
 
 RelationsMetric error_of(const std::vector<FrameRecord>& frames, const std::vector<Relation>& relations) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures the robustness of the back end to false loops and to slips of the front end. Adds false loops to
-// the finished graph of a log, and counts those that the back end switches off; or bends stretches of its
+// the finished graph of a log, and counts those that the back end rejects; or bends stretches of its
 // path.
 #pragma once
 

@@ -66,7 +66,7 @@ PsiStrata psi_strata(const MeasuredMap& map) {
       stratum.searches[k] += static_cast<std::size_t>(frame.searches[k]);
   }
   for (const LoopRecord& loop : map.result.loops) {
-    if (loop.in_final_search || loop.verdict == LoopVerdict::kNotFound) continue;
+    if (loop.in_final_search || found_nothing(loop)) continue;
     PsiStratum& stratum = strata.at(psi_stratum(frames.at(loop.frame).psi));
     ++stratum.found;
     stratum.response_sum += loop.response;

@@ -132,7 +132,7 @@ std::vector<NormalisedErrors> check_covariances(const MappingResult& result, con
   };
   std::set<std::pair<std::size_t, std::size_t>> loops;
   for (const LoopRecord& loop : result.loops)
-    if (loop.verdict == LoopVerdict::kAccepted) loops.emplace(loop.reference, loop.node);
+    if (loop.state == LoopState::kAccepted) loops.emplace(loop.reference, loop.node);
   std::vector<double> of_maps;
   std::vector<double> of_loops;
   for (std::size_t i = 0; i < graph.num_constraints(); ++i) {

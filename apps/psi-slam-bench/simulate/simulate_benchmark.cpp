@@ -114,7 +114,7 @@ ErrorSummary trajectory_error_m(const std::vector<TPose2D>& path, const Trajecto
 std::size_t count_false_loops(const MappingResult& result, const Trajectory& truth) {
   return static_cast<std::size_t>(
       std::count_if(result.loops.begin(), result.loops.end(), [&](const LoopRecord& loop) {
-        if (loop.verdict != LoopVerdict::kAccepted) return false;
+        if (loop.state != LoopState::kAccepted) return false;
         const TPose2D anchor_T_node =
             between(truth[result.node_frames[loop.anchor]].pose, truth[loop.frame].pose);
         const TPose2D off = between(anchor_T_node, loop.anchor_T_node);

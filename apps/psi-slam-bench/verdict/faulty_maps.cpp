@@ -64,7 +64,7 @@ void record_loop(std::size_t index, MappingResult& result) {
     loop.anchor_T_node = compose(anchor_T_reference, constraint.from_T_to);
     loop.covariance = in_turned_axes(loop.covariance, anchor_T_reference.phi);
   }
-  loop.verdict = LoopVerdict::kAccepted;
+  loop.state = LoopState::kAccepted;
   result.loops.push_back(loop);
 }
 
@@ -81,7 +81,7 @@ void keep_few_loops(std::size_t nth, MappingResult& result) {
       result.graph.set_enabled(i, false);
   }
   const auto is_dropped = [&](const LoopRecord& loop) {
-    return loop.verdict != LoopVerdict::kAccepted || kept.count({loop.reference, loop.node}) == 0;
+    return loop.state != LoopState::kAccepted || kept.count({loop.reference, loop.node}) == 0;
   };
   result.loops.erase(std::remove_if(result.loops.begin(), result.loops.end(), is_dropped),
                      result.loops.end());

@@ -124,7 +124,7 @@ class CPsiLoopCloserERD : public EdgeDecider {
   void getDescriptiveReport(std::string* report_str) const override;
 
   /// Runs the final loop search, removes outlier loops, and refines the scans of all nodes jointly. Call
-  /// after the last entry and the node decider's finish(). Without CPsiSpaGSO it only refuses pending loops.
+  /// after the last entry and the node decider's finish(). Without CPsiSpaGSO it only rejects candidates.
   /// `progress` gets the completed share of the work, in [0, 1]; if it returns false, the remaining steps are
   /// skipped.
   void finish(const std::function<bool(double)>& progress = {});

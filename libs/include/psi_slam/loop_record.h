@@ -16,40 +16,35 @@
 
 namespace psi_slam {
 
-/// Outcome of an attempt to close a loop.
-enum class LoopVerdict {
-  kAccepted,     ///< a constraint of the pose graph
-  kPending,      ///< matched in a wide window, where one match proves little; waits until others agree
-  kRefused,      ///< failed verification, or too few matches agreed; never a constraint
-  kSwitchedOff,  ///< was accepted; later contradicted by the rest of the graph
-  kNotFound,     ///< no pose of the window scored high enough; anchor_T_node is the predicted pose
-  kDeleted,      ///< deleted by a person
+/// State of an attempt to close a loop.
+enum class LoopState {
+  kCandidate,  ///< matched in a wide window, where one match proves little; waits until others agree
+  kAccepted,   ///< a constraint of the pose graph
+  kRejected,   ///< not a constraint; LoopRecord::rejection says why
 };
-/// All verdicts.
-inline constexpr std::array<LoopVerdict, 6> kLoopVerdicts{LoopVerdict::kAccepted, LoopVerdict::kPending,
-                                                          LoopVerdict::kRefused,  LoopVerdict::kSwitchedOff,
-                                                          LoopVerdict::kNotFound, LoopVerdict::kDeleted};
+/// All states.
+inline constexpr std::array<LoopState, 3> kLoopStates{LoopState::kCandidate, LoopState::kAccepted,
+                                                      LoopState::kRejected};
 
-/// Returns "accepted", "pending", "refused", "switched off", "not found" or "deleted".
-constexpr const char* verdict_text(LoopVerdict verdict) {
-  constexpr std::array<const char*, kLoopVerdicts.size()> kTexts{"accepted",     "pending",   "refused",
-                                                                 "switched off", "not found", "deleted"};
-  return kTexts[static_cast<std::size_t>(verdict)];
+/// Returns "candidate", "accepted" or "rejected".
+constexpr const char* state_text(LoopState state) {
+  constexpr std::array<const char*, kLoopStates.size()> kTexts{"candidate", "accepted", "rejected"};
+  return kTexts[static_cast<std::size_t>(state)];
 }
 
-/// Reason why an attempt to close a loop is not a constraint of the graph.
-struct LoopRefusal {
+/// Rule by which a loop was rejected.
+struct LoopRejection {
   /// Test that the match failed, or edit that removed the loop.
   enum class Reason {
-    kNothingFound,        ///< no match in the window; limit: minimum response
-    kLowResponse,         ///< value: response of the match
-    kAmbiguous,           ///< value: 1 - prior * (1 - ambiguity)
+    kNothingFound,  ///< no match in the window: anchor_T_node is the predicted pose; limit: minimum response
+    kLowResponse,   ///< value: response of the match
+    kAmbiguous,     ///< value: 1 - prior * (1 - ambiguity)
     kUncertainPosition,   ///< value: largest standard deviation of the position, metres
     kUnobserved,          ///< value: share of the scan's points in space that the local map observed
     kNeighboursDisagree,  ///< value: share of the points of scans nearby on the path that fit the local map
     kReverseDisagrees,    ///< value: share of the local map's points that fit the scan
     kNoConsensus,         ///< too few other matches agree with this match in a wide window
-    kContradicted,        ///< value: residual in the optimised graph, standard deviations
+    kContradicted,        ///< was accepted; value: residual in the optimised graph, standard deviations
     kDeletedByHand,       ///< a person deleted the loop
     kOtherMatchForced,    ///< a person forced another match of the same scan and local map
     kMatchedAgain,        ///< a person had the scan and local map matched again
@@ -61,12 +56,12 @@ struct LoopRefusal {
 };
 
 /// Returns the reason as a clause without figures: "the response is too low".
-std::string text_of(LoopRefusal::Reason reason);
+std::string text_of(LoopRejection::Reason reason);
 /// Returns the reason as a clause with figures: "the response is too low: 0.48, minimum 0.50". Empty without
-/// a refusal.
-std::string text_of(const std::optional<LoopRefusal>& refusal);
+/// a rejection.
+std::string text_of(const std::optional<LoopRejection>& rejection);
 
-/// One attempt to close a loop, and its outcome. Attempts of the final search are recorded only if they found
+/// One attempt to close a loop, and its state. Attempts of the final search are recorded only if they found
 /// a match. Values that an attempt did not reach are 0.
 struct LoopRecord {
   std::size_t frame = 0;      ///< index of the scan in MappingResult::frames
@@ -96,10 +91,32 @@ struct LoopRecord {
   std::int64_t evaluations = 0;  ///< number of poses scored
   double milliseconds = 0;       ///< time of the match, without verification
 
-  LoopVerdict verdict = LoopVerdict::kRefused;  ///< outcome so far
-  std::optional<LoopRefusal> refusal;           ///< empty for accepted and pending loops
+  LoopState state = LoopState::kCandidate;  ///< state so far
+  std::optional<LoopRejection> rejection;   ///< rule of a rejected loop; empty in all other states
   bool by_hand = false;  ///< whether a person deleted, forced or matched the loop, see LoopEdit
 };
+
+/// Rejects a loop by a rule.
+inline void reject(LoopRecord& loop, const LoopRejection& rejection) {
+  loop.state = LoopState::kRejected;
+  loop.rejection = rejection;
+}
+
+/// Returns whether the loop was rejected for this reason.
+inline bool rejected_by(const LoopRecord& loop, LoopRejection::Reason reason) {
+  return loop.rejection && loop.rejection->reason == reason;
+}
+
+/// Returns whether the loop was rejected because its window contains no match.
+inline bool found_nothing(const LoopRecord& loop) {
+  return rejected_by(loop, LoopRejection::Reason::kNothingFound);
+}
+
+/// Returns whether the loop was accepted first, and then rejected because the rest of the graph contradicts
+/// it.
+inline bool is_outlier(const LoopRecord& loop) {
+  return rejected_by(loop, LoopRejection::Reason::kContradicted);
+}
 
 /// Returns the chosen matcher and the search that it ran: "csm_ga (local)".
 std::string searched_by(const LoopRecord& loop);
@@ -155,7 +172,7 @@ struct LoopEdit {
   /// What to do with the loop.
   enum class Kind {
     kDelete,   ///< removes the loop, even if it passed verification
-    kForce,    ///< makes the match a constraint, even if it was refused; forced loops are never switched off
+    kForce,    ///< makes the match a constraint, even if it was rejected; forced loops are never rejected
     kMatch,    ///< matches again with `matcher` and `place`; accepts a verified match at once
     kRestore,  ///< undoes an earlier edit of this loop
   };

@@ -47,8 +47,8 @@ struct FrameRecord {
   /// Mean of C_i (see loops_accepted) over the last nodes that searched for loops, equation 13.
   double mean_loops = 0;
   int loops_tried = 0;  ///< number of local maps matched with this frame to close loops
-  /// C_i of equation 13: number of loops that became constraints at this frame. Includes pending loops of
-  /// earlier frames that this frame confirmed, and loops that are switched off later.
+  /// C_i of equation 13: number of loops that became constraints at this frame. Includes candidates of
+  /// earlier frames that this frame confirmed, and loops that are rejected later.
   int loops_accepted = 0;
   bool searched_loops = false;  ///< whether this frame searched for loops, possibly without candidates
   /// Matcher that Psi or a setting chose for the loops of this frame; empty if it is no node. If Psi chose,

@@ -20,7 +20,7 @@ constexpr const char* kTrajectoryHeader =
     "time_s,x_m,y_m,theta_rad,cov_xx_m2,cov_xy_m2,cov_xtheta_m_rad,cov_yy_m2,cov_ytheta_m_rad,"
     "cov_thetatheta_rad2,run\n";
 constexpr const char* kLoopsHeader =
-    "frame,node,local_map,anchor,verdict,reason,matcher,in_last_pass,by_hand,x_m,y_m,theta_rad,std_x_m,"
+    "frame,node,local_map,anchor,state,reason,matcher,in_last_pass,by_hand,x_m,y_m,theta_rad,std_x_m,"
     "std_y_m,std_theta_rad,window_x_m,window_y_m,window_theta_rad,response,ambiguity,observed_share,"
     "neighbours_agree,reverse_agree,moved_m,evaluations,milliseconds,search\n";
 
@@ -72,9 +72,9 @@ std::string frame_row(std::size_t index, const FrameRecord& frame) {
 std::string loop_row(const LoopRecord& loop) {
   const auto deviation = [&](int i) { return std::sqrt(loop.covariance(i, i)); };
   return std::to_string(loop.frame) + ',' + std::to_string(loop.node) + ',' + std::to_string(loop.local_map) +
-         ',' + std::to_string(loop.anchor) + ',' + verdict_text(loop.verdict) + ',' +
-         csv_field(text_of(loop.refusal)) + ',' + name(loop.matcher) + (loop.in_final_search ? ",1" : ",0") +
-         (loop.by_hand ? ",1" : ",0") + values(loop.anchor_T_node) +
+         ',' + std::to_string(loop.anchor) + ',' + state_text(loop.state) + ',' +
+         csv_field(text_of(loop.rejection)) + ',' + name(loop.matcher) +
+         (loop.in_final_search ? ",1" : ",0") + (loop.by_hand ? ",1" : ",0") + values(loop.anchor_T_node) +
          values({deviation(0), deviation(1), deviation(2)}, 6) +
          values({loop.window.x_m, loop.window.y_m, loop.window.theta_rad, loop.response, loop.ambiguity,
                  loop.observed_share, loop.neighbours_agree, loop.reverse_agree, loop.moved_m},

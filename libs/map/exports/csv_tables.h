@@ -34,8 +34,8 @@ std::vector<std::optional<Eigen::Matrix3d>> frame_covariances(const MappingResul
 std::string trajectory_csv(const MappingResult& result);
 
 /// Returns loops.csv: one row per attempt to close a loop in the order of the records, with its match,
-/// verdict and reason. `reason` is empty for accepted loops. `matcher` is the matcher that was chosen, and
-/// `search` the search that it ran.
+/// state and the reason of its rejection. `reason` is empty for loops that are not rejected. `matcher` is the
+/// matcher that was chosen, and `search` the search that it ran.
 std::string loops_csv(const std::vector<LoopRecord>& loops);
 
 }  // namespace psi_slam

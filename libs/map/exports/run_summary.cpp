@@ -71,18 +71,17 @@ LoopCounts loop_counts(const MappingResult& result) {
     counts.tried += matcher.effort.attempts;
     counts.found += matcher.effort.found;
   }
-  std::map<LoopRefusal::Reason, std::size_t> reasons;
+  std::map<LoopRejection::Reason, std::size_t> reasons;
   for (const LoopRecord& loop : result.loops) {
     counts.by_hand += loop.by_hand ? 1 : 0;
-    if (loop.verdict == LoopVerdict::kNotFound) continue;
-    if (loop.verdict == LoopVerdict::kAccepted) {
+    if (found_nothing(loop)) continue;
+    if (loop.state == LoopState::kAccepted) {
       ++counts.accepted;
       counts.accepted_in_final_search += loop.in_final_search ? 1 : 0;
       continue;
     }
-    if (loop.verdict == LoopVerdict::kDeleted) continue;
-    ++(loop.verdict == LoopVerdict::kSwitchedOff ? counts.switched_off : counts.refused);
-    if (loop.refusal) ++reasons[loop.refusal->reason];
+    ++counts.rejected;
+    if (loop.rejection) ++reasons[loop.rejection->reason];
   }
   for (const auto& [reason, count] : reasons) counts.reasons.push_back({reason, count});
   std::stable_sort(counts.reasons.begin(), counts.reasons.end(),
@@ -144,8 +143,8 @@ Json loop_counts_json(const LoopCounts& loops) {
     reasons.push_back({{"reason", text_of(reason.reason)}, {"count", reason.count}});
   return {{"tried", loops.tried},       {"found", loops.found},
           {"accepted", loops.accepted}, {"accepted_in_last_pass", loops.accepted_in_final_search},
-          {"refused", loops.refused},   {"switched_off", loops.switched_off},
-          {"by_hand", loops.by_hand},   {"reasons", reasons}};
+          {"rejected", loops.rejected}, {"by_hand", loops.by_hand},
+          {"reasons", reasons}};
 }
 
 Json cost_json(const SearchCost& cost, std::size_t accepted) {

@@ -59,9 +59,9 @@ struct MappedLogFacts {
   double odometry_length_m = 0;
 };
 
-/// Number of loops refused or switched off for one reason.
+/// Number of loops rejected for one reason.
 struct ReasonCount {
-  LoopRefusal::Reason reason = LoopRefusal::Reason::kLowResponse;
+  LoopRejection::Reason reason = LoopRejection::Reason::kLowResponse;
   std::size_t count = 0;
 };
 
@@ -70,11 +70,10 @@ struct LoopCounts {
   std::size_t found = 0;     ///< search windows in which a match was found
   std::size_t accepted = 0;  ///< matches that were accepted
   std::size_t accepted_in_final_search = 0;
-  /// Matches that were refused, including loops still pending when the run was stopped.
-  std::size_t refused = 0;
-  std::size_t switched_off = 0;
+  /// Matches that were rejected, including those still candidates when the run was stopped.
+  std::size_t rejected = 0;
   std::size_t by_hand = 0;           ///< loops that a person deleted, forced or matched again
-  std::vector<ReasonCount> reasons;  ///< reasons of loops refused or switched off, the most frequent first
+  std::vector<ReasonCount> reasons;  ///< reasons of rejected matches, the most frequent first
 };
 
 /// Extent of the observed part of the map.
@@ -120,7 +119,7 @@ struct RunSummary {
 RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
                          const GridMapOptions& asked = {});
 
-inline constexpr int kSummarySchemaVersion = 1;
+inline constexpr int kSummarySchemaVersion = 2;
 
 /// Returns summary.json: the figures for programs, with units in the keys. "schema" is "psi-slam-summary";
 /// "schema_version" increases when a key is renamed or removed, not when one is added. Figures that are not

@@ -78,13 +78,10 @@ std::string response_key(const RunSummary& summary) {
 }
 
 std::string loops_card(const MappingResult& result, const LoopCounts& loops) {
-  std::string text = "<p class=\"none\">" + counted(loops.accepted, "loop was", "loops were") + " closed";
+  std::string text = "<p class=\"none\">" + counted(loops.accepted, "loop was", "loops were") + " accepted";
   if (loops.accepted_in_final_search > 0)
     text += ", " + grouped(loops.accepted_in_final_search) + " of them in the final search";
-  text += "; " + counted(loops.refused, "was", "were") + " refused";
-  if (loops.switched_off > 0)
-    text += "; " + counted(loops.switched_off, "was", "were") +
-            " switched off because other loops contradict " + (loops.switched_off == 1 ? "it" : "them");
+  text += "; " + counted(loops.rejected, "was", "were") + " rejected";
   if (loops.by_hand > 0) text += "; " + counted(loops.by_hand, "was", "were") + " edited by hand";
   text += ".</p>\n";
   return card("Loops", "", text + loop_matchers_table(result) + reasons_table(loops) + loops_table(result));

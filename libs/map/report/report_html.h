@@ -13,7 +13,7 @@
 namespace psi_slam {
 
 /// Returns the page: key figures, map with trajectory and loops, plots over time, which loops were closed or
-/// refused and why, the input log, the files and the settings. `grid` is the map of `result`.
+/// rejected and why, the input log, the files and the settings. `grid` is the map of `result`.
 std::string report_html(const MappingResult& result, const RunInfo& info, const RunSummary& summary,
                         const mrpt::maps::COccupancyGridMap2D& grid);
 

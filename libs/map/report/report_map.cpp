@@ -153,27 +153,22 @@ std::string loop_title(const LoopRecord& loop) {
   std::string title = "node " + std::to_string(loop.node) + " to local map " +
                       std::to_string(loop.local_map) + ", response " + fixed_text(loop.response, 2) + ", " +
                       searched_by(loop);
-  if (loop.refusal) title += ": " + text_of(loop.refusal);
+  if (loop.rejection) title += ": " + text_of(loop.rejection);
   return title;
 }
 
-std::size_t count_of(const MappingResult& result, LoopVerdict verdict) {
-  return static_cast<std::size_t>(
-      std::count_if(result.loops.begin(), result.loops.end(),
-                    [&](const LoopRecord& loop) { return loop.verdict == verdict; }));
-}
+using LoopFilter = bool (*)(const LoopRecord&);
 
-/// Draws the loops of one verdict among `drawn`, which are indices into the result's loops.
+/// Draws the loops that belong to a layer among `drawn`, which are indices into the result's loops.
 std::string loop_layer(const std::string& name, const MappingResult& result,
-                       const std::vector<std::size_t>& drawn, LoopVerdict verdict,
-                       const MapPicture& picture) {
+                       const std::vector<std::size_t>& drawn, LoopFilter belongs, const MapPicture& picture) {
   const auto place = [&](std::size_t node) {
     return text(pixel_of(result.frames.at(result.node_frames.at(node)).map_T_robot, picture));
   };
   std::string svg;
   for (const std::size_t index : drawn) {
     const LoopRecord& loop = result.loops[index];
-    if (loop.verdict != verdict) continue;
+    if (!belongs(loop)) continue;
     svg += "<path d=\"M" + place(loop.reference) + 'L' + place(loop.node) + "\"><title>" +
            escape_html(loop_title(loop)) + "</title></path>\n";
   }
@@ -236,19 +231,23 @@ std::string report_map(const MappingResult& result, const RunSummary& summary,
   const std::vector<std::size_t> drawn = drawn_loops(result.loops);
   std::string loops;  // accepted loops come last and lie on top
   bool sampled = false;
-  const auto add_loops = [&](const char* name, const char* label, LoopVerdict verdict) {
-    const std::size_t count = count_of(result, verdict);
+  const auto add_loops = [&](const char* name, const char* label, bool shown, LoopFilter belongs) {
+    const auto count =
+        static_cast<std::size_t>(std::count_if(result.loops.begin(), result.loops.end(), belongs));
     sampled = sampled || count > kMaxLoopsDrawn;
-    toggles += toggle(name, label + (" (" + grouped(count) + ')'), verdict == LoopVerdict::kAccepted);
-    loops = loop_layer(name, result, drawn, verdict, picture) + loops;
+    toggles += toggle(name, label + (" (" + grouped(count) + ')'), shown);
+    loops = loop_layer(name, result, drawn, belongs, picture) + loops;
   };
   toggles += toggle("grid", "map", true) + toggle("trajectory", "trajectory", true);
   if (unmatched.count > 0)
     toggles += toggle("unmatched", "unmatched scans (" + grouped(unmatched.count) + ')', true);
   if (!spots.empty()) toggles += toggle("hot-spots", "places to check (" + grouped(spots.size()) + ')', true);
-  add_loops("accepted", "closed loops", LoopVerdict::kAccepted);
-  add_loops("switched-off", "switched-off loops", LoopVerdict::kSwitchedOff);
-  add_loops("refused", "refused loops", LoopVerdict::kRefused);
+  add_loops("accepted", "accepted loops", true,
+            [](const LoopRecord& loop) { return loop.state == LoopState::kAccepted; });
+  add_loops("outlier", "loops rejected as outliers", false, is_outlier);
+  add_loops("rejected", "loops rejected otherwise", false, [](const LoopRecord& loop) {
+    return loop.state == LoopState::kRejected && !is_outlier(loop) && !found_nothing(loop);
+  });
   toggles += toggle("front-end", "front end only", false, view_box(picture, front_end)) +
              toggle("odometry", "odometry", false, view_box(picture, odometry));
 

@@ -244,7 +244,7 @@ std::string response_plot(const MappingResult& result, const UnmatchedScans& unm
   const Axes axes{series.length_s, 0, 1, false};
   std::string closed;
   for (const LoopRecord& loop : result.loops)
-    if (loop.verdict == LoopVerdict::kAccepted && !loop.in_final_search)
+    if (loop.state == LoopState::kAccepted && !loop.in_final_search)
       closed += 'M' +
                 point(axes.x(series.since_first(result.frames.at(loop.frame).time_us)), kHeight - kBottom) +
                 "v-10";

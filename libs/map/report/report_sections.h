@@ -19,7 +19,7 @@ extern const char* const kReportStyle;  ///< CSS of the page
 extern const char* const kReportScript;
 
 /// The map as an image, with layers that checkboxes show or hide without a script: trajectory coloured by
-/// time, unmatched scans, odometry, path of the front end, loops of each verdict, and the hot spots of
+/// time, unmatched scans, odometry, path of the front end, loops of each state, and the hot spots of
 /// `summary.verdict` with their suspects.
 std::string report_map(const MappingResult& result, const RunSummary& summary,
                        const mrpt::maps::COccupancyGridMap2D& grid);
@@ -46,14 +46,15 @@ std::string work_plot(const MappingResult& result);
 std::string key_figures(const RunSummary& summary);
 /// Table of facts about the input log.
 std::string log_table(const MappedLogFacts& log, const std::string& name);
-/// Bars that show why loops were refused or switched off, and how often.
+/// Bars that show why loops were rejected, and how often.
 std::string reasons_table(const LoopCounts& loops);
 /// Table of the time spent in each stage, also as a share of `wall_s`, the time of the whole run in seconds.
 std::string stages_table(const std::vector<StageTiming>& stages, double wall_s);
 /// Table of the attempts, results and time of each loop matcher and of each search that it ran. Empty if no
 /// matcher was used.
 std::string loop_matchers_table(const MappingResult& result);
-/// Table of the first 100 loops of each verdict, collapsed. loops.csv has all loops.
+/// Table of the first 100 loops edited by hand, and of the other accepted loops, outlier loops, candidates
+/// and rejected loops, collapsed. loops.csv has all loops.
 std::string loops_table(const MappingResult& result);
 /// One table for each section of the settings, collapsed. `settings` maps "section.key" to the value.
 std::string settings_table(const std::map<std::string, std::string>& settings);

@@ -9,7 +9,7 @@
 namespace psi_slam {
 namespace {
 
-constexpr std::size_t kMaxLoopsOfVerdict = 100;
+constexpr std::size_t kMaxLoopsOfGroup = 100;
 
 std::string degrees(double radians) {
   const std::string size = fixed_text(std::abs(radians) * 180 / M_PI, 1) + "°";
@@ -53,17 +53,28 @@ std::string bar(const std::string& css, double percent) {
   return "<span class=\"" + css + "\" style=\"width:" + fixed_text(percent, 1) + "%\"></span>";
 }
 
+constexpr int kLastGroup = 4;
+
+/// Returns the place of a loop in the table: edits by hand, accepted loops, outlier loops, candidates,
+/// others.
+int group_of(const LoopRecord& loop) {
+  if (loop.by_hand) return 0;
+  if (loop.state == LoopState::kAccepted) return 1;
+  if (is_outlier(loop)) return 2;
+  return loop.state == LoopState::kCandidate ? 3 : kLastGroup;
+}
+
 std::string loop_row(const LoopRecord& loop) {
-  const std::string css = loop.verdict == LoopVerdict::kAccepted  ? "good"
-                          : loop.verdict == LoopVerdict::kRefused ? "bad"
-                                                                  : "warn";
-  return "<tr><td><span class=\"badge " + css + "\">" + verdict_text(loop.verdict) + "</span></td>" +
+  const std::string css = loop.state == LoopState::kAccepted   ? "good"
+                          : loop.state == LoopState::kRejected ? "bad"
+                                                               : "warn";
+  return "<tr><td><span class=\"badge " + css + "\">" + state_text(loop.state) + "</span></td>" +
          cells({grouped(loop.frame), grouped(loop.node), grouped(loop.local_map), searched_by(loop),
                 fixed_text(loop.response, 3), fixed_text(loop.ambiguity, 2),
                 fixed_text(loop.observed_share, 2), fixed_text(loop.neighbours_agree, 2),
                 fixed_text(loop.reverse_agree, 2), fixed_text(loop.moved_m, 2),
                 milliseconds_text(loop.milliseconds)}) +
-         "<td class=\"text\">" + escape_html(text_of(loop.refusal)) +
+         "<td class=\"text\">" + escape_html(text_of(loop.rejection)) +
          (loop.in_final_search ? " (final search)" : "") + "</td></tr>\n";
 }
 
@@ -92,9 +103,7 @@ std::string key_figures(const RunSummary& summary) {
   html += tile("Graph", grouped(summary.nodes), "nodes",
                counted(summary.edges, "edge", "edges") + ", " +
                    counted(summary.local_maps, "local map", "local maps"));
-  html += tile("Loops closed", grouped(loops.accepted), "",
-               "of " + grouped(loops.tried) + " tried" +
-                   (loops.switched_off > 0 ? ", " + grouped(loops.switched_off) + " switched off" : ""));
+  html += tile("Loops closed", grouped(loops.accepted), "", "of " + grouped(loops.tried) + " tried");
   html += tile("Real-time factor", speed, "", "mapped in " + duration_text(summary.wall_s));
   html += tile("Peak memory", grouped(summary.peak_memory_mib, 0), "MiB", "of the process");
   return html + "</section>\n";
@@ -165,7 +174,7 @@ std::string unmatched_table(const UnmatchedScans& unmatched) {
 }
 
 std::string reasons_table(const LoopCounts& loops) {
-  if (loops.reasons.empty()) return "<p class=\"none\">No loop was refused.</p>\n";
+  if (loops.reasons.empty()) return "<p class=\"none\">No loop was rejected.</p>\n";
   const std::size_t most = loops.reasons.front().count;
   std::string html = "<table class=\"bars\">\n";
   for (const ReasonCount& reason : loops.reasons) {
@@ -221,18 +230,16 @@ std::string loop_matchers_table(const MappingResult& result) {
 }
 
 std::string loops_table(const MappingResult& result) {
-  const auto found = static_cast<std::size_t>(
-      std::count_if(result.loops.begin(), result.loops.end(),
-                    [](const LoopRecord& loop) { return loop.verdict != LoopVerdict::kNotFound; }));
+  const auto found = static_cast<std::size_t>(std::count_if(
+      result.loops.begin(), result.loops.end(), [](const LoopRecord& loop) { return !found_nothing(loop); }));
   if (found == 0) return "<p class=\"none\">No match was found.</p>\n";
   std::string rows;
   std::size_t shown = 0;
-  for (const LoopVerdict verdict : {LoopVerdict::kDeleted, LoopVerdict::kAccepted, LoopVerdict::kSwitchedOff,
-                                    LoopVerdict::kPending, LoopVerdict::kRefused}) {
-    std::size_t of_verdict = 0;
+  for (int group = 0; group <= kLastGroup; ++group) {
+    std::size_t of_group = 0;
     for (const LoopRecord& loop : result.loops) {
-      if (loop.verdict != verdict || of_verdict == kMaxLoopsOfVerdict) continue;
-      ++of_verdict;
+      if (found_nothing(loop) || group_of(loop) != group || of_group == kMaxLoopsOfGroup) continue;
+      ++of_group;
       ++shown;
       rows += loop_row(loop);
     }
@@ -240,7 +247,7 @@ std::string loops_table(const MappingResult& result) {
   const std::size_t left = found - shown;
   return "<details><summary>" + counted(found, "match found", "matches found") + "</summary>" +
          table_begin("wide tall",
-                     {"Verdict", "scan", "node", "local map", "matcher (search)", "response", "ambiguity",
+                     {"State", "scan", "node", "local map", "matcher (search)", "response", "ambiguity",
                       "observed", "neighbours", "reverse", "moved, m", "ms"},
                      "<th class=\"text\">why</th>") +
          rows + kTableEnd +

@@ -100,7 +100,7 @@ std::vector<PlacedLoop> place_accepted_loops(const MappingResult& result, const 
   std::vector<PlacedLoop> placed;
   for (std::size_t i = 0; i < result.loops.size(); ++i) {
     const LoopRecord& loop = result.loops[i];
-    if (loop.verdict != LoopVerdict::kAccepted) continue;
+    if (loop.state != LoopState::kAccepted) continue;
     const LocalMapRecord& map = result.local_maps.at(loop.local_map);
     placed.push_back({i, node(loop.node), node(loop.anchor), node(map.first_node).travelled_m,
                       node(map.last_node).travelled_m, loop.anchor_T_node});

@@ -41,21 +41,20 @@ void EditAdvice::add_to(HotSpot& spot) {
   if (!spot.edit) choose(matches_across(spot), spot);
 }
 
-/// Returns the loops by hand across a suspect that were switched off: of each pair, the newest record, which
-/// is the one that an edit forces.
+/// Returns the outlier loops by hand across a suspect: of each pair, the newest record, which is the one that
+/// an edit forces.
 std::vector<EditAdvice::Candidate> EditAdvice::forces_across(const Suspect& suspect) const {
   std::vector<Candidate> newest;
   for (auto loop = result_.loops.rbegin(); loop != result_.loops.rend(); ++loop) {
     const LoopEdit edit{LoopEdit::Kind::kForce, loop->frame, loop->local_map};
-    if (loop->verdict == LoopVerdict::kNotFound || has_loop_of(newest, edit)) continue;
+    if (found_nothing(*loop) || has_loop_of(newest, edit)) continue;
     if (loop->frame >= suspect.last_frame && result_.node_frames[loop->reference] <= suspect.first_frame)
       newest.push_back({edit, nullptr, &*loop});
   }
-  newest.erase(std::remove_if(newest.begin(), newest.end(),
-                              [](const Candidate& one) {
-                                return !one.loop->by_hand || one.loop->verdict != LoopVerdict::kSwitchedOff;
-                              }),
-               newest.end());
+  newest.erase(
+      std::remove_if(newest.begin(), newest.end(),
+                     [](const Candidate& one) { return !one.loop->by_hand || !is_outlier(*one.loop); }),
+      newest.end());
   return newest;
 }
 
@@ -134,7 +133,7 @@ std::optional<double> EditAdvice::disagreement_left_m(const TriedEdit& tried, co
 /// Whether the map has the loop already, or had a match by hand of it.
 bool EditAdvice::is_made(const LoopEdit& match) const {
   return std::any_of(result_.loops.begin(), result_.loops.end(), [&](const LoopRecord& loop) {
-    return same_loop(loop, match) && (loop.by_hand || loop.verdict == LoopVerdict::kAccepted);
+    return same_loop(loop, match) && (loop.by_hand || loop.state == LoopState::kAccepted);
   });
 }
 

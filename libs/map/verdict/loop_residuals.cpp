@@ -25,7 +25,7 @@ std::vector<LoopResidual> loop_residuals(const MappingResult& result) {
   std::vector<LoopResidual> residuals;
   for (std::size_t i = 0; i < result.loops.size(); ++i) {
     const LoopRecord& loop = result.loops[i];
-    if (loop.verdict != LoopVerdict::kAccepted) continue;
+    if (loop.state != LoopState::kAccepted) continue;
     const auto pose = [&](std::size_t node) { return result.frames[result.node_frames[node]].map_T_robot; };
     const mrpt::math::TPose2D mapped = between(pose(loop.reference), pose(loop.node));
     const mrpt::math::TPose2D& matched = loop.reference_T_node;

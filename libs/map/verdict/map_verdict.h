@@ -79,9 +79,9 @@ struct HotSpot {
   Suspect suspect;
   std::size_t places_of_suspect = 1;  ///< number of hot spots with this suspect, this one included
   /// Edit of a loop that helps: deletes the suspect, matches a scan after it with a local map before it, or
-  /// forces such a match by hand that was switched off. It was tried on the graph: the disagreement at the
-  /// place falls to half, and no other place becomes worse. Empty if no such edit was found, or if no scan of
-  /// the map searched for loops, because edits then have no effect.
+  /// forces such a match by hand that was rejected as an outlier. It was tried on the graph: the disagreement
+  /// at the place falls to half, and no other place becomes worse. Empty if no such edit was found, or if no
+  /// scan of the map searched for loops, because edits then have no effect.
   std::optional<LoopEdit> edit{};
   std::optional<EditEffect> effect{};  ///< what the edit changes
   FrameSpan seen_by{};                 ///< frames whose scans show the fault; empty if the path alone does

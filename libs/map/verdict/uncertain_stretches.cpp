@@ -11,7 +11,7 @@ namespace {
 std::vector<std::size_t> ends_of_loops(const MappingResult& result) {
   std::vector<std::size_t> frames;
   for (const LoopRecord& loop : result.loops) {
-    if (loop.verdict != LoopVerdict::kAccepted) continue;
+    if (loop.state != LoopState::kAccepted) continue;
     frames.push_back(loop.frame);
     frames.push_back(result.node_frames[loop.reference]);
   }

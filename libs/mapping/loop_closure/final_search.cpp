@@ -134,7 +134,7 @@ FinalSearchOutcome final_search(const KeyframeStore& keyframes, const PoseGraph&
     });
     for (LoopAttempt& attempt : attempts) {
       outcome.effort += attempt.effort;
-      if (!attempt.loop || attempt.loop->verdict == LoopVerdict::kNotFound) continue;
+      if (!attempt.loop || found_nothing(*attempt.loop)) continue;
       attempt.loop->in_final_search = true;
       outcome.loops.push_back(*std::move(attempt.loop));
     }

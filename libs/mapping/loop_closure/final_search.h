@@ -36,7 +36,7 @@ struct FinalSearchOptions {
 };
 
 struct FinalSearchOutcome {
-  std::vector<LoopRecord> loops;  ///< all matches, accepted or refused, by local map and then by node
+  std::vector<LoopRecord> loops;  ///< all matches, accepted or rejected, by local map and then by node
   LoopEffort effort;
 };
 

@@ -50,8 +50,7 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   loop.milliseconds = milliseconds;
   if (!match.found) {
     loop.anchor_T_node = candidate.anchor_T_node;
-    loop.verdict = LoopVerdict::kNotFound;
-    loop.refusal = LoopRefusal{LoopRefusal::Reason::kNothingFound, 0, problem.min_response};
+    reject(loop, {LoopRejection::Reason::kNothingFound, 0, problem.min_response});
     return attempt;
   }
   loop.anchor_T_node = match.map_T_robot;

@@ -97,7 +97,7 @@ LoopCloser::Outcome LoopCloser::close(std::size_t node, const KeyframeStore& key
   match_all(node, chosen, keyframes, matchers, pool, outcome);
   for (const LoopRecord& loop : outcome.loops)
     if (is_wide(loop.window, options_.verification))
-      schedule_.searched(loop.local_map, loop.verdict == LoopVerdict::kPending);
+      schedule_.searched(loop.local_map, loop.state == LoopState::kCandidate);
   return outcome;
 }
 

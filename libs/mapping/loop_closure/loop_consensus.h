@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Consensus of loops found in wide windows: each loop is pending until other matches agree with it. If the
-// pose is only known to within metres, one match proves little, because equal doors along a corridor fit
+// Consensus of loops found in wide windows: each loop is a candidate until other matches agree with it. If
+// the pose is only known to within metres, one match proves little, because equal doors along a corridor fit
 // several places. But every match implies a pose of the front end's frame in the map. True matches of several
 // scans imply the same pose, whereas false matches imply different poses. The weight of a match decreases
 // with its ambiguity, down to 0: along a corridor with equal doors, matches that are all off by the same

@@ -17,15 +17,14 @@ LoopPair pair_of(const LoopRecord& loop) {
   return {loop.node, loop.local_map};
 }
 
-void delete_by_hand(LoopRecord& loop, LoopRefusal::Reason reason) {
-  loop.verdict = LoopVerdict::kDeleted;
-  loop.refusal = LoopRefusal{reason};
+void delete_by_hand(LoopRecord& loop, LoopRejection::Reason reason) {
+  reject(loop, {reason});
   loop.by_hand = true;
 }
 
 void accept_by_hand(LoopRecord& loop) {
-  loop.verdict = LoopVerdict::kAccepted;
-  loop.refusal.reset();
+  loop.state = LoopState::kAccepted;
+  loop.rejection.reset();
   loop.by_hand = true;
 }
 
@@ -36,8 +35,8 @@ std::size_t LoopLedger::add(LoopRecord loop) {
   if (wanted != by_hand_.end()) {
     wanted->second.before.push_back({loops_.size(), loop, std::nullopt});
     if (wanted->second.kind == LoopEdit::Kind::kDelete)
-      delete_by_hand(loop, LoopRefusal::Reason::kDeletedByHand);
-    else if (wanted->second.kind == LoopEdit::Kind::kForce && loop.verdict != LoopVerdict::kNotFound &&
+      delete_by_hand(loop, LoopRejection::Reason::kDeletedByHand);
+    else if (wanted->second.kind == LoopEdit::Kind::kForce && !found_nothing(loop) &&
              (!wanted->second.of_final_search || loop.in_final_search))
       accept_by_hand(loop);
   }
@@ -52,9 +51,8 @@ std::size_t LoopLedger::enter(LoopRecord loop) {
 
 std::optional<double> LoopLedger::accept(std::size_t index, PoseGraph& graph) {
   LoopRecord& loop = loops_.at(index);
-  const bool may_be = loop.verdict == LoopVerdict::kAccepted || loop.verdict == LoopVerdict::kPending;
-  if (!may_be || constraint_of_[index]) return std::nullopt;
-  loop.verdict = LoopVerdict::kAccepted;
+  if (loop.state == LoopState::kRejected || constraint_of_[index]) return std::nullopt;
+  loop.state = LoopState::kAccepted;
   add_constraint(index, graph);
   const mrpt::math::TPose2D off =
       between(between(graph.pose(loop.reference), graph.pose(loop.node)), loop.reference_T_node);
@@ -97,10 +95,10 @@ void LoopLedger::settle(PoseGraph& graph, SparsePoseAdjustment& solver) {
   const std::vector<double> chi = reject_outlier_loops(graph, solver, constraints);
   for (std::size_t i = 0; i < chi.size(); ++i) {
     LoopRecord& loop = loops_[loops[i]];
-    const bool fits = graph.enabled(constraints[i]);
-    loop.verdict = fits ? LoopVerdict::kAccepted : LoopVerdict::kSwitchedOff;
-    loop.refusal.reset();
-    if (!fits) loop.refusal = LoopRefusal{LoopRefusal::Reason::kContradicted, chi[i], kInlierChi};
+    loop.state = LoopState::kAccepted;
+    loop.rejection.reset();
+    if (!graph.enabled(constraints[i]))
+      reject(loop, {LoopRejection::Reason::kContradicted, chi[i], kInlierChi});
   }
 }
 
@@ -121,20 +119,15 @@ std::vector<LoopLedger::ContradictedForce> LoopLedger::contradicted_forces(
   return contradicted;
 }
 
-void LoopLedger::refuse_pending() {
-  for (LoopRecord& loop : loops_) {
-    if (loop.verdict != LoopVerdict::kPending) continue;
-    loop.verdict = LoopVerdict::kRefused;
-    loop.refusal = LoopRefusal{LoopRefusal::Reason::kNoConsensus};
-  }
+void LoopLedger::reject_candidates() {
+  for (LoopRecord& loop : loops_)
+    if (loop.state == LoopState::kCandidate) reject(loop, {LoopRejection::Reason::kNoConsensus});
 }
 
 std::set<LoopPair> LoopLedger::searched_pairs() const {
   std::set<LoopPair> pairs;
   for (const LoopRecord& loop : loops_) {
-    const bool failed =
-        loop.verdict == LoopVerdict::kRefused || loop.verdict == LoopVerdict::kNotFound ||
-        (loop.verdict == LoopVerdict::kDeleted && !loop.by_hand);  // a match by hand that was undone
+    const bool failed = loop.state == LoopState::kRejected && !is_outlier(loop);
     if (!failed || loop.in_final_search || loop.by_hand) pairs.insert(pair_of(loop));
   }
   return pairs;
@@ -142,7 +135,7 @@ std::set<LoopPair> LoopLedger::searched_pairs() const {
 
 void LoopLedger::remove(const LoopPair& pair, PoseGraph& graph) {
   take_over(pair, LoopEdit::Kind::kDelete, graph);
-  for (const std::size_t loop : attempts_of(pair)) strike(loop, LoopRefusal::Reason::kDeletedByHand, graph);
+  for (const std::size_t loop : attempts_of(pair)) strike(loop, LoopRejection::Reason::kDeletedByHand, graph);
 }
 
 bool LoopLedger::force(const LoopPair& pair, bool of_final_search, PoseGraph& graph) {
@@ -150,13 +143,12 @@ bool LoopLedger::force(const LoopPair& pair, bool of_final_search, PoseGraph& gr
   by_hand_[pair].of_final_search = of_final_search;
   const std::vector<std::size_t> attempts = attempts_of(pair);
   const auto found = std::find_if(attempts.rbegin(), attempts.rend(), [&](std::size_t loop) {
-    return loops_[loop].verdict != LoopVerdict::kNotFound &&
-           (!of_final_search || loops_[loop].in_final_search);
+    return !found_nothing(loops_[loop]) && (!of_final_search || loops_[loop].in_final_search);
   });
   if (found == attempts.rend()) return false;
   for (const std::size_t other : attempts)
-    if (other != *found) strike(other, LoopRefusal::Reason::kOtherMatchForced, graph);
-  if (constraint_of_[*found]) strike(*found, LoopRefusal::Reason::kMatchedAgain, graph);
+    if (other != *found) strike(other, LoopRejection::Reason::kOtherMatchForced, graph);
+  if (constraint_of_[*found]) strike(*found, LoopRejection::Reason::kMatchedAgain, graph);
   accept_by_hand(loops_[*found]);
   accept(*found, graph);
   return true;
@@ -168,7 +160,7 @@ std::vector<LoopPair> LoopLedger::forced_in_vain() const {
     if (by_hand.kind != LoopEdit::Kind::kForce) continue;
     const std::vector<std::size_t> attempts = attempts_of(pair);
     if (std::none_of(attempts.begin(), attempts.end(),
-                     [&](std::size_t loop) { return loops_[loop].verdict == LoopVerdict::kAccepted; }))
+                     [&](std::size_t loop) { return loops_[loop].state == LoopState::kAccepted; }))
       pairs.push_back(pair);
   }
   return pairs;
@@ -178,9 +170,9 @@ void LoopLedger::replace(LoopRecord loop, PoseGraph& graph) {
   const LoopPair pair = pair_of(loop);
   take_over(pair, LoopEdit::Kind::kMatch, graph);
   const std::vector<std::size_t> attempts = attempts_of(pair);
-  for (const std::size_t before : attempts) strike(before, LoopRefusal::Reason::kMatchedAgain, graph);
+  for (const std::size_t before : attempts) strike(before, LoopRejection::Reason::kMatchedAgain, graph);
   loop.by_hand = true;
-  const bool accepted = loop.verdict == LoopVerdict::kAccepted;
+  const bool accepted = loop.state == LoopState::kAccepted;
   const std::size_t index = attempts.empty() ? enter(loop) : attempts.back();
   loops_[index] = std::move(loop);
   if (accepted) accept(index, graph);
@@ -190,15 +182,15 @@ bool LoopLedger::restore(const LoopPair& pair, PoseGraph& graph) {
   const auto wanted = by_hand_.find(pair);
   if (wanted == by_hand_.end()) return false;
   for (const std::size_t loop : attempts_of(pair)) {
-    strike(loop, LoopRefusal::Reason::kMatchTakenBack, graph);
+    strike(loop, LoopRejection::Reason::kMatchTakenBack, graph);
     loops_[loop].by_hand = false;
   }
   for (const Entry& entry : wanted->second.before) {
     loops_[entry.loop] = entry.record;
     if (entry.constraint) {
       link(entry.loop, *entry.constraint);
-      graph.set_enabled(*entry.constraint, entry.record.verdict == LoopVerdict::kAccepted);
-    } else if (entry.record.verdict == LoopVerdict::kAccepted) {
+      graph.set_enabled(*entry.constraint, entry.record.state == LoopState::kAccepted);
+    } else if (entry.record.state == LoopState::kAccepted) {
       accept(entry.loop, graph);
     }
   }
@@ -231,7 +223,7 @@ void LoopLedger::link(std::size_t loop, std::size_t constraint) {
   constraints_.emplace_back(constraint, loop);
 }
 
-void LoopLedger::strike(std::size_t loop, LoopRefusal::Reason reason, PoseGraph& graph) {
+void LoopLedger::strike(std::size_t loop, LoopRejection::Reason reason, PoseGraph& graph) {
   if (const auto constraint = std::exchange(constraint_of_[loop], std::nullopt)) {
     graph.set_enabled(*constraint, false);
     constraints_.erase(std::find(constraints_.begin(), constraints_.end(), std::pair(*constraint, loop)));

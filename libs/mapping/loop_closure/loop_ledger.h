@@ -35,12 +35,12 @@ class LoopLedger {
   std::vector<LoopRecord> take_loops() { return std::move(loops_); }
 
   /// Adds an attempt and returns its number. If a person deleted or forced the loop of the same node and
-  /// local map, the edit determines the verdict.
+  /// local map, the edit determines the state.
   std::size_t add(LoopRecord loop);
 
-  /// Makes an accepted or pending loop a constraint of the graph. Returns the larger of the loop's position
-  /// and heading residuals at the graph's poses, in standard deviations of LoopNoise. Does nothing and
-  /// returns nothing if the loop has another verdict or already is a constraint.
+  /// Makes an accepted loop or a candidate a constraint of the graph. Returns the larger of the loop's
+  /// position and heading residuals at the graph's poses, in standard deviations of LoopNoise. Does nothing
+  /// and returns nothing if the loop is rejected or already is a constraint.
   std::optional<double> accept(std::size_t loop, PoseGraph& graph);
 
   /// Optimises the graph and rejects outlier loops, see reject_outlier_loops(). Never rejects forced loops.
@@ -58,10 +58,10 @@ class LoopLedger {
   std::vector<ContradictedForce> contradicted_forces(const PoseGraph& graph,
                                                      SparsePoseAdjustment& solver) const;
 
-  void refuse_pending();
+  void reject_candidates();
 
-  /// Returns the pairs that the final search skips. These pairs have an accepted, pending or switched-off
-  /// loop, were matched by an earlier pass, or were edited by a person.
+  /// Returns the pairs that the final search skips. These pairs have a candidate, an accepted or an
+  /// outlier loop, were matched by an earlier pass, or were edited by a person.
   std::set<LoopPair> searched_pairs() const;
 
   // Edits by hand. Each edit also applies to later attempts of the same node and local map.
@@ -104,7 +104,7 @@ class LoopLedger {
   bool is_forced(std::size_t loop) const;
   /// Returns the constraints of the loops that are not forced, and the numbers of these loops.
   std::pair<std::vector<std::size_t>, std::vector<std::size_t>> unforced() const;
-  void strike(std::size_t loop, LoopRefusal::Reason reason, PoseGraph& graph);
+  void strike(std::size_t loop, LoopRejection::Reason reason, PoseGraph& graph);
 
   LoopNoise noise_;
   std::vector<LoopRecord> loops_;

@@ -5,8 +5,8 @@
 
 namespace psi_slam {
 
-std::string text_of(LoopRefusal::Reason reason) {
-  using Reason = LoopRefusal::Reason;
+std::string text_of(LoopRejection::Reason reason) {
+  using Reason = LoopRejection::Reason;
   switch (reason) {
     case Reason::kNothingFound:
       return "no pose in the search window scores high enough";
@@ -38,13 +38,13 @@ std::string text_of(LoopRefusal::Reason reason) {
   return {};
 }
 
-std::string text_of(const std::optional<LoopRefusal>& refusal) {
-  using Reason = LoopRefusal::Reason;
-  if (!refusal) return {};
-  const std::string reason = text_of(refusal->reason);
-  const std::string value = fixed_text(refusal->value, 2);
-  const std::string limit = fixed_text(refusal->limit, 2);
-  switch (refusal->reason) {
+std::string text_of(const std::optional<LoopRejection>& rejection) {
+  using Reason = LoopRejection::Reason;
+  if (!rejection) return {};
+  const std::string reason = text_of(rejection->reason);
+  const std::string value = fixed_text(rejection->value, 2);
+  const std::string limit = fixed_text(rejection->limit, 2);
+  switch (rejection->reason) {
     case Reason::kNothingFound:
       return reason + ": minimum response " + limit;
     case Reason::kLowResponse:

@@ -72,35 +72,35 @@ RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const KeyframeSt
   return sum;
 }
 
-/// Returns the first reason to refuse the loop, if any. Sets the shares that were computed for the decision.
-std::optional<LoopRefusal> find_objection(LoopRecord& loop, const ScanPoints& scan,
-                                          const KeyframeStore& keyframes,
-                                          const LoopVerificationOptions& options) {
-  using Reason = LoopRefusal::Reason;
+/// Returns the first reason to reject the loop, if any. Sets the shares that were computed for the decision.
+std::optional<LoopRejection> find_objection(LoopRecord& loop, const ScanPoints& scan,
+                                            const KeyframeStore& keyframes,
+                                            const LoopVerificationOptions& options) {
+  using Reason = LoopRejection::Reason;
   const bool wide = is_wide(loop.window, options);
   const double needed = min_response(loop.window, options);
-  if (loop.response < needed) return LoopRefusal{Reason::kLowResponse, loop.response, needed};
+  if (loop.response < needed) return LoopRejection{Reason::kLowResponse, loop.response, needed};
   // Far from the prediction, another peak or a place outside the window is more probable.
   const double doubt = 1 - (1 - loop.ambiguity) * loop.prior;
   if (!wide && doubt > options.max_ambiguity)
-    return LoopRefusal{Reason::kAmbiguous, doubt, options.max_ambiguity};
+    return LoopRejection{Reason::kAmbiguous, doubt, options.max_ambiguity};
   const double sigma_m = std::sqrt(largest_position_variance_m2(loop.covariance));
   if (sigma_m > options.max_sigma_m)
-    return LoopRefusal{Reason::kUncertainPosition, sigma_m, options.max_sigma_m};
+    return LoopRejection{Reason::kUncertainPosition, sigma_m, options.max_sigma_m};
 
   const LocalMap::Agreement own =
       keyframes.local_maps[loop.local_map].map->agreement(scan, loop.anchor_T_node);
   loop.observed_share = static_cast<double>(own.observed) / static_cast<double>(scan.points.size());
   if (!wide && loop.observed_share < options.min_observed_share)
-    return LoopRefusal{Reason::kUnobserved, loop.observed_share, options.min_observed_share};
+    return LoopRejection{Reason::kUnobserved, loop.observed_share, options.min_observed_share};
 
   loop.neighbours_agree = neighbours_agreement(loop, keyframes, options.neighbourhood_m).share();
   if (loop.neighbours_agree < options.min_neighbours_agree)
-    return LoopRefusal{Reason::kNeighboursDisagree, loop.neighbours_agree, options.min_neighbours_agree};
+    return LoopRejection{Reason::kNeighboursDisagree, loop.neighbours_agree, options.min_neighbours_agree};
 
   loop.reverse_agree = reverse_agreement(loop, keyframes).share();
   if (loop.reverse_agree < options.min_reverse_agree)
-    return LoopRefusal{Reason::kReverseDisagrees, loop.reverse_agree, options.min_reverse_agree};
+    return LoopRejection{Reason::kReverseDisagrees, loop.reverse_agree, options.min_reverse_agree};
   return std::nullopt;
 }
 
@@ -124,11 +124,11 @@ double least_response_by_hand(const SearchExtent& extent, const LoopVerification
 
 void verify(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& keyframes,
             const LoopVerificationOptions& options) {
-  loop.refusal = find_objection(loop, scan, keyframes, options);
-  if (loop.refusal)
-    loop.verdict = LoopVerdict::kRefused;
+  loop.rejection = find_objection(loop, scan, keyframes, options);
+  if (loop.rejection)
+    loop.state = LoopState::kRejected;
   else
-    loop.verdict = is_wide(loop.window, options) ? LoopVerdict::kPending : LoopVerdict::kAccepted;
+    loop.state = is_wide(loop.window, options) ? LoopState::kCandidate : LoopState::kAccepted;
 }
 
 }  // namespace psi_slam

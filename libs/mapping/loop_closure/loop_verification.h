@@ -33,15 +33,15 @@ bool is_wide(const SearchExtent& extent, const LoopVerificationOptions& options)
 double min_response(const SearchExtent& extent, const LoopVerificationOptions& options);
 
 /// Returns the least response of a match that a search reports. In narrow windows it is below min_response(),
-/// so that records show which matches were refused, and why. In wide windows that would cost much time.
+/// so that records show which matches were rejected, and why. In wide windows that would cost much time.
 double least_reported_response(const SearchExtent& extent, const LoopVerificationOptions& options);
 
 /// Returns the least response of a match by hand. It is below min_response() in all windows, so that records
-/// show which matches were refused.
+/// show which matches were rejected.
 double least_response_by_hand(const SearchExtent& extent, const LoopVerificationOptions& options);
 
-/// Sets the verdict, the shares and the refusal of `loop`. A verified match in a wide window is pending until
-/// other matches agree, see LoopConsensus. `scan` holds the points that were matched.
+/// Sets the state, the shares and the rejection of `loop`. A verified match in a wide window is a candidate
+/// until other matches agree, see LoopConsensus. `scan` holds the points that were matched.
 void verify(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& keyframes,
             const LoopVerificationOptions& options);
 

@@ -21,7 +21,7 @@ def plot(result: psi_slam.Result) -> None:
     figure, axes = plt.subplots(figsize=(9, 9))
     axes.imshow(grid.occupancy, origin="lower", extent=grid.extent, cmap="gray_r", vmin=0, vmax=1)
     axes.plot(poses["x_m"], poses["y_m"], linewidth=1, label="path")
-    for loop in result.loops[result.loops["verdict"] == "accepted"]:
+    for loop in result.loops[result.loops["state"] == "accepted"]:
         node = poses[loop["frame"]]
         anchor = poses[poses["node"] == loop["anchor"]][0]
         axes.plot([anchor["x_m"], node["x_m"]], [anchor["y_m"], node["y_m"]], "g-", linewidth=0.5)

@@ -24,7 +24,7 @@ def figures(log: str, settings: dict[str, Any], relations: Optional[str]) -> dic
     row: dict[str, Any] = {
         "verdict": result.verdict.state,
         "doubt_m": result.verdict.doubt_m,
-        "loops": (result.loops["verdict"] == "accepted").sum(),
+        "loops": (result.loops["state"] == "accepted").sum(),
         "mean_response": result.poses["response"].mean(),
         "wall_s": result.summary["wall_s"],
     }

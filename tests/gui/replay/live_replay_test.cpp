@@ -94,7 +94,7 @@ TEST_F(LiveReplay, serves_commands_while_it_waits_for_scans) {
   const SnapshotPtr edited =
       wait_for(replay, [](const ReplaySnapshot& now) { return now.edits_served == 1; });
   EXPECT_EQ(edited->phase, ReplayPhase::kPlaying);
-  EXPECT_EQ(edited->loops->front().verdict, LoopVerdict::kDeleted);
+  EXPECT_TRUE(rejected_by(edited->loops->front(), LoopRejection::Reason::kDeletedByHand));
   record(150);
   wait_for_scans(replay, 150);
   replay.finish();

@@ -387,13 +387,14 @@ class ReplayEditsTest : public ReplayTest {
 
   static LoopEdit delete_first_accepted(const ReplaySnapshot& snapshot) {
     for (const LoopRecord& loop : *snapshot.loops)
-      if (loop.verdict == LoopVerdict::kAccepted)
-        return {LoopEdit::Kind::kDelete, loop.frame, loop.local_map};
+      if (loop.state == LoopState::kAccepted) return {LoopEdit::Kind::kDelete, loop.frame, loop.local_map};
     throw std::logic_error("no loop was closed");
   }
-  static LoopVerdict verdict_of(const ReplaySnapshot& snapshot, const LoopEdit& edit) {
+  /// Returns the state of a loop, or the reason why it was rejected.
+  static std::string state_of(const ReplaySnapshot& snapshot, const LoopEdit& edit) {
     for (const LoopRecord& loop : *snapshot.loops)
-      if (loop.frame == edit.frame && loop.local_map == edit.local_map) return loop.verdict;
+      if (loop.frame == edit.frame && loop.local_map == edit.local_map)
+        return loop.rejection ? text_of(loop.rejection) : state_text(loop.state);
     throw std::logic_error("the two were never matched");
   }
   /// Exports the replay, and expects the same files of a run of the log with the exported edits.
@@ -418,22 +419,22 @@ TEST_F(ReplayEditsTest, are_shown_at_once_and_can_be_undone_and_redone) {
   const LoopEdit edit = delete_first_accepted(*mapped);
   replay.edit(edit);
   const SnapshotPtr edited = wait_for_edit(replay, 1);
-  EXPECT_EQ(verdict_of(*edited, edit), LoopVerdict::kDeleted);
+  EXPECT_EQ(state_of(*edited, edit), "deleted by hand");
   EXPECT_NE(edited->map_T_node->back(), mapped->map_T_node->back());
   EXPECT_EQ(edited->edits->size(), 1U);
   EXPECT_THAT(edited->undo_text, HasSubstr("delete the loop of scan"));
   EXPECT_EQ(edited->redo_text, "");
   replay.undo();
   const SnapshotPtr undone = wait_for_edit(replay, 2);
-  EXPECT_EQ(verdict_of(*undone, edit), LoopVerdict::kAccepted);
+  EXPECT_EQ(state_of(*undone, edit), "accepted");
   EXPECT_EQ(undone->undo_text, "");
   EXPECT_THAT(undone->redo_text, HasSubstr("delete the loop of scan"));
   replay.undo();  // nothing is left to undo
   replay.redo();
-  EXPECT_EQ(verdict_of(*wait_for_edit(replay, 3), edit), LoopVerdict::kDeleted);
+  EXPECT_EQ(state_of(*wait_for_edit(replay, 3), edit), "deleted by hand");
   replay.set_speed(0);
   replay.play();
-  EXPECT_EQ(verdict_of(*wait_for(replay, ReplayPhase::kFinished), edit), LoopVerdict::kDeleted)
+  EXPECT_EQ(state_of(*wait_for(replay, ReplayPhase::kFinished), edit), "deleted by hand")
       << "the edit survives later scans";
 }
 
@@ -481,12 +482,12 @@ TEST_F(ReplayEditsTest, of_one_run_are_repeated_in_the_next) {
   replay.play();
   const SnapshotPtr finished = wait_for(replay, ReplayPhase::kFinished);
   LoopEdit edit = journal.edits()[0].edit;
-  EXPECT_EQ(verdict_of(*finished, edit), LoopVerdict::kDeleted);
+  EXPECT_EQ(state_of(*finished, edit), "deleted by hand");
   edit.kind = LoopEdit::Kind::kForce;
   replay.edit(edit);
-  EXPECT_EQ(verdict_of(*wait_until_finished_after_edit(replay, 1), edit), LoopVerdict::kAccepted);
+  EXPECT_EQ(state_of(*wait_until_finished_after_edit(replay, 1), edit), "accepted");
   replay.undo();
-  EXPECT_EQ(verdict_of(*wait_until_finished_after_edit(replay, 2), edit), LoopVerdict::kDeleted)
+  EXPECT_EQ(state_of(*wait_until_finished_after_edit(replay, 2), edit), "deleted by hand")
       << "the journal's edit is in force again";
 }
 
@@ -516,7 +517,7 @@ TEST_F(ReplayEditsTest, undoing_restores_edits_planned_for_later) {
   EXPECT_EQ(replay.edits_asked(), replay.snapshot()->edits_served);
   replay.set_speed(0);
   replay.play();
-  EXPECT_EQ(verdict_of(*wait_for(replay, ReplayPhase::kFinished), edit), LoopVerdict::kDeleted);
+  EXPECT_EQ(state_of(*wait_for(replay, ReplayPhase::kFinished), edit), "deleted by hand");
 }
 
 TEST_F(ReplayEditsTest, that_were_not_made_are_reported) {

@@ -8,11 +8,14 @@ namespace {
 
 using testing::ElementsAre;
 
-LoopRecord loop(MatcherKind matcher, LoopVerdict verdict, double residual_m = 0) {
+using Reason = LoopRejection::Reason;
+
+LoopRecord loop(MatcherKind matcher, std::optional<Reason> reason, double residual_m = 0) {
   LoopRecord record;
   record.node = 1;
   record.matcher = matcher;
-  record.verdict = verdict;
+  record.state = LoopState::kAccepted;
+  if (reason) reject(record, {*reason});
   record.anchor_T_node.x = residual_m;
   return record;
 }
@@ -22,9 +25,8 @@ class LoopLegendTest : public testing::Test {
   LoopLegendTest() {
     snapshot_.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(2);
     snapshot_.loops = std::make_shared<std::vector<LoopRecord>>(std::vector<LoopRecord>{
-        loop(MatcherKind::kGa, LoopVerdict::kAccepted, 0.125),
-        loop(MatcherKind::kCsm, LoopVerdict::kAccepted, 9), loop(MatcherKind::kCsmGa, LoopVerdict::kRefused),
-        loop(MatcherKind::kGa, LoopVerdict::kSwitchedOff)});
+        loop(MatcherKind::kGa, std::nullopt, 0.125), loop(MatcherKind::kCsm, std::nullopt, 9),
+        loop(MatcherKind::kCsmGa, Reason::kLowResponse), loop(MatcherKind::kGa, Reason::kContradicted)});
   }
   std::vector<std::string> names(const LoopStyle& style) const {
     std::vector<std::string> result;
@@ -36,11 +38,11 @@ class LoopLegendTest : public testing::Test {
 };
 
 TEST_F(LoopLegendTest, names_only_what_is_drawn) {
-  EXPECT_THAT(names({LoopStyle::Colour::kMatcher, false}), ElementsAre("csm", "ga", "switched off"));
+  EXPECT_THAT(names({LoopStyle::Colour::kMatcher, false}), ElementsAre("csm", "ga", "rejected as outlier"));
   EXPECT_THAT(names({LoopStyle::Colour::kMatcher, true}),
-              ElementsAre("csm", "ga", "switched off", "refused"));
+              ElementsAre("csm", "ga", "rejected as outlier", "rejected otherwise"));
   EXPECT_THAT(names({LoopStyle::Colour::kResidual, false}),
-              ElementsAre("0.00 m", "0.06 m", "0.12 m", "0.19 m", "0.25 m and more", "switched off"));
+              ElementsAre("0.00 m", "0.06 m", "0.12 m", "0.19 m", "0.25 m and more", "rejected as outlier"));
   EXPECT_TRUE(loop_legend(ReplaySnapshot(), {}).entries.empty());
 }
 

@@ -27,7 +27,7 @@ TEST_F(LoopPictureTest, at_its_matched_pose_the_scan_lies_on_the_walls_of_the_lo
   std::size_t accepted = 0;
   for (std::size_t i = 0; i < finished_->loops->size(); ++i) {
     const LoopRecord& loop = (*finished_->loops)[i];
-    if (loop.verdict != LoopVerdict::kAccepted) continue;
+    if (loop.state != LoopState::kAccepted) continue;
     ++accepted;
     const std::optional<LoopPicture> picture = loop_picture(*finished_, i);
     ASSERT_TRUE(picture.has_value());
@@ -48,7 +48,7 @@ TEST_F(LoopPictureTest, is_missing_for_a_missing_loop) {
 
 TEST_F(LoopPictureTest, residuals_of_true_loops_are_small) {
   for (const LoopRecord& loop : *finished_->loops)
-    if (loop.verdict == LoopVerdict::kAccepted) {
+    if (loop.state == LoopState::kAccepted) {
       EXPECT_LT(loop_residual_m(loop, *finished_->map_T_node), 0.1);
     }
 }

@@ -32,10 +32,9 @@ class MapSceneTest : public ReplayedRoom {
       count += std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(lines)->size();
     return count;
   }
-  std::size_t loops(LoopVerdict verdict) const {
+  std::size_t loops(bool (*condition)(const LoopRecord&)) const {
     return static_cast<std::size_t>(
-        std::count_if(finished_->loops->begin(), finished_->loops->end(),
-                      [&](const LoopRecord& loop) { return loop.verdict == verdict; }));
+        std::count_if(finished_->loops->begin(), finished_->loops->end(), condition));
   }
 
   MapScene scene_;
@@ -179,21 +178,22 @@ TEST_F(MapSceneTest, draws_the_active_local_maps_of_a_run_in_progress) {
   EXPECT_EQ(objects(MapLayer::kGrid), 0U);
 }
 
-TEST_F(MapSceneTest, draws_accepted_loops_and_refused_ones_on_request) {
+TEST_F(MapSceneTest, draws_accepted_loops_and_rejected_ones_on_request) {
   scene_.show(finished_, map_);
-  ASSERT_GT(loops(LoopVerdict::kAccepted), 0U);
-  EXPECT_EQ(loop_lines(),
-            finished_->loops->size() - loops(LoopVerdict::kRefused) - loops(LoopVerdict::kNotFound));
+  ASSERT_GT(loops([](const LoopRecord& loop) { return loop.state == LoopState::kAccepted; }), 0U);
+  EXPECT_EQ(loop_lines(), finished_->loops->size() - loops([](const LoopRecord& loop) {
+                            return loop.state == LoopState::kRejected && !is_outlier(loop);
+                          }));
   scene_.set_loop_style({LoopStyle::Colour::kMatcher, true});
   EXPECT_TRUE(scene_.show(finished_, map_));
-  EXPECT_EQ(loop_lines(), finished_->loops->size() - loops(LoopVerdict::kNotFound))
+  EXPECT_EQ(loop_lines(), finished_->loops->size() - loops(found_nothing))
       << "loops without a match have no line";
 }
 
 TEST_F(MapSceneTest, draws_as_many_loops_as_the_report) {
   auto snapshot = std::make_shared<ReplaySnapshot>(*finished_);
   LoopRecord loop = finished_->loops->front();
-  loop.verdict = LoopVerdict::kAccepted;
+  loop.state = LoopState::kAccepted;
   std::vector<LoopRecord> many(1200, loop);
   many[7].by_hand = true;
   snapshot->loops = std::make_shared<std::vector<LoopRecord>>(many);
@@ -205,7 +205,7 @@ TEST_F(MapSceneTest, colours_loops_by_matcher_or_residual) {
   scene_.show(finished_, map_);
   const auto colour = [&] { return first<mrpt::opengl::CSetOfLines>(MapLayer::kLoops)->getColor_u8(); };
   EXPECT_TRUE(std::any_of(finished_->loops->begin(), finished_->loops->end(), [&](const LoopRecord& loop) {
-    return loop.verdict == LoopVerdict::kAccepted && matcher_colour(loop.matcher).G == colour().G;
+    return loop.state == LoopState::kAccepted && matcher_colour(loop.matcher).G == colour().G;
   }));
   EXPECT_NE(colour().G, heat_colour(0).G);
   scene_.set_loop_style({LoopStyle::Colour::kResidual, false});

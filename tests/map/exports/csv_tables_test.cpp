@@ -115,26 +115,25 @@ TEST(FramesCsv, tells_unmatched_scans_from_those_without_a_map_to_match_with) {
   }
 }
 
-TEST(LoopsCsv, has_one_row_per_attempt_with_verdict_and_reason) {
+TEST(LoopsCsv, has_one_row_per_attempt_with_state_and_reason) {
   const MappingResult result = walk_around_the_room();
   std::istringstream text(loops_csv(result.loops));
   std::string header;
-  std::string refused;
+  std::string rejected;
   std::string accepted;
   std::getline(text, header);
-  std::getline(text, refused);
+  std::getline(text, rejected);
   std::getline(text, accepted);
   EXPECT_THAT(
       header,
-      StartsWith(
-          "frame,node,local_map,anchor,verdict,reason,matcher,in_last_pass,by_hand,x_m,y_m,theta_rad,"));
-  EXPECT_THAT(refused,
-              StartsWith("25,5,0,0,refused,\"the response is too low: 0.41, minimum 0.55\",csm,0,0,"));
+      StartsWith("frame,node,local_map,anchor,state,reason,matcher,in_last_pass,by_hand,x_m,y_m,theta_rad,"));
+  EXPECT_THAT(rejected,
+              StartsWith("25,5,0,0,rejected,\"the response is too low: 0.41, minimum 0.55\",csm,0,0,"));
   EXPECT_THAT(accepted, StartsWith("45,9,0,0,accepted,,csm,0,0,"));
   EXPECT_THAT(accepted, HasSubstr(",0.010000,0.010000,0.010000,"));
   EXPECT_THAT(header, EndsWith(",milliseconds,search"));
   EXPECT_THAT(accepted, EndsWith(",branch_and_bound"));
-  EXPECT_THAT(refused, EndsWith(",exhaustive"));
+  EXPECT_THAT(rejected, EndsWith(",exhaustive"));
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(accepted.begin(), accepted.end(), ','));
   EXPECT_FALSE(std::getline(text, header));
 }

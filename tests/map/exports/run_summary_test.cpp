@@ -48,18 +48,16 @@ TEST(RunSummary, counts_the_returns_of_all_lasers) {
 
 TEST(RunSummary, counts_loops_and_their_reasons) {
   MappingResult result = walk_around_the_room();
-  LoopRecord refused = result.loops[0];
-  refused.refusal->value = 0.5;
-  result.loops.push_back(refused);
-  refused.refusal->reason = LoopRefusal::Reason::kContradicted;
-  refused.verdict = LoopVerdict::kSwitchedOff;
-  result.loops.push_back(refused);
+  LoopRecord rejected = result.loops[0];
+  rejected.rejection->value = 0.5;
+  result.loops.push_back(rejected);
+  rejected.rejection->reason = LoopRejection::Reason::kContradicted;
+  result.loops.push_back(rejected);
   const LoopCounts loops = summary_of(result).loops;
   EXPECT_EQ(loops.accepted, 1U);
-  EXPECT_EQ(loops.refused, 2U);
-  EXPECT_EQ(loops.switched_off, 1U);
+  EXPECT_EQ(loops.rejected, 3U);
   ASSERT_EQ(loops.reasons.size(), 2U);
-  EXPECT_EQ(loops.reasons[0].reason, LoopRefusal::Reason::kLowResponse);
+  EXPECT_EQ(loops.reasons[0].reason, LoopRejection::Reason::kLowResponse);
   EXPECT_EQ(loops.reasons[0].count, 2U);
 }
 
@@ -73,12 +71,12 @@ TEST(RunSummary, counts_attempts_that_found_nothing) {
   EXPECT_EQ(summary.evaluations, of_frames + 200) << "plus 200 evaluations of the final search";
 }
 
-TEST(RunSummary, counts_pending_loops_of_a_stopped_run_as_refused) {
+TEST(RunSummary, counts_candidates_of_a_stopped_run_as_rejected) {
   MappingResult result = walk_around_the_room();
-  result.loops[1].verdict = LoopVerdict::kPending;
+  result.loops[1].state = LoopState::kCandidate;
   const LoopCounts loops = summary_of(result).loops;
-  EXPECT_EQ(loops.refused, 2U);
-  EXPECT_EQ(loops.accepted + loops.switched_off, 0U);
+  EXPECT_EQ(loops.rejected, 2U);
+  EXPECT_EQ(loops.accepted, 0U);
 }
 
 TEST(RunSummary, has_speed_memory_and_map) {
@@ -130,7 +128,7 @@ RunSummary some_figures() {
   summary.log.first_time_us = 976052905167303;
   summary.log.duration_s = 9.8;
   summary.loops.accepted = 1;
-  summary.loops.reasons = {{LoopRefusal::Reason::kLowResponse, 7}};
+  summary.loops.reasons = {{LoopRejection::Reason::kLowResponse, 7}};
   summary.real_time_factor = 19.6;
   summary.peak_memory_mib = 123.4;
   summary.final_search_cut_short = true;

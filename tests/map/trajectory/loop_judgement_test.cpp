@@ -55,7 +55,7 @@ void add_loop(MappingResult& result, std::size_t node, const TPose2D& moved = {}
   loop.node = node;
   loop.anchor = result.local_maps.front().anchor;
   loop.anchor_T_node = truth(node) - truth(loop.anchor) + moved;
-  loop.verdict = LoopVerdict::kAccepted;
+  loop.state = LoopState::kAccepted;
   result.loops.push_back(loop);
 }
 
@@ -134,9 +134,8 @@ TEST(LoopJudgement, ignores_relations_elsewhere_on_the_path) {
 TEST(LoopJudgement, judges_accepted_loops_only) {
   MappingResult result = run();
   add_loop(result, 71, {5, 0, 0});
-  for (const LoopVerdict verdict :
-       {LoopVerdict::kRefused, LoopVerdict::kSwitchedOff, LoopVerdict::kPending}) {
-    result.loops.front().verdict = verdict;
+  for (const LoopState state : {LoopState::kRejected, LoopState::kCandidate}) {
+    result.loops.front().state = state;
     const LoopJudgement judgement = judge_loops(result, {relation(10, 71)});
     EXPECT_EQ(judgement.judged.size() + judgement.unjudged, 0U);
     EXPECT_EQ(judgement.recall(), 0);

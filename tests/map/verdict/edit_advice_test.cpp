@@ -71,7 +71,7 @@ class EditAdviceTest : public testing::Test {
     loop.reference_T_node = loop.anchor_T_node =
         compose(between(room_.poses[reference], room_.poses[node]), off);
     loop.covariance = information(0.02, 0.01).inverse();
-    loop.verdict = LoopVerdict::kAccepted;
+    loop.state = LoopState::kAccepted;
     map_.loops.push_back(loop);
     Constraint constraint{reference,
                           node,
@@ -167,7 +167,7 @@ TEST_F(EditAdviceTest, forces_a_match_as_the_mapper_does) {
   const std::size_t constraint = map_.graph.num_constraints() - 1;
   map_.graph.set_enabled(constraint, false);
   map_.loops.back().by_hand = true;
-  map_.loops.back().verdict = LoopVerdict::kSwitchedOff;
+  reject(map_.loops.back(), {LoopRejection::Reason::kContradicted});
   LoopRecord older = map_.loops.back();
   older.reference_T_node = compose(older.reference_T_node, {1, 0, 0});
   map_.loops.insert(map_.loops.begin(), older);

@@ -12,7 +12,7 @@ TEST(LoopResiduals, put_the_loop_that_the_map_contradicts_first) {
   MappingResult result = two_passes();
   result.loops = {loop_between(result, 2, 42), loop_between(result, 3, 43, {0.5, 0, 0.1}),
                   loop_between(result, 4, 44, {5, 0, 0})};
-  result.loops[2].verdict = LoopVerdict::kSwitchedOff;
+  reject(result.loops[2], {LoopRejection::Reason::kContradicted});
   const std::vector<LoopResidual> residuals = loop_residuals(result);
   ASSERT_EQ(residuals.size(), 2U) << "accepted loops only";
   EXPECT_EQ(residuals[0].loop, 1U);

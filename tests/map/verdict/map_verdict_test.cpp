@@ -231,7 +231,7 @@ TEST(MapVerdict, advises_to_match_a_scan_with_a_local_map_before_the_suspect) {
   EXPECT_NEAR(worst.effect->moved_m, 0.3, 0.05);
 }
 
-TEST(MapVerdict, advises_to_force_a_match_by_hand_that_was_switched_off) {
+TEST(MapVerdict, advises_to_force_a_match_by_hand_that_is_an_outlier) {
   MappingResult result = displaced_round();
   LoopRecord loop = loop_between(result, 10, 50);
   loop.reference_T_node = (mrpt::math::TPose2D(-0.3, 0, 0) + result.graph.pose(50)) - result.graph.pose(10);
@@ -243,7 +243,7 @@ TEST(MapVerdict, advises_to_force_a_match_by_hand_that_was_switched_off) {
                                                               Constraint::Kind::kLoop,
                                                               {}});
   result.graph.set_enabled(constraint, false);
-  loop.verdict = LoopVerdict::kSwitchedOff;
+  reject(loop, {LoopRejection::Reason::kContradicted});
   result.loops = {loop};
   const auto line = [&] { return edit_line(judge_map(result).hot_spots.at(0)); };
   EXPECT_THAT(line(), HasSubstr("match ")) << "it was not made by hand";
@@ -256,7 +256,7 @@ TEST(MapVerdict, advises_no_edit_that_was_made) {
   const LoopEdit advised = judge_map(result).hot_spots.at(0).edit.value();
   LoopRecord made = loop_between(result, 10, advised.frame);
   made.local_map = advised.local_map;
-  made.verdict = LoopVerdict::kRefused;
+  reject(made, {LoopRejection::Reason::kLowResponse});
   made.by_hand = true;
   result.loops = {made};
   for (const HotSpot& spot : judge_map(result).hot_spots)

@@ -49,7 +49,7 @@ inline LoopRecord loop_between(const MappingResult& result, std::size_t anchor, 
   loop.reference = anchor;
   loop.reference_T_node = loop.anchor_T_node;
   loop.covariance = Eigen::Matrix3d::Identity() * 1e-4;
-  loop.verdict = LoopVerdict::kAccepted;
+  loop.state = LoopState::kAccepted;
   return loop;
 }
 

@@ -32,7 +32,7 @@ TEST(FinalSearch, finds_true_loops_and_nothing_else) {
   std::size_t accepted = 0;
   for (const LoopRecord& loop : outcome.loops) {
     EXPECT_TRUE(loop.in_final_search);
-    if (loop.verdict != LoopVerdict::kAccepted) continue;
+    if (loop.state != LoopState::kAccepted) continue;
     ++accepted;
     const auto off = loop.anchor_T_node - (two_rounds().truth[loop.node] - two_rounds().truth[loop.anchor]);
     EXPECT_LT(std::hypot(off.x, off.y), 0.1);
@@ -155,7 +155,7 @@ TEST(FinalSearch, finds_the_same_in_the_same_order_with_any_number_of_threads) {
     for (std::size_t i = 0; i < alone.loops.size(); ++i) {
       EXPECT_EQ(together.loops[i].node, alone.loops[i].node);
       EXPECT_EQ(together.loops[i].anchor_T_node, alone.loops[i].anchor_T_node);
-      EXPECT_EQ(together.loops[i].verdict, alone.loops[i].verdict);
+      EXPECT_EQ(together.loops[i].state, alone.loops[i].state);
     }
     EXPECT_EQ(together.effort.evaluations, alone.effort.evaluations);
   }

@@ -75,9 +75,9 @@ TEST(LoopCloser, attempts_that_find_nothing_are_listed_and_counted) {
   EXPECT_GT(outcome.effort.attempts, 1U);
   EXPECT_EQ(outcome.loops.size(), outcome.effort.attempts);
   for (const LoopRecord& loop : outcome.loops) {
-    EXPECT_EQ(loop.verdict, LoopVerdict::kNotFound);
+    EXPECT_EQ(loop.state, LoopState::kRejected);
     EXPECT_EQ(loop.anchor_T_node, loop.anchor_T_predicted);
-    EXPECT_EQ(loop.refusal.value().reason, LoopRefusal::Reason::kNothingFound);
+    EXPECT_EQ(loop.rejection.value().reason, LoopRejection::Reason::kNothingFound);
   }
   EXPECT_EQ(outcome.effort.attempts, matcher.questions().size());
   EXPECT_EQ(outcome.effort.found, 0U);
@@ -305,7 +305,7 @@ TEST(LoopCloser, finds_a_place_that_drift_has_moved_out_of_the_largest_window) {
   for (int attempt = 0; attempt < 8 && !found; ++attempt) {
     for (const LoopRecord& loop :
          closer.close(node, keyframes, graph, {{MatcherKind::kCsm, matcher}}, pool).loops) {
-      if (loop.verdict != LoopVerdict::kPending) continue;
+      if (loop.state != LoopState::kCandidate) continue;
       const TPose2D pose = graph.pose(loop.anchor) + loop.anchor_T_node;
       EXPECT_NEAR(pose.x, truth.x, 0.3);
       EXPECT_NEAR(pose.y, truth.y, 0.3);
@@ -321,7 +321,7 @@ TEST(LoopCloser, finds_the_same_loops_with_any_number_of_threads) {
   const LoopCloser::Outcome alone = close(graph, matcher, 1);
   ASSERT_GT(alone.loops.size(), 1U);
   EXPECT_TRUE(std::any_of(alone.loops.begin(), alone.loops.end(),
-                          [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
+                          [](const LoopRecord& loop) { return loop.state == LoopState::kAccepted; }));
   for (const int threads : {2, 4}) {
     const LoopCloser::Outcome together = close(graph, matcher, threads);
     EXPECT_EQ(together.effort.evaluations, alone.effort.evaluations);
@@ -329,7 +329,7 @@ TEST(LoopCloser, finds_the_same_loops_with_any_number_of_threads) {
     for (std::size_t i = 0; i < alone.loops.size(); ++i) {
       EXPECT_EQ(together.loops[i].local_map, alone.loops[i].local_map);
       EXPECT_EQ(together.loops[i].anchor_T_node, alone.loops[i].anchor_T_node);
-      EXPECT_EQ(text_of(together.loops[i].refusal), text_of(alone.loops[i].refusal));
+      EXPECT_EQ(text_of(together.loops[i].rejection), text_of(alone.loops[i].rejection));
     }
   }
 }

@@ -12,7 +12,8 @@
 namespace psi_slam {
 namespace {
 
-using Verdict = LoopVerdict;
+using State = LoopState;
+using Reason = LoopRejection::Reason;
 
 constexpr LoopNoise kNoise{0.02, 0.01};
 
@@ -34,7 +35,7 @@ class LoopLedgerTest : public ::testing::Test {
     graph_.add_constraint(odometry);
   }
 
-  static LoopRecord loop(Verdict verdict, double x_m = 0, std::size_t local_map = 0) {
+  static LoopRecord loop(State state, double x_m = 0, std::size_t local_map = 0) {
     LoopRecord loop;
     loop.node = 2;
     loop.local_map = local_map;
@@ -43,12 +44,18 @@ class LoopLedgerTest : public ::testing::Test {
     loop.reference = 0;
     loop.reference_T_node = loop.anchor_T_node;
     loop.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
-    loop.verdict = verdict;
+    loop.state = state;
+    if (state == State::kRejected) reject(loop, {Reason::kLowResponse, 0.41, 0.55});
     return loop;
   }
   static LoopPair pair(std::size_t local_map = 0) { return {2, local_map}; }
 
-  Verdict verdict(std::size_t loop) const { return ledger_.loops()[loop].verdict; }
+  State state(std::size_t loop) const { return ledger_.loops()[loop].state; }
+  std::optional<Reason> reason(std::size_t loop) const {
+    const LoopRecord& record = ledger_.loops()[loop];
+    EXPECT_EQ(record.state == State::kRejected, record.rejection.has_value());
+    return record.rejection ? std::optional(record.rejection->reason) : std::nullopt;
+  }
   std::size_t loops_in_force() const {
     std::size_t count = 0;
     for (std::size_t i = 2; i < graph_.num_constraints(); ++i) count += graph_.enabled(i);
@@ -61,7 +68,7 @@ class LoopLedgerTest : public ::testing::Test {
 };
 
 TEST_F(LoopLedgerTest, an_accepted_loop_becomes_a_constraint_once_and_returns_its_residual) {
-  const std::size_t number = ledger_.add(loop(Verdict::kAccepted, 0.06));
+  const std::size_t number = ledger_.add(loop(State::kAccepted, 0.06));
   EXPECT_NEAR(ledger_.accept(number, graph_).value(), 0.06 / kNoise.sigma_m, 1e-9);
   EXPECT_FALSE(ledger_.accept(number, graph_).has_value());
   ASSERT_EQ(graph_.num_constraints(), 3U);
@@ -70,7 +77,7 @@ TEST_F(LoopLedgerTest, an_accepted_loop_becomes_a_constraint_once_and_returns_it
 }
 
 TEST_F(LoopLedgerTest, a_constraint_leads_from_the_reference_in_its_axes) {
-  LoopRecord turned = loop(Verdict::kAccepted);
+  LoopRecord turned = loop(State::kAccepted);
   turned.reference = 1;
   turned.anchor_T_node = {5, 6, 0.3};  // the anchor itself does not matter
   turned.reference_T_node = {-1, 0.04, 0.3 + M_PI / 2};
@@ -85,52 +92,52 @@ TEST_F(LoopLedgerTest, a_constraint_leads_from_the_reference_in_its_axes) {
   EXPECT_NEAR(constraint.information(1, 1), 1 / (1e-4 + 4e-4), 1e-6);
 }
 
-TEST_F(LoopLedgerTest, a_refused_loop_becomes_no_constraint) {
-  EXPECT_FALSE(ledger_.accept(ledger_.add(loop(Verdict::kRefused)), graph_).has_value());
+TEST_F(LoopLedgerTest, a_rejected_loop_becomes_no_constraint) {
+  EXPECT_FALSE(ledger_.accept(ledger_.add(loop(State::kRejected)), graph_).has_value());
   EXPECT_EQ(graph_.num_constraints(), 2U);
 }
 
-TEST_F(LoopLedgerTest, pending_loops_are_refused_at_the_end) {
-  const std::size_t waits = ledger_.add(loop(Verdict::kPending));
-  const std::size_t accepted = ledger_.add(loop(Verdict::kAccepted, 0, 1));
-  ledger_.refuse_pending();
-  EXPECT_EQ(verdict(waits), Verdict::kRefused);
-  EXPECT_EQ(verdict(accepted), Verdict::kAccepted);
+TEST_F(LoopLedgerTest, candidates_are_rejected_at_the_end) {
+  const std::size_t waits = ledger_.add(loop(State::kCandidate));
+  const std::size_t accepted = ledger_.add(loop(State::kAccepted, 0, 1));
+  ledger_.reject_candidates();
+  EXPECT_EQ(reason(waits), Reason::kNoConsensus);
+  EXPECT_EQ(state(accepted), State::kAccepted);
 }
 
-TEST_F(LoopLedgerTest, an_outlier_loop_is_switched_off_unless_forced) {
-  const std::size_t wrong = ledger_.add(loop(Verdict::kAccepted, 3));
+TEST_F(LoopLedgerTest, an_outlier_loop_is_rejected_unless_forced) {
+  const std::size_t wrong = ledger_.add(loop(State::kAccepted, 3));
   ledger_.accept(wrong, graph_);
   ledger_.settle(graph_, solver_);
-  EXPECT_EQ(verdict(wrong), Verdict::kSwitchedOff);
+  EXPECT_EQ(reason(wrong), Reason::kContradicted);
   EXPECT_EQ(loops_in_force(), 0U);
   EXPECT_TRUE(ledger_.force(pair(), false, graph_));
   ledger_.settle(graph_, solver_);
-  EXPECT_EQ(verdict(wrong), Verdict::kAccepted);
+  EXPECT_EQ(state(wrong), State::kAccepted);
   EXPECT_EQ(loops_in_force(), 1U);
 }
 
-TEST_F(LoopLedgerTest, a_switched_off_loop_states_its_residual_and_the_limit) {
-  const std::size_t wrong = ledger_.add(loop(Verdict::kAccepted, 3));
+TEST_F(LoopLedgerTest, an_outlier_loop_states_its_residual_and_the_limit) {
+  const std::size_t wrong = ledger_.add(loop(State::kAccepted, 3));
   ledger_.accept(wrong, graph_);
   ledger_.settle(graph_, solver_);
-  const std::optional<LoopRefusal>& refusal = ledger_.loops()[wrong].refusal;
-  ASSERT_TRUE(refusal);
-  EXPECT_EQ(refusal->reason, LoopRefusal::Reason::kContradicted);
-  EXPECT_NEAR(refusal->value, 3 / std::sqrt(1e-4 + 4e-4), 0.1);
-  EXPECT_EQ(refusal->limit, kInlierChi);
+  const std::optional<LoopRejection>& rejection = ledger_.loops()[wrong].rejection;
+  ASSERT_TRUE(rejection);
+  EXPECT_EQ(rejection->reason, Reason::kContradicted);
+  EXPECT_NEAR(rejection->value, 3 / std::sqrt(1e-4 + 4e-4), 0.1);
+  EXPECT_EQ(rejection->limit, kInlierChi);
 }
 
 TEST_F(LoopLedgerTest, a_force_that_path_and_loops_contradict_is_listed) {
   EXPECT_TRUE(ledger_.contradicted_forces(graph_, solver_).empty());
-  const std::size_t right = ledger_.add(loop(Verdict::kAccepted, 0.01, 0));
+  const std::size_t right = ledger_.add(loop(State::kAccepted, 0.01, 0));
   ledger_.accept(right, graph_);
-  ledger_.add(loop(Verdict::kRefused, 3, 2));
-  ledger_.add(loop(Verdict::kRefused, 0.02, 1));
+  ledger_.add(loop(State::kRejected, 3, 2));
+  ledger_.add(loop(State::kRejected, 0.02, 1));
   EXPECT_TRUE(ledger_.force(pair(2), false, graph_));
   EXPECT_TRUE(ledger_.force(pair(1), false, graph_));
   ledger_.settle(graph_, solver_);
-  EXPECT_EQ(verdict(right), Verdict::kSwitchedOff) << "an unforced loop yields to a forced one";
+  EXPECT_EQ(reason(right), Reason::kContradicted) << "an unforced loop yields to a forced one";
 
   const std::vector<LoopLedger::ContradictedForce> contradicted =
       ledger_.contradicted_forces(graph_, solver_);
@@ -147,20 +154,20 @@ TEST_F(LoopLedgerTest, a_force_that_path_and_loops_contradict_is_listed) {
   ledger_.settle(graph_, solver_);
   EXPECT_TRUE(ledger_.contradicted_forces(graph_, solver_).empty())
       << "the other force agrees with path and loop";
-  EXPECT_EQ(verdict(right), Verdict::kAccepted);
+  EXPECT_EQ(state(right), State::kAccepted);
 }
 
 TEST_F(LoopLedgerTest, a_forced_constraint_loses_its_kernel_until_restored) {
-  const std::size_t number = ledger_.add(loop(Verdict::kAccepted, 3));
+  const std::size_t number = ledger_.add(loop(State::kAccepted, 3));
   ledger_.accept(number, graph_);
   ledger_.settle(graph_, solver_);
-  ASSERT_EQ(verdict(number), Verdict::kSwitchedOff);
+  ASSERT_EQ(reason(number), Reason::kContradicted);
   EXPECT_FALSE(graph_.constraint(2).kernel) << "the solver's kernel for loops";
 
   EXPECT_TRUE(ledger_.force(pair(), false, graph_));
-  EXPECT_EQ(verdict(number), Verdict::kAccepted);
+  EXPECT_EQ(state(number), State::kAccepted);
   EXPECT_TRUE(ledger_.loops()[number].by_hand);
-  EXPECT_FALSE(ledger_.loops()[number].refusal);
+  EXPECT_FALSE(ledger_.loops()[number].rejection);
   ASSERT_EQ(graph_.num_constraints(), 4U) << "the forced loop has a constraint of its own";
   EXPECT_FALSE(graph_.enabled(2));
   EXPECT_TRUE(graph_.enabled(3));
@@ -169,22 +176,22 @@ TEST_F(LoopLedgerTest, a_forced_constraint_loses_its_kernel_until_restored) {
   EXPECT_EQ(graph_.constraint(3).from_T_to, graph_.constraint(2).from_T_to);
 
   EXPECT_TRUE(ledger_.restore(pair(), graph_));
-  EXPECT_EQ(verdict(number), Verdict::kSwitchedOff);
+  EXPECT_EQ(reason(number), Reason::kContradicted);
   EXPECT_FALSE(ledger_.loops()[number].by_hand);
   EXPECT_EQ(loops_in_force(), 0U);
   ledger_.settle(graph_, solver_);
-  EXPECT_EQ(verdict(number), Verdict::kSwitchedOff);
+  EXPECT_EQ(reason(number), Reason::kContradicted);
   EXPECT_EQ(loops_in_force(), 0U);
 }
 
 TEST_F(LoopLedgerTest, an_accepted_loop_that_was_forced_is_accepted_again_when_restored) {
-  const std::size_t number = ledger_.add(loop(Verdict::kAccepted, 0.01));
+  const std::size_t number = ledger_.add(loop(State::kAccepted, 0.01));
   ledger_.accept(number, graph_);
   EXPECT_TRUE(ledger_.force(pair(), false, graph_));
   EXPECT_TRUE(ledger_.force(pair(), false, graph_)) << "forced twice";
   EXPECT_EQ(loops_in_force(), 1U);
   EXPECT_TRUE(ledger_.restore(pair(), graph_));
-  EXPECT_EQ(verdict(number), Verdict::kAccepted);
+  EXPECT_EQ(state(number), State::kAccepted);
   EXPECT_EQ(loops_in_force(), 1U);
   EXPECT_TRUE(graph_.enabled(2)) << "its first constraint";
   ledger_.remove(pair(), graph_);
@@ -192,13 +199,13 @@ TEST_F(LoopLedgerTest, an_accepted_loop_that_was_forced_is_accepted_again_when_r
 }
 
 TEST_F(LoopLedgerTest, a_deleted_loop_is_disabled_until_restored) {
-  const std::size_t number = ledger_.add(loop(Verdict::kAccepted));
+  const std::size_t number = ledger_.add(loop(State::kAccepted));
   ledger_.accept(number, graph_);
   ledger_.remove(pair(), graph_);
-  EXPECT_EQ(verdict(number), Verdict::kDeleted);
+  EXPECT_EQ(reason(number), Reason::kDeletedByHand);
   EXPECT_EQ(loops_in_force(), 0U);
   EXPECT_TRUE(ledger_.restore(pair(), graph_));
-  EXPECT_EQ(verdict(number), Verdict::kAccepted);
+  EXPECT_EQ(state(number), State::kAccepted);
   EXPECT_FALSE(ledger_.loops()[number].by_hand);
   EXPECT_EQ(loops_in_force(), 1U);
   EXPECT_EQ(graph_.num_constraints(), 3U) << "the loop keeps its constraint";
@@ -206,11 +213,11 @@ TEST_F(LoopLedgerTest, a_deleted_loop_is_disabled_until_restored) {
 }
 
 TEST_F(LoopLedgerTest, a_force_of_the_final_search_leaves_an_earlier_match_to_the_graph) {
-  const std::size_t wrong = ledger_.add(loop(Verdict::kAccepted, 3));
+  const std::size_t wrong = ledger_.add(loop(State::kAccepted, 3));
   ledger_.accept(wrong, graph_);
   EXPECT_FALSE(ledger_.force(pair(), true, graph_)) << "the final search has found no match yet";
   ledger_.settle(graph_, solver_);
-  EXPECT_EQ(verdict(wrong), Verdict::kSwitchedOff);
+  EXPECT_EQ(reason(wrong), Reason::kContradicted);
   EXPECT_FALSE(graph_.enabled(2));
 }
 
@@ -218,18 +225,17 @@ TEST_F(LoopLedgerTest, edits_hold_for_later_matches) {
   ledger_.remove(pair(0), graph_);
   EXPECT_FALSE(ledger_.force(pair(1), false, graph_)) << "no match exists yet";
   EXPECT_EQ(ledger_.forced_in_vain(), std::vector<LoopPair>{pair(1)});
-  EXPECT_EQ(verdict(ledger_.add(loop(Verdict::kAccepted, 0, 0))), Verdict::kDeleted);
-  EXPECT_EQ(verdict(ledger_.add(loop(Verdict::kRefused, 0, 1))), Verdict::kAccepted);
+  EXPECT_EQ(reason(ledger_.add(loop(State::kAccepted, 0, 0))), Reason::kDeletedByHand);
+  EXPECT_EQ(state(ledger_.add(loop(State::kRejected, 0, 1))), State::kAccepted);
   EXPECT_TRUE(ledger_.forced_in_vain().empty());
   EXPECT_TRUE(ledger_.restore(pair(1), graph_));
-  EXPECT_EQ(ledger_.find(pair(1))->verdict, Verdict::kRefused)
-      << "without a force, its own verdict counts again";
+  EXPECT_EQ(ledger_.find(pair(1))->state, State::kRejected) << "without a force, its own state counts again";
 }
 
 TEST_F(LoopLedgerTest, a_match_by_hand_replaces_earlier_attempts) {
-  const std::size_t number = ledger_.add(loop(Verdict::kAccepted, 0.5));
+  const std::size_t number = ledger_.add(loop(State::kAccepted, 0.5));
   ledger_.accept(number, graph_);
-  ledger_.replace(loop(Verdict::kAccepted, 0.1), graph_);
+  ledger_.replace(loop(State::kAccepted, 0.1), graph_);
   ASSERT_EQ(ledger_.loops().size(), 1U);
   EXPECT_EQ(ledger_.find(pair())->anchor_T_node.x, 0.1);
   EXPECT_EQ(loops_in_force(), 1U);
@@ -239,13 +245,15 @@ TEST_F(LoopLedgerTest, a_match_by_hand_replaces_earlier_attempts) {
 }
 
 TEST_F(LoopLedgerTest, the_final_search_leaves_out_decided_pairs) {
-  ledger_.add(loop(Verdict::kRefused, 0, 0));
-  ledger_.add(loop(Verdict::kAccepted, 0, 1));
-  ledger_.add(loop(Verdict::kNotFound, 0, 2));
-  LoopRecord searched = loop(Verdict::kRefused, 0, 3);
+  ledger_.add(loop(State::kRejected, 0, 0));
+  ledger_.add(loop(State::kAccepted, 0, 1));
+  LoopRecord nothing = loop(State::kRejected, 0, 2);
+  nothing.rejection->reason = Reason::kNothingFound;
+  ledger_.add(nothing);
+  LoopRecord searched = loop(State::kRejected, 0, 3);
   searched.in_final_search = true;
   ledger_.add(searched);
-  ledger_.add(loop(Verdict::kRefused, 0, 4));
+  ledger_.add(loop(State::kRejected, 0, 4));
   ledger_.remove(pair(4), graph_);
   EXPECT_EQ(ledger_.searched_pairs(), (std::set<LoopPair>{pair(1), pair(3), pair(4)}));
 }

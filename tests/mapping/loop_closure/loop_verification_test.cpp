@@ -14,7 +14,7 @@ namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
-using Reason = LoopRefusal::Reason;
+using Reason = LoopRejection::Reason;
 
 void judge(LoopRecord& loop, const LoopVerificationOptions& options = {}) {
   verify(loop, *two_rounds().keyframes.nodes[loop.node].points, two_rounds().keyframes, options);
@@ -23,17 +23,17 @@ void judge(LoopRecord& loop, const LoopVerificationOptions& options = {}) {
 constexpr double kNarrow_m = 0.5;
 constexpr double kWide_m = 3.0;
 
-void expect_refused(const LoopRecord& loop, LoopRefusal::Reason reason) {
-  EXPECT_EQ(loop.verdict, LoopVerdict::kRefused);
-  ASSERT_TRUE(loop.refusal.has_value());
-  EXPECT_EQ(loop.refusal->reason, reason) << text_of(loop.refusal);
+void expect_rejected(const LoopRecord& loop, LoopRejection::Reason reason) {
+  EXPECT_EQ(loop.state, LoopState::kRejected);
+  ASSERT_TRUE(loop.rejection.has_value());
+  EXPECT_EQ(loop.rejection->reason, reason) << text_of(loop.rejection);
 }
 
 TEST(LoopVerification, a_right_match_in_a_narrow_window_is_accepted) {
   LoopRecord loop = two_rounds().loop(kNarrow_m);
   judge(loop);
-  EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << text_of(loop.refusal);
-  EXPECT_FALSE(loop.refusal.has_value());
+  EXPECT_EQ(loop.state, LoopState::kAccepted) << text_of(loop.rejection);
+  EXPECT_FALSE(loop.rejection.has_value());
   EXPECT_GT(loop.observed_share, 0.9);
   EXPECT_GT(loop.neighbours_agree, 0.9);
   EXPECT_GT(loop.reverse_agree, 0.9);
@@ -42,18 +42,18 @@ TEST(LoopVerification, a_right_match_in_a_narrow_window_is_accepted) {
 TEST(LoopVerification, a_right_match_in_a_wide_window_waits_for_others) {
   LoopRecord loop = two_rounds().loop(kWide_m);
   judge(loop);
-  EXPECT_EQ(loop.verdict, LoopVerdict::kPending);
-  EXPECT_FALSE(loop.refusal.has_value()) << text_of(loop.refusal);
+  EXPECT_EQ(loop.state, LoopState::kCandidate);
+  EXPECT_FALSE(loop.rejection.has_value()) << text_of(loop.rejection);
 }
 
-TEST(LoopVerification, a_match_one_metre_off_is_refused_with_a_reason) {
+TEST(LoopVerification, a_match_one_metre_off_is_rejected_with_a_reason) {
   for (const double half_width_m : {kNarrow_m, kWide_m})
     for (const TPose2D& off : {TPose2D(1, 0, 0), TPose2D(-1, 0, 0), TPose2D(0, 1, 0), TPose2D(0, -1, 0),
                                TPose2D(0, 0, M_PI / 4), TPose2D(0, 0, M_PI)}) {
       LoopRecord loop = two_rounds().loop(half_width_m, off);
       judge(loop);
-      EXPECT_EQ(loop.verdict, LoopVerdict::kRefused) << off.asString();
-      EXPECT_TRUE(loop.refusal.has_value()) << off.asString();
+      EXPECT_EQ(loop.state, LoopState::kRejected) << off.asString();
+      EXPECT_TRUE(loop.rejection.has_value()) << off.asString();
       EXPECT_LT(loop.neighbours_agree, 0.75) << off.asString();
     }
 }
@@ -86,27 +86,27 @@ TEST(LoopVerification, the_nearest_neighbours_count_however_small_the_neighbourh
   EXPECT_GT(loop.neighbours_agree, 0.9);
 }
 
-TEST(LoopVerification, a_wrong_match_is_refused_by_the_reverse_test_too) {
+TEST(LoopVerification, a_wrong_match_is_rejected_by_the_reverse_test_too) {
   LoopVerificationOptions options;
   options.min_observed_share = 0;
   options.min_neighbours_agree = 0;
   for (const TPose2D& off : {TPose2D(1, 0, 0), TPose2D(0, 0, M_PI / 4)}) {
     LoopRecord loop = two_rounds().loop(kNarrow_m, off);
     judge(loop, options);
-    expect_refused(loop, Reason::kReverseDisagrees);
+    expect_rejected(loop, Reason::kReverseDisagrees);
     EXPECT_LT(loop.reverse_agree, 0.75) << off.asString();
   }
 }
 
-TEST(LoopVerification, an_ambiguous_match_is_refused_in_narrow_windows_only) {
+TEST(LoopVerification, an_ambiguous_match_is_rejected_in_narrow_windows_only) {
   LoopRecord narrow = two_rounds().loop(kNarrow_m);
   narrow.ambiguity = 0.95;
   judge(narrow);
-  expect_refused(narrow, Reason::kAmbiguous);
+  expect_rejected(narrow, Reason::kAmbiguous);
   LoopRecord wide = two_rounds().loop(kWide_m);
   wide.ambiguity = 0.95;
   judge(wide);
-  EXPECT_EQ(wide.verdict, LoopVerdict::kPending) << text_of(wide.refusal);
+  EXPECT_EQ(wide.state, LoopState::kCandidate) << text_of(wide.rejection);
 }
 
 TEST(LoopVerification, a_match_far_from_its_prediction_must_be_less_ambiguous) {
@@ -114,11 +114,11 @@ TEST(LoopVerification, a_match_far_from_its_prediction_must_be_less_ambiguous) {
   loop.prior = 0.15;
   loop.ambiguity = 0.3;
   judge(loop);
-  EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << text_of(loop.refusal);
+  EXPECT_EQ(loop.state, LoopState::kAccepted) << text_of(loop.rejection);
   loop.ambiguity = 0.4;
   judge(loop);
-  expect_refused(loop, Reason::kAmbiguous);
-  EXPECT_NEAR(loop.refusal->value, 0.91, 1e-9);
+  expect_rejected(loop, Reason::kAmbiguous);
+  EXPECT_NEAR(loop.rejection->value, 0.91, 1e-9);
 }
 
 TEST(LoopVerification, the_response_needed_depends_on_the_window) {
@@ -134,10 +134,10 @@ TEST(LoopVerification, the_response_needed_depends_on_the_window) {
     const double needed = min_response(loop.window, options);
     loop.response = needed - 0.01;
     judge(loop);
-    expect_refused(loop, Reason::kLowResponse);
+    expect_rejected(loop, Reason::kLowResponse);
     loop.response = needed;
     judge(loop);
-    EXPECT_NE(loop.verdict, LoopVerdict::kRefused) << text_of(loop.refusal);
+    EXPECT_NE(loop.state, LoopState::kRejected) << text_of(loop.rejection);
   }
 }
 
@@ -153,37 +153,37 @@ TEST(LoopVerification, searches_report_low_responses_in_narrow_windows_or_by_han
   EXPECT_DOUBLE_EQ(least_response_by_hand(wide, options), 0.28);
 }
 
-TEST(LoopVerification, a_position_known_in_one_direction_only_is_refused) {
+TEST(LoopVerification, a_position_known_in_one_direction_only_is_rejected) {
   LoopRecord loop = two_rounds().loop(kNarrow_m);
   // Standard deviations of 0.4 m along a corridor at 45 degrees and of 0.01 m across it. Along x and y, they
   // are 0.28 m.
   loop.covariance(0, 0) = loop.covariance(1, 1) = 0.5 * (0.16 + 0.0001);
   loop.covariance(0, 1) = loop.covariance(1, 0) = 0.5 * (0.16 - 0.0001);
   judge(loop);
-  expect_refused(loop, Reason::kUncertainPosition);
-  EXPECT_NEAR(loop.refusal->value, 0.4, 1e-3);
+  expect_rejected(loop, Reason::kUncertainPosition);
+  EXPECT_NEAR(loop.rejection->value, 0.4, 1e-3);
   LoopVerificationOptions options;
   options.max_sigma_m = 0.41;
   judge(loop, options);
-  EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << text_of(loop.refusal);
+  EXPECT_EQ(loop.state, LoopState::kAccepted) << text_of(loop.rejection);
 }
 
-TEST(LoopVerification, a_scan_outside_the_space_the_local_map_has_seen_is_refused) {
+TEST(LoopVerification, a_scan_outside_the_space_the_local_map_has_seen_is_rejected) {
   LoopRecord loop = two_rounds().loop(kNarrow_m, {40, 0, 0});
   judge(loop);
-  expect_refused(loop, Reason::kUnobserved);
+  expect_rejected(loop, Reason::kUnobserved);
   EXPECT_EQ(loop.observed_share, 0);
 }
 
 TEST(LoopVerification, every_threshold_decides) {
   LoopRecord found = two_rounds().loop(kNarrow_m);
   judge(found);
-  ASSERT_EQ(found.verdict, LoopVerdict::kAccepted) << text_of(found.refusal);
+  ASSERT_EQ(found.state, LoopState::kAccepted) << text_of(found.rejection);
   struct Threshold {
     double LoopVerificationOptions::*limit;
     double measured;
-    double above;  // +1: a limit above the measured value refuses; -1: a limit below it
-    LoopRefusal::Reason reason;
+    double above;  // +1: a limit above the measured value rejects; -1: a limit below it
+    LoopRejection::Reason reason;
   };
   const std::vector<Threshold> thresholds = {
       {&LoopVerificationOptions::min_response, found.response, 1, Reason::kLowResponse},
@@ -198,11 +198,11 @@ TEST(LoopVerification, every_threshold_decides) {
     LoopRecord loop = two_rounds().loop(kNarrow_m);
     options.*threshold.limit = threshold.measured + threshold.above * 1e-6;
     judge(loop, options);
-    expect_refused(loop, threshold.reason);
+    expect_rejected(loop, threshold.reason);
     options.*threshold.limit = threshold.measured - threshold.above * 1e-6;
     judge(loop, options);
-    EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << text_of(loop.refusal);
-    EXPECT_FALSE(loop.refusal.has_value()) << "an earlier refusal is cleared";
+    EXPECT_EQ(loop.state, LoopState::kAccepted) << text_of(loop.rejection);
+    EXPECT_FALSE(loop.rejection.has_value()) << "an earlier rejection is cleared";
   }
 }
 

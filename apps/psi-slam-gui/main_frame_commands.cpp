@@ -222,6 +222,7 @@ void MainFrame::open_log(const Path& log, const std::optional<EditJournal>& edit
   attempt([&] {
     if (!is_session_file(log)) {
       session_settings_.clear();
+      settings_.table.reset_constants();  // a session before may have brought others
       return open_input(SessionInput(log), {});
     }
     const int edits_before = replay_ ? replay_->edits_asked() : 0;
@@ -363,6 +364,7 @@ void MainFrame::open_settings(const Path& file) {
   attempt([&] {
     BoundSettings fresh;  // options that the file does not set have their defaults
     fresh.load(file, {});
+    fresh.table.copy_constants(settings_.table);  // those of a session that is open
     settings_.settings = fresh.settings;
     settings_panel_->refresh();
     const std::vector<std::string> warnings = fresh.table.take_warnings();

@@ -24,7 +24,7 @@ class ReadAhead : public FrameSource {
   explicit ReadAhead(std::unique_ptr<FrameSource> source, std::size_t capacity = 256);
   ~ReadAhead() override;
 
-  /// Returns the next frame. Throws the error of the source after the frames before it.
+  /// Returns the next frame. Delivers all buffered frames, then rethrows the source's error.
   std::optional<Frame> next() override;
 
   bool is_ready() const override;

@@ -110,13 +110,13 @@ void describe_map(OptionTable& table, GridMapOptions& map) {
       .number("margin_m", map.margin_m, at_least(0).at_most(1000), "m",
               "Width of the unknown space around everything that was observed.")
       .integer("max_cells", map.max_cells, between(10'000, 1'000'000'000), "cells",
-               "Largest number of cells. A larger map gets coarser cells.")
+               "Maximum number of cells. A larger map gets coarser cells.")
       .flag("keep_moving", map.keep_moving,
             "Draws people, carts and doors that moved. false: the finished map shows the newest confirmed "
             "state of each place, and doubtful states as unknown; some table legs may vanish, too.")
       .integer(
           "min_beams", map.min_beams, between(1, 3), "beams",
-          "Least number of beams that must see an obstacle or free space. A beam counts as two if a "
+          "Minimum number of beams that must see an obstacle or free space. A beam counts as two if a "
           "neighbouring beam of its scan reaches as far. What fewer beams saw stays unknown: single beams "
           "through windows and past edges. 1: draws every beam.");
 }
@@ -134,7 +134,7 @@ void describe_map_files(OptionTable& table, MapFileOptions& files) {
               "Scale of map.svg. 100 means 1:100, one centimetre of paper for one metre.")
       .number(
           "line_tolerance_m", files.lines.tolerance_m, at_least(0).at_most(10), "m",
-          "Largest deviation of the lines in map.svg, map.dxf and map.gpkg from the outlines of the cells.")
+          "Maximum deviation of the lines in map.svg, map.dxf and map.gpkg from the outlines of the cells.")
       .number("min_wall_m", files.lines.min_wall_m, at_least(0).at_most(100), "m",
               "Occupied spots smaller than this are left out of map.svg, map.dxf and map.gpkg.")
       .integer(
@@ -204,8 +204,11 @@ void describe_run(OptionTable& table, RunOptions& run) {
 struct Named {
   const char* name;
   double value;
+  bool is_angle = false;
 
-  std::string words() const { return std::string(name) + " = " + exact_text(value); }
+  std::string words() const {
+    return std::string(name) + " = " + (is_angle ? exact_degrees_text(value) : exact_text(value));
+  }
 };
 
 void require_below(const Named& smaller, const Named& larger) {
@@ -218,12 +221,10 @@ void require_at_most(const Named& smaller, const Named& larger) {
     throw UserError(smaller.words() + " must not be more than " + larger.words());
 }
 
-// Options that once set numbers of the method. A settings file that still has them is accepted.
+// Options that exist no more. A settings file that still has them is accepted.
 constexpr const char* kObsoleteOptions[] = {"front_end.max_strain_m",
                                             "front_end.strain_travel_m",
                                             "consensus.max_rival_share",
-                                            "map.write_print",
-                                            "map.print_dpi",
                                             "front_end.min_range_m",
                                             "front_end.refine_max_iterations",
                                             "front_end.refine_max_shift_m",
@@ -292,6 +293,8 @@ void describe(OptionTable& table, Settings& settings) {
   describe_run(table, settings.run);
   table.alias("last_pass", "final_search").alias("log.odometry_topic", "log.odometry");
   for (const char* name : kObsoleteOptions) table.obsolete(name);
+  for (const char* name : {"map.write_print", "map.print_dpi"})
+    table.obsolete(name, "print map.svg, which is to scale");
 }
 
 void BoundSettings::load(const std::filesystem::path& config, const std::vector<std::string>& assignments) {
@@ -316,9 +319,31 @@ void check_values(const Settings& settings) {
   const Named log_min{"log.min_range_m", settings.log.min_range_m};
   const Named log_max{"log.max_range_m",
                       settings.log.max_range_m.value_or(std::numeric_limits<double>::infinity())};
-  const PsiOptions& psi = settings.mapper.back_end.psi;
   require_below(log_min, log_max);
-  require_at_most({"psi.psi_1", psi.psi_1}, {"psi.psi_2", psi.psi_2});
+  const BackEndOptions& back_end = settings.mapper.back_end;
+  require_at_most({"psi.psi_1", back_end.psi.psi_1}, {"psi.psi_2", back_end.psi.psi_2});
+  // Constants that a program of research changed.
+  const FrontEndOptions& front_end = settings.mapper.front_end;
+  require_at_most({"front_end.window_m", front_end.window_m},
+                  {"front_end.max_window_m", front_end.max_window_m});
+  require_at_most({"front_end.window_theta_deg", front_end.window_rad, true},
+                  {"front_end.max_window_theta_deg", front_end.max_window_rad, true});
+  const LoopCandidateOptions& loops = back_end.loop_closure.candidates;
+  require_at_most({"loop_closure.min_window_m", loops.min_window_m},
+                  {"loop_closure.window_x_m", loops.max_window.x_m});
+  require_at_most({"loop_closure.min_window_m", loops.min_window_m},
+                  {"loop_closure.window_y_m", loops.max_window.y_m});
+  require_at_most({"loop_closure.min_window_theta_deg", loops.min_window_rad, true},
+                  {"loop_closure.window_theta_deg", loops.max_window.theta_rad, true});
+  require_at_most({"final_search.window_m", back_end.final_search.window_m},
+                  {"verification.wide_window_m", back_end.loop_closure.verification.wide_window_m});
+  require_at_most({"loop_closure.min_sigma_m", back_end.loop_matcher.min_sigma_m},
+                  {"loop_closure.max_sigma_m", back_end.loop_matcher.max_sigma_m});
+  // Otherwise each waiting match would be dropped before the next one comes.
+  const LoopConsensusOptions& consensus = back_end.loop_consensus;
+  require_at_most({"consensus.min_span_m", consensus.min_span_m}, {"consensus.memory_m", consensus.memory_m});
+  require_at_most({"loop_closure.attempt_distance_m", back_end.loop_closure.attempt_distance_m},
+                  {"consensus.memory_m", consensus.memory_m});
   check_log_options(log_options(settings));
   const std::string& align = settings.map_frame.align;
   if (align != MapFrameOptions::kNone && align != MapFrameOptions::kWalls && !parse_degrees(align))

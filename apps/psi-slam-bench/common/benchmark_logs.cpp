@@ -57,10 +57,13 @@ Settings benchmark_settings(const fs::path& ini, const std::vector<std::string>&
                             std::vector<std::string>* warnings) {
   BoundSettings bound;
   bound.load(ini, {});
+  if (warnings == nullptr) bound.table.take_warnings();
   for (const std::string& assignment : assignments) apply_override(assignment, bound.table, true);
   check(bound.settings);
   if (warnings != nullptr)
     for (std::string& warning : bound.table.take_warnings()) warnings->push_back(std::move(warning));
+  else if (const std::vector<std::string> ignored = bound.table.take_warnings(); !ignored.empty())
+    throw UserError(ignored.front());
   return bound.settings;
 }
 

@@ -99,6 +99,15 @@ std::string proposal(const std::vector<OptionSection>& sections, const OptionSec
   return "";
 }
 
+/// Whether the text is another way to write the current value of the option.
+bool has_value(const Option& option, std::string_view text) {
+  const std::string now = option.text();
+  if (!option.assign(text)) return false;
+  const bool is_equal = option.text() == now;
+  option.assign(now);
+  return is_equal;
+}
+
 // Returns the file of a place such as "my.ini:12".
 std::string file_of(std::string_view where) {
   return std::string(where.substr(0, where.rfind(':')));
@@ -208,6 +217,8 @@ OptionTable& OptionTable::add(Option option) {
 OptionTable& OptionTable::add_constant(std::string_view name, Option option) {
   option.section = name.substr(0, name.find('.'));
   option.default_text = option.text();
+  if (!option.accepts(option.default_text))
+    throw std::logic_error("the default of the constant " + std::string(name) + " is not in its range");
   if (knows(name) || is_ignored(name)) throw std::logic_error("constant " + std::string(name) + " is in use");
   constants_.emplace(name, std::move(option));
   return *this;
@@ -258,9 +269,9 @@ OptionTable& OptionTable::alias(std::string old_name, std::string new_name) {
   return *this;
 }
 
-OptionTable& OptionTable::obsolete(std::string name) {
+OptionTable& OptionTable::obsolete(std::string name, std::string instead) {
   if (knows(name) || is_constant(name)) throw std::logic_error("obsolete option " + name + " is in use");
-  obsolete_.insert(std::move(name));
+  obsolete_.emplace(std::move(name), std::move(instead));
   return *this;
 }
 
@@ -301,7 +312,9 @@ const Option& OptionTable::option(std::string_view name, std::string_view where)
   const std::string current = current_name(name);
   const auto [section_name, key] = parts(current);
   require_section(section_name, where);
-  const OptionSection& section = *find(sections_, section_name);
+  const OptionSection constants_alone{std::string(section_name), {}, {}};
+  const OptionSection* const found = find(sections_, section_name);
+  const OptionSection& section = found == nullptr ? constants_alone : *found;
   if (const Option* option = find(section, key)) return *option;
   throw UserError(std::string(where) + ": unknown key " + in_quotes(key) + " in [" + section.name + ']' +
                   proposal(sections_, section, key));
@@ -322,13 +335,17 @@ void OptionTable::check(std::string_view name, std::string_view text, std::strin
 
 void OptionTable::set(std::string_view name, std::string_view text, std::string_view where) {
   check(name, text, where);
-  const auto constant = constants_.find(current_name(name));
-  if (constant != constants_.end() && text == constant->second.text()) return;
   if (is_ignored(name)) {
+    std::string remark;
+    if (const auto constant = constants_.find(current_name(name)); constant != constants_.end()) {
+      if (has_value(constant->second, text)) return;
+      remark = "always " + constant->second.text();
+    } else {
+      remark = obsolete_.find(name)->second;
+    }
     ObsoleteOptions& found = obsolete_of_[file_of(where)];
     if (found.names.empty()) found.where = where;
-    found.names.push_back(std::string(name) +
-                          (constant == constants_.end() ? "" : " (always " + constant->second.text() + ")"));
+    found.names.push_back(std::string(name) + (remark.empty() ? "" : " (" + remark + ')'));
     return;
   }
   const Option& target = option(name, where);
@@ -342,6 +359,14 @@ void OptionTable::set_any(std::string_view name, std::string_view text, std::str
   if (!constant->second.assign(text))
     throw UserError(std::string(where) + ": " + std::string(name) + " = " + quotable(text) + ": expected " +
                     constant->second.expectation());
+}
+
+void OptionTable::copy_constants(const OptionTable& other) {
+  for (auto& [name, constant] : constants_) constant.assign(other.constants_.at(name).text());
+}
+
+void OptionTable::reset_constants() {
+  for (auto& [name, constant] : constants_) constant.assign(constant.default_text);
 }
 
 void OptionTable::warn_of_old_name(std::string_view old_name, const std::string& new_name,

@@ -135,12 +135,19 @@ class OptionTable {
   OptionTable& text(std::string key, std::string& member, std::string help);
 
   /// Names a constant of the method, "section.key". Only set_any() changes it. `Number` is double, an integer
-  /// type or bool. The member of a name that ends in "_deg" is in radians, and its text in degrees.
+  /// type or bool. The member of a name that ends in "_deg" is in radians; its text and `range` are in
+  /// degrees.
   template <class Number>
-  OptionTable& constant(std::string_view name, Number& member);
+  OptionTable& constant(std::string_view name, Number& member, NumberRange range = at_least(0));
 
   /// Returns whether constant() has the name.
   bool is_constant(std::string_view name) const { return constants_.count(current_name(name)) > 0; }
+
+  /// Gives all constants the values that they have in `other`, a table of the same constants.
+  void copy_constants(const OptionTable& other);
+
+  /// Gives all constants their default values.
+  void reset_constants();
 
   /// The constants, by name. Their `key` is the name without its section.
   const std::map<std::string, Option, std::less<>>& constants() const { return constants_; }
@@ -151,8 +158,9 @@ class OptionTable {
   OptionTable& alias(std::string old_name, std::string new_name);
 
   /// Makes the table accept an option, "section.key", that exists no more. Its values have no effect, and
-  /// set() adds a warning. Throws std::logic_error if the name is in use.
-  OptionTable& obsolete(std::string name);
+  /// set() adds a warning, with the advice `instead` if there is one. Throws std::logic_error if the name is
+  /// in use.
+  OptionTable& obsolete(std::string name, std::string instead = {});
 
   /// Returns whether the values of an option in files have no effect: it is obsolete or a constant.
   bool is_ignored(std::string_view name) const { return is_obsolete(name) || is_constant(name); }
@@ -206,7 +214,7 @@ class OptionTable {
   std::vector<OptionSection> sections_;
   /// Maps old names to new names; names of sections have no dot.
   std::map<std::string, std::string, std::less<>> aliases_;
-  std::set<std::string, std::less<>> obsolete_;
+  std::map<std::string, std::string, std::less<>> obsolete_;  ///< names, with the advice for a warning
   std::map<std::string, Option, std::less<>> constants_;
   struct ObsoleteOptions {
     std::string where;  ///< place of the first one
@@ -258,9 +266,9 @@ OptionTable& OptionTable::integer(std::string key, Integer& member, NumberRange 
 }
 
 template <class Number>
-OptionTable& OptionTable::constant(std::string_view name, Number& member) {
+OptionTable& OptionTable::constant(std::string_view name, Number& member, NumberRange range) {
   Option option{std::string(name.substr(name.find('.') + 1))};
-  option.range = at_least(0);
+  option.range = range;
   if constexpr (std::is_same_v<Number, bool>) {
     option.type = OptionType::kFlag;
     return add_constant(name, bound_flag(std::move(option), member));

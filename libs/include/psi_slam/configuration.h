@@ -52,7 +52,8 @@ class Configuration {
   std::string value(std::string_view name) const;
 
   /// Returns the text of a settings file with all options: help, unit, range, default and current value.
-  /// Loading this text restores the values of all options exactly.
+  /// Loading this text restores the values of all options exactly. It also states changed constants, which
+  /// load() ignores with a warning.
   std::string text() const;
 
   /// Returns one warning, a sentence without full stop, for each outdated option name used so far.

@@ -47,7 +47,7 @@ struct GridMapOptions {
   int min_beams = 1;
 };
 
-/// Draws the scans of each frame of `log` at the robot pose with the same index. A cell holds the probability
+/// Draws the scans of each frame of `log` at the robot pose with the same index, except Frame::is_misplaced. A cell holds the probability
 /// that it is free: near 0 if occupied, 0.5 if never observed, near 1 if free. The corners of the map lie on
 /// multiples of the resolution and include the margin. Invalid readings draw nothing. Throws
 /// std::invalid_argument if the numbers of frames and poses differ, or those of a scan's ranges and bearings.

@@ -26,7 +26,7 @@ class BodyMaskedSource : public FrameSource {
   explicit BodyMaskedSource(std::unique_ptr<FrameSource> source, std::optional<double> most_s = std::nullopt)
       : source_(std::move(source)), most_s_(most_s) {}
 
-  /// Returns the next frame. Throws an error of the source after the frames before it.
+  /// Returns the next frame. Delivers all buffered frames, then rethrows the source's error.
   std::optional<Frame> next() override;
 
   double progress() const override { return source_.progress(); }

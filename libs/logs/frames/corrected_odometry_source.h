@@ -32,7 +32,7 @@ class CorrectedOdometrySource : public FrameSource {
 
   CorrectedOdometrySource(std::unique_ptr<FrameSource> source, double scale, DelayOfLaser delay_s);
 
-  /// Returns the next frame. Throws an error of the source after the frames before it.
+  /// Returns the next frame. Delivers all buffered frames, then rethrows the source's error.
   std::optional<Frame> next() override;
 
   double progress() const override { return source_->progress(); }

@@ -27,7 +27,7 @@ class MaxRangeSource : public FrameSource {
   MaxRangeSource(std::unique_ptr<FrameSource> source, double look_over_s)
       : source_(std::move(source)), look_over_s_(look_over_s) {}
 
-  /// Returns the next frame. Throws an error of the source after the frames before it.
+  /// Returns the next frame. Delivers all buffered frames, then rethrows the source's error.
   std::optional<Frame> next() override;
 
   double progress() const override { return source_.progress(); }

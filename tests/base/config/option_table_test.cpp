@@ -175,6 +175,7 @@ TEST_F(OptionTableTest, only_set_any_changes_constants) {
   EXPECT_THROW(table_.obsolete("matching.count"), std::logic_error);
   EXPECT_NO_THROW(table_.require_section("matching", "my.ini:1"));
   table_.set("matching.count", "3", "my.ini:2");
+  table_.set("front_end.on", "yes", "my.ini:3");
   EXPECT_THAT(table_.take_warnings(), testing::IsEmpty()) << "the value is that of the constant";
   table_.set("matching.count", "4", "my.ini:2");
   table_.set("front_end.on", "false", "my.ini:3");
@@ -192,6 +193,11 @@ TEST_F(OptionTableTest, only_set_any_changes_constants) {
   EXPECT_EQ(table_.option_or_constant("matching.reach_deg", "test").text(), "90");
   EXPECT_THROW(table_.set_any("matching.count", "-4", "test"), UserError);
   EXPECT_THROW(table_.set_any("matching.count", "many", "test"), UserError);
+  EXPECT_THROW(table_.constant("matching.share", reach_rad, between(0, 1)), std::logic_error);
+  table_.reset_constants();
+  EXPECT_EQ(count, 3);
+  EXPECT_THROW(table_.set("matching.cout", "4", "my.ini:4"), UserError) << "no such key";
+  EXPECT_THROW(table_.set_any("matching.cout", "4", "test"), UserError);
 }
 
 TEST_F(OptionTableTest, accepts_obsolete_options_with_one_warning_for_each_file) {

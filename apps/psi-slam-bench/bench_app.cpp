@@ -14,7 +14,6 @@
 #include "document_options.h"
 #include "false_loops/false_loop_benchmark.h"
 #include "live/live_benchmark.h"
-#include "match/exact_benchmark.h"
 #include "match/match_benchmark.h"
 #include "number_between.h"
 #include "other_programs.h"
@@ -85,30 +84,6 @@ void add_match_command(CLI::App& app, const Streams& streams) {
       match, arguments, streams, [](const BenchArguments& given) { return logs_of(given); },
       [](const auto& logs, const auto& how, const ProgressObserver& progress) {
         return match_report(run_match_benchmark(logs, how, progress), how, machine_text());
-      });
-}
-
-void add_exact_search_command(CLI::App& app, const Streams& streams) {
-  const auto arguments = std::make_shared<Arguments<ExactBenchmarkOptions>>();
-  ExactBenchmarkOptions& options = arguments->options;
-  CLI::App& command = *app.add_subcommand(
-      "exact-search", "Measure the exact search of wide windows against a depth-first branch and bound");
-  add_data_options(command, *arguments);
-  add_logs_option(command, *arguments);
-  command
-      .add_option("--cases", options.cases, "Number of positive cases from each log, and of negative ones")
-      ->check(CLI::Range(1, 1'000'000))
-      ->capture_default_str();
-  add_seed_option(command, options.seed, "Seed of the cases");
-  command
-      .add_option("--repeats", options.repeats,
-                  "Number of times that each search is measured; the least counts")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  run_on_logs(
-      command, arguments, streams, [&](const auto& data) { return chosen_logs(data, streams); },
-      [](const ChosenLogs& chosen, const auto& how, const ProgressObserver& progress) {
-        return exact_report(run_exact_benchmark(chosen.logs, how, progress), how, machine_text());
       });
 }
 
@@ -418,7 +393,6 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_freiburg_command(app, streams);
     add_freiburg_run_command(app, streams);
     add_match_command(app, streams);
-    add_exact_search_command(app, streams);
     add_simulate_command(app, streams);
     add_false_loops_command(app, streams);
     add_robustness_command(app, streams);

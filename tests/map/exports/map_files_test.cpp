@@ -129,8 +129,8 @@ TEST_F(MapFiles, writes_only_the_files_asked_for) {
 }
 
 TEST_F(MapFiles, reports_a_missing_folder) {
-  for (bool MapFileOptions::*wanted : {&MapFileOptions::svg, &MapFileOptions::dxf, &MapFileOptions::print,
-                                       &MapFileOptions::geotiff, &MapFileOptions::gpkg}) {
+  for (bool MapFileOptions::*wanted :
+       {&MapFileOptions::svg, &MapFileOptions::dxf, &MapFileOptions::geotiff, &MapFileOptions::gpkg}) {
     MapFileOptions options = options_;
     options.*wanted = true;
     EXPECT_THROW(WorkerPool(1).run(map_file_tasks(folder_.path() / "missing", result_, *grid_, {}, options)),

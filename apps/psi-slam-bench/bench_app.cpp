@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/exit_code.h"
+#include "base/text_parts.h"
 #include "batch/kept_run.h"
 #include "common/bench_command.h"
 #include "document_options.h"

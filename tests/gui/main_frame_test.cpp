@@ -481,7 +481,7 @@ TEST_F(MainFrameTest, settings_are_checked_saved_and_used) {
         EXPECT_TRUE(frame.settings_panel().enter("loop_closure.enabled", "false"));
         EXPECT_TRUE(frame.settings_panel().enter("loop_closure.matcher", "ga"));
         frame.settings_panel().reset_all();
-        EXPECT_EQ(frame.settings_panel().shown("front_end.node_rotation_deg"), "7");
+        EXPECT_EQ(frame.settings_panel().shown("front_end.node_rotation_deg"), "6");
         frame.open_settings(ini);
         EXPECT_EQ(frame.settings_panel().shown("front_end.node_distance_m"), "0.3");
       })

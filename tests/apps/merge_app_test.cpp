@@ -192,8 +192,8 @@ TEST_F(MergeApp, warns_of_changed_settings_of_a_session) {
                          " was mapped with other settings and is mapped again with the current settings: "
                          "front_end.node_rotation_deg was 7.5 and is " +
                          default_text("front_end.node_rotation_deg") + ", log.min_range_m was 0.05 and is " +
-                         default_text("log.min_range_m") + ", run.seed was 9 and is " +
-                         default_text("run.seed") + ", and 1 more\n");
+                         default_text("log.min_range_m") + ", psi.psi_2 was 2 and is " +
+                         default_text("psi.psi_2") + ", and 1 more\n");
 }
 
 /// In each corrected CARMEN log, time stamps must increase, and odometry must move less than 0.5 m per scan.

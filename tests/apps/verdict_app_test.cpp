@@ -2,9 +2,12 @@
 // Tests the verdict about the map at the end of a run of psi-slam.
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <nlohmann/json.hpp>
 
 #include "app_run.h"
+#include "psi_slam/mapping_session.h"
+#include "session/settings.h"
 #include "simulated_run.h"
 #include "temporary_folder.h"
 #include "test_files.h"
@@ -27,17 +30,32 @@ class VerdictApp : public testing::Test {
  protected:
   /// Maps a run and returns the verdict of summary.json.
   Json verdict_of(const SimulatedRun& run, const std::vector<std::string>& settings = {}) {
-    write_file(folder_.path() / "room.log", carmen_log(run));
+    write_file(log_, carmen_log(run));
     std::vector<std::string> words = settings;
-    words.insert(words.end(), {(folder_.path() / "room.log").string(), "-o",
-                               (folder_.path() / "out").string(), "--force"});
+    words.push_back(log_.string());
+    return verdict_of(std::move(words));
+  }
+  Json verdict_of(std::vector<std::string> words) {
+    words.insert(words.end(), {"-o", (folder_.path() / "out").string(), "--force"});
     app_ = run_app(words);
     return Json::parse(bytes_of(folder_.path() / "out" / "summary.json"))["verdict"];
+  }
+
+  /// Records a run that is mapped without loops between places less than 1 km of travel apart.
+  std::string recorded(const SimulatedRun& run) {
+    write_file(log_, carmen_log(run));
+    BoundSettings bound;
+    bound.table.set_any("loop_closure.min_travel_m", "1000", "test");
+    MappingSession session(log_, bound.settings);
+    session.run(std::atomic<bool>(false));
+    session.save(folder_.path() / "my.session");
+    return (folder_.path() / "my.session").string();
   }
 
   std::string report() const { return bytes_of(folder_.path() / "out" / "report.html"); }
 
   TemporaryFolder folder_;
+  std::filesystem::path log_ = folder_.path() / "room.log";
   AppRun app_;
 };
 
@@ -82,9 +100,7 @@ TEST_F(VerdictApp, points_at_the_place_where_the_wheels_slipped) {
 TEST_F(VerdictApp, advises_edits_that_mend_the_map) {
   const std::filesystem::path edits = folder_.path() / "my.edits";
   write_file(edits, "");
-  // No node has travelled far enough to search for loops across the slip.
-  const std::vector<std::string> settings{"--set", "loop_closure.min_travel_m=1000", "--edits",
-                                          edits.string()};
+  const std::vector<std::string> words{"--resume", recorded(slipping_run()), "--edits", edits.string()};
   const auto add_advised_line = [&](const Json& verdict) {
     ASSERT_FALSE(verdict["hot_spots"].empty());
     const Json& spot = verdict["hot_spots"][0];
@@ -93,15 +109,15 @@ TEST_F(VerdictApp, advises_edits_that_mend_the_map) {
     EXPECT_THAT(app_.out + app_.err, HasSubstr("make the edit \"" + line + "\""));
     write_file(edits, bytes_of(edits) + line + '\n');
   };
-  const Json first = verdict_of(slipping_run(), settings);
+  const Json first = verdict_of(words);
   EXPECT_EQ(first["state"], "broken");
   add_advised_line(first);
   EXPECT_THAT(bytes_of(edits), testing::StartsWith("match scan="));
   EXPECT_THAT(app_.err, HasSubstr("the map may be wrong there"));
   // The odometry of the slip contradicts a single match, so the next advice is to force it.
-  add_advised_line(verdict_of(slipping_run(), settings));
+  add_advised_line(verdict_of(words));
   EXPECT_THAT(bytes_of(edits), HasSubstr("\nforce scan="));
-  const Json mended = verdict_of(slipping_run(), settings);
+  const Json mended = verdict_of(words);
   EXPECT_EQ(mended["state"], "good") << mended.dump(1);
   EXPECT_THAT(app_.err, Not(HasSubstr("an edit was not made")));
   EXPECT_THAT(app_.err, Not(HasSubstr("may be wrong")));

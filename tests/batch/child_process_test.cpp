@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 
+#include "batch/workers.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -186,7 +186,8 @@ void require_all_different(const SweepPlan& plan) {
   for (const SweepRun& run : plan.runs)
     if (const auto [other, is_new] = known.emplace(run.key, &run); !is_new)
       throw UserError("two runs of the sweep would be equal: " + run_text(plan, *other->second) + " and " +
-                      run_text(plan, run) + ". Remove one of the two");
+                      run_text(plan, run) + ". Remove one of the two" +
+                      (plan.warnings.empty() ? "" : ". " + plan.warnings.front()));
 }
 
 /// Removes the columns of choices with a single value.

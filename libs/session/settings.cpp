@@ -100,10 +100,9 @@ void describe_log(OptionTable& table, Settings& settings) {
 void describe_map(OptionTable& table, GridMapOptions& map) {
   table.section("map", "The map and its output files")
       .number("resolution_m", map.resolution_m, between(0.005, 10), "m", "Side length of a cell of the map.")
-      .number(
-          "max_range_m", map.max_range_m, above(0), "m",
-          "Longer beams are cut at this range and mark only free space in the map. The default is no limit "
-          "for usual 2D lidars.")
+      .number("max_range_m", map.max_range_m, above(0), "m",
+              "Longer beams are cut at this range and mark only free space in the map. The default exceeds "
+              "the range of usual 2D lidars.")
       .number("no_return_clears_m", map.no_return_clears_m, at_least(0), "m",
               "Beams without return turn unknown space into free space up to this length, but not beyond the "
               "maximum range of the sensor. They remove no obstacles. 0: they mark nothing.")

@@ -194,6 +194,16 @@ TEST_F(OptionTableTest, only_set_any_changes_constants) {
   EXPECT_THROW(table_.set_any("matching.count", "-4", "test"), UserError);
   EXPECT_THROW(table_.set_any("matching.count", "many", "test"), UserError);
   EXPECT_THROW(table_.constant("matching.share", reach_rad, between(0, 1)), std::logic_error);
+  OptionTable other;
+  double other_reach_rad = 0;
+  int other_count = 0;
+  bool other_on = true;
+  other.constant("matching.reach_deg", other_reach_rad)
+      .constant("matching.count", other_count)
+      .constant("front_end.on", other_on);
+  other.copy_constants(table_);
+  EXPECT_EQ(other_count, 4);
+  EXPECT_FALSE(other_on);
   table_.reset_constants();
   EXPECT_EQ(count, 3);
   EXPECT_THROW(table_.set("matching.cout", "4", "my.ini:4"), UserError) << "no such key";

@@ -137,6 +137,15 @@ TEST_F(SettingsTest, old_option_names_are_accepted_with_a_warning) {
                                    "my.ini:4: section [last_pass] was renamed; write [final_search]"));
 }
 
+TEST_F(SettingsTest, options_of_the_first_version_are_accepted) {
+  apply(parse_ini("[front_end]\nmin_response = 0.3\nodometry_sigma_theta_per_turn = 0.02\n", "my.ini"),
+        table_);
+  EXPECT_THAT(
+      table_.take_warnings(),
+      testing::ElementsAre("my.ini:2: front_end.min_response, front_end.odometry_sigma_theta_per_turn have "
+                           "no effect any more; remove them"));
+}
+
 TEST_F(SettingsTest, files_cannot_change_constants_of_the_method) {
   apply(parse_ini("[consensus]\nmemory_m = 9\n[front_end]\nwindow_m = 0.15\nmin_range_m = 2\n", "my.ini"),
         table_);

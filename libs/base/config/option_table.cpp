@@ -130,7 +130,7 @@ Option number_or_angle(Option option, Number& member, bool is_angle) {
     if (!value) return std::string(kAuto);
     return is_angle ? exact_degrees_text(*value) : exact_text(*value);
   };
-  return bound(std::move(option), member, parse, format);
+  return bound_option(std::move(option), member, parse, format);
 }
 
 }  // namespace
@@ -145,8 +145,8 @@ Option bound_number(Option option, double& member, bool is_angle) {
 }
 
 Option bound_flag(Option option, bool& member) {
-  return bound(std::move(option), member, parse_flag,
-               [](bool value) -> std::string { return value ? "true" : "false"; });
+  return bound_option(std::move(option), member, parse_flag,
+                      [](bool value) -> std::string { return value ? "true" : "false"; });
 }
 
 bool NumberRange::contains(double value) const {
@@ -253,8 +253,8 @@ OptionTable& OptionTable::optional_angle_deg(std::string key, std::optional<doub
 }
 
 OptionTable& OptionTable::text(std::string key, std::string& member, std::string help) {
-  return add(bound({std::move(key), OptionType::kText, std::move(help)}, member, parse_line,
-                   [](const std::string& value) { return value; }));
+  return add(bound_option({std::move(key), OptionType::kText, std::move(help)}, member, parse_line,
+                          [](const std::string& value) { return value; }));
 }
 
 OptionTable& OptionTable::alias(std::string old_name, std::string new_name) {

@@ -228,7 +228,7 @@ class OptionTable {
 /// Returns the option, bound to `member`. `parse` returns an optional value of a text, `format` the text of a
 /// value.
 template <class T, class Parse, class Format>
-Option bound(Option option, T& member, Parse parse, Format format) {
+Option bound_option(Option option, T& member, Parse parse, Format format) {
   option.text = [&member, format] { return format(member); };
   option.accepts = [parse](std::string_view text) { return std::optional<T>(parse(text)).has_value(); };
   option.assign = [&member, parse](std::string_view text) {
@@ -255,7 +255,7 @@ Option bound_integer(Option option, Integer& member) {
     if (!range.contains(static_cast<double>(value))) return {};
     return value;
   };
-  return bound(std::move(option), member, parse, [](Integer value) { return std::to_string(value); });
+  return bound_option(std::move(option), member, parse, [](Integer value) { return std::to_string(value); });
 }
 
 template <class Integer>
@@ -298,7 +298,7 @@ OptionTable& OptionTable::choice(std::string key, Enum& member,
       if (value == member_value) return name;
     return "(a value without name)";
   };
-  return add(bound(std::move(option), member, parse, format));
+  return add(bound_option(std::move(option), member, parse, format));
 }
 
 }  // namespace psi_slam

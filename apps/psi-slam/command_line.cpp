@@ -98,14 +98,13 @@ CLI::App* add_diff(CLI::App& app, CommandLine& line) {
 }
 
 CLI::App* add_eval(CLI::App& app, CommandLine& line) {
-  CLI::App* const eval = app.add_subcommand("eval",
-                                            "Compare a trajectory with known relative poses: the metric of "
-                                            "the Freiburg SLAM benchmark (Kümmerle et al. "
-                                            "2009) and the variant of Cartographer's tool");
+  CLI::App* const eval = app.add_subcommand(
+      "eval",
+      "Compare a trajectory with known relative poses: the metric of the Freiburg SLAM benchmark "
+      "(Kümmerle et al. 2009) and the variant of Cartographer's tool");
   add_value(*eval, "TRAJECTORY", line.eval.trajectory,
             "Trajectory: trajectory.csv of a run, TUM format, lines 'timestamp x y theta', or a corrected "
-            "CARMEN log "
-            "with FLASER lines",
+            "CARMEN log with FLASER lines",
             "");
   add_value(*eval, "RELATIONS", line.eval.relations,
             "Known relative poses: lines 'time1 time2 x y z roll pitch yaw'", "");

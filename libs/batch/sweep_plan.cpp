@@ -125,9 +125,8 @@ std::vector<Choice> choices_of(const SweepRequest& request) {
   for (const std::string& assignment : request.choices) {
     Choice choice = choice_of(assignment);
     if (defaults.table.is_ignored(choice.column))
-      throw UserError(
-          "--set: " + choice.column +
-          " is no option any more, so all runs would be equal. psi-slam options lists the options");
+      throw UserError("--set: " + choice.column +
+                      " is not an option, so all runs would be equal. psi-slam options lists the options");
     for (const Choice& other : choices)
       if (name(other) == name(choice))
         throw UserError("--set: " + choice.column + " is set twice: give all values at once, " +

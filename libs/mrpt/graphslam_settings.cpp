@@ -19,7 +19,7 @@ struct Owner {
 
 const std::array<Owner, 3> kOwners{
     {{kNodeDeciderSection, {"log", "front_end", "local_maps"}},
-     {kEdgeDeciderSection, {"loop_closure", "psi", "genetic", "final_search", "last_pass", "joint_refinement", "run"}},
+     {kEdgeDeciderSection, {"loop_closure", "psi", "genetic", "final_search", "joint_refinement", "run"}},
      {kOptimizerSection, {"pose_graph"}}}};
 
 /// Whether an option has no effect in the engine, which reads every scan and draws its own map. The choice of

@@ -56,11 +56,8 @@ std::optional<std::string> other_version_text(const std::filesystem::path& file,
 
 std::map<std::string, std::string> kept_settings(const OptionTable& table) {
   std::map<std::string, std::string> kept;
-  for (const OptionSection& section : table.sections())
-    for (const Option& option : section.options)
-      if (!is_free(option)) kept[option.name()] = option.text();
-  for (const auto& [name, constant] : table.constants())
-    if (!is_free(constant)) kept[name] = constant.text();
+  for (const Option* option : table.options_and_constants())
+    if (!is_free(*option)) kept[option->name()] = option->text();
   return kept;
 }
 

@@ -220,7 +220,7 @@ void require_at_most(const Named& smaller, const Named& larger) {
     throw UserError(smaller.words() + " must not be more than " + larger.words());
 }
 
-// Options that exist no more. A settings file that still has them is accepted.
+// Deleted options. A settings file that has them is accepted.
 constexpr const char* kObsoleteOptions[] = {"front_end.max_strain_m",
                                             "front_end.strain_travel_m",
                                             "consensus.max_rival_share",

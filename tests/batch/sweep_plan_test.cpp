@@ -140,7 +140,7 @@ TEST_F(SweepPlanTest, refuses_wrong_requests_in_one_sentence) {
   EXPECT_THAT(with_choice({"map.resolution_m=0.1,wide"}), HasSubstr("map.resolution_m"));
   EXPECT_THAT(with_choice({"map.resolution_m"}), HasSubstr("expected SECTION.KEY=VALUE"));
   EXPECT_THAT(with_choice({"map.resolution_m=1", "map.resolution_m=2"}), HasSubstr("is set twice"));
-  EXPECT_THAT(with_choice({"front_end.window_m=0.1,0.2"}), HasSubstr("is no option any more"));
+  EXPECT_THAT(with_choice({"front_end.window_m=0.1,0.2"}), HasSubstr("is not an option, so all runs would be equal"));
   EXPECT_THAT(with_choice({"run.seed=1,2"}), HasSubstr("with --seeds"));
   EXPECT_THAT(with_choice({"log.laser=FLASER,RLASER"}), HasSubstr("log.laser is a list"));
   SweepRequest asked = request({log, file("b.log", "y")});

@@ -21,15 +21,6 @@ class SettingsTest : public testing::Test {
  protected:
   SettingsTest() { describe(table_, settings_); }
 
-  /// Returns all options and all constants of the method.
-  std::vector<const Option*> described() const {
-    std::vector<const Option*> all;
-    for (const OptionSection& section : table_.sections())
-      for (const Option& option : section.options) all.push_back(&option);
-    for (const auto& [name, constant] : table_.constants()) all.push_back(&constant);
-    return all;
-  }
-
   /// Returns the error message for these settings; "" if they are accepted.
   std::string refusal(const std::vector<std::string>& assignments) {
     for (const std::string& assignment : assignments) apply_override(assignment, table_);
@@ -80,12 +71,12 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
   const std::size_t others = member_count<GridMapOptions>() + member_count<MapFrameOptions>() +
                              member_count<PriorOptions>() + files + member_count<LiveOptions>() +
                              member_count<RunOptions>() + localization;
-  EXPECT_EQ(described().size(), log + mapper + others)
+  EXPECT_EQ(table_.options_and_constants().size(), log + mapper + others)
       << "a struct of options has a member that describe() of settings.cpp does not know";
 }
 
 TEST_F(SettingsTest, each_option_and_constant_is_bound_to_one_member) {
-  const std::vector<const Option*> all = described();
+  const std::vector<const Option*> all = table_.options_and_constants();
   std::size_t changed = 0;
   for (const Option* option : all) {
     std::vector<std::string> texts{"1", "2", "0.3", "0.7", "0.9", "9", "20000", "false", "true"};

@@ -125,9 +125,8 @@ std::string settings_text(const Settings& settings) {
   BoundSettings bound;
   bound.settings = settings;
   std::string text;
-  for (const OptionSection& section : bound.table.sections())
-    for (const Option& option : section.options) text += option.name() + " = " + option.text() + '\n';
-  for (const auto& [name, constant] : bound.table.constants()) text += name + " = " + constant.text() + '\n';
+  for (const Option* option : bound.table.options_and_constants())
+    text += option->name() + " = " + option->text() + '\n';
   return text;
 }
 

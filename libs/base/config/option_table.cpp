@@ -361,6 +361,14 @@ void OptionTable::set_any(std::string_view name, std::string_view text, std::str
                     constant->second.expectation());
 }
 
+std::vector<const Option*> OptionTable::options_and_constants() const {
+  std::vector<const Option*> all;
+  for (const OptionSection& section : sections_)
+    for (const Option& option : section.options) all.push_back(&option);
+  for (const auto& [name, constant] : constants_) all.push_back(&constant);
+  return all;
+}
+
 void OptionTable::copy_constants(const OptionTable& other) {
   for (auto& [name, constant] : constants_) constant.assign(other.constants_.at(name).text());
 }

@@ -152,6 +152,9 @@ class OptionTable {
   /// The constants, by name. Their `key` is the name without its section.
   const std::map<std::string, Option, std::less<>>& constants() const { return constants_; }
 
+  /// Returns the options in their order, then the constants. Valid as long as the table is not changed.
+  std::vector<const Option*> options_and_constants() const;
+
   /// Makes the table accept an old name of an option ("old_section.old_key", "section.key") or of a whole
   /// section ("old_section", "section"). Throws std::logic_error if the new name is not described yet, or if
   /// the old name is in use.

@@ -87,7 +87,7 @@ class FolderRecorder {
 
   /// The end of a file is written after the next file has begun.
   void write_records(const Path& file, const Recording& part) {
-    McapWriter writer({});
+    McapBytesWriter writer({});
     for (const Recorded& message : part) writer.add(message);
     const std::string bytes = writer.finish();
     const std::size_t half = bytes.size() / 2;

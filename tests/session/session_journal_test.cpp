@@ -2,12 +2,10 @@
 #include "session/session_journal.h"
 
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <memory>
-#include <stdexcept>
 
+#include "full_disk.h"
 #include "psi_slam/user_error.h"
 #include "session/session_file.h"
 #include "small_recording.h"
@@ -89,26 +87,6 @@ TEST_F(SessionJournalTest, deletes_its_file_but_no_file_that_replaced_it) {
 TEST_F(SessionJournalTest, a_folder_that_is_missing_is_an_error) {
   EXPECT_THROW(SessionJournal(folder_.path() / "none" / "my.journal", facts_, {}, 1), SystemFailure);
 }
-
-/// Limits the size of the files that this process writes, as a full disk does.
-class FullDisk {
- public:
-  explicit FullDisk(std::size_t bytes) {
-    if (getrlimit(RLIMIT_FSIZE, &before_) != 0) throw std::runtime_error("cannot read the limit");
-    const rlimit small{bytes, before_.rlim_max};
-    if (setrlimit(RLIMIT_FSIZE, &small) != 0) throw std::runtime_error("cannot limit the size of files");
-  }
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit before_{};
-};
 
 TEST_F(SessionJournalTest, is_complete_again_after_a_full_disk_has_room) {
   SessionJournal journal(path_, facts_, {}, 0.02);

@@ -378,9 +378,9 @@ struct McapLayout {
   bool compresses_messages = false;  ///< rosbag2's compression mode "message"
 };
 
-class McapWriter {
+class McapBytesWriter {
  public:
-  explicit McapWriter(const McapLayout& layout) : layout_(layout) {
+  explicit McapBytesWriter(const McapLayout& layout) : layout_(layout) {
     file_ = "\x89MCAP0\r\n";
     record(file_, 0x01, packed_text("ros2") + packed_text("test"));
   }
@@ -461,7 +461,7 @@ class McapWriter {
 
 inline void write_mcap(const std::filesystem::path& path, const Recording& recording,
                        const McapLayout& layout = {}) {
-  McapWriter writer(layout);
+  McapBytesWriter writer(layout);
   for (const Recorded& message : recording) writer.add(message);
   write_file(path, writer.finish());
 }

@@ -175,7 +175,7 @@ class StatedSize : public testing::Test {
  protected:
   /// Reads an MCAP file of eight scans, with `record` and then `zeros` bytes 0 after them.
   Reading read_mcap_with(const std::string& record, std::uint64_t zeros = 0) {
-    McapWriter writer({"", 0, false, true});
+    McapBytesWriter writer({"", 0, false, true});
     for (const Recorded& message : recorded_run(8)) writer.add(message);
     const std::string whole = writer.finish();
     const std::size_t end_bytes = 13 + 29 + 8;  // of the records DataEnd and Footer and the last magic bytes

@@ -2,6 +2,7 @@
 #include "base/compression/compression.h"
 
 #include <zlib.h>
+#include <zstd.h>
 
 #include <algorithm>
 #include <array>
@@ -88,6 +89,20 @@ std::string gzipped(const void* bytes, std::size_t count) {
     result.append(buffer.data(), buffer.size() - stream.avail_out);
   }
   return result;
+}
+
+std::string zstd_compressed(std::string_view bytes) {
+  constexpr int kLevel = 1;
+  std::string room(ZSTD_compressBound(bytes.size()), '\0');
+  const std::size_t used = ZSTD_compress(room.data(), room.size(), bytes.data(), bytes.size(), kLevel);
+  if (ZSTD_isError(used) != 0)
+    throw SystemFailure("cannot compress data: out of memory. Close other programs");
+  room.resize(used);
+  return room;
+}
+
+std::uint32_t crc32_of(std::string_view bytes) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compression and decompression of bytes in memory.
+// Compression and decompression of bytes in memory, and their checksum.
 #pragma once
 
 #include <cstddef>
@@ -21,5 +21,12 @@ std::string decompress_zstd_frame(std::string_view compressed, std::uint64_t mos
 /// Returns `count` bytes as the contents of a gzip file, without name and time in the header. Throws
 /// SystemFailure if memory runs out.
 std::string gzipped(const void* bytes, std::size_t count);
+
+/// Returns bytes as one zstd frame of a fast level, which states their number. Throws SystemFailure if memory
+/// runs out.
+std::string zstd_compressed(std::string_view bytes);
+
+/// Returns the CRC-32 of bytes (ISO 3309), as gzip, PNG and MCAP define it.
+std::uint32_t crc32_of(std::string_view bytes);
 
 }  // namespace psi_slam

@@ -1,29 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <zlib.h>
-
 #include <cstdint>
 #include <limits>
 #include <map>
 #include <string>
 #include <utility>
 
+#include "base/compression/compression.h"
+#include "logs/rosbag/mcap_records.h"
 #include "logs/rosbag/record_bag.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 constexpr std::int64_t kFooterBytes = 1 + 8 + 20 + 8;  // including the magic bytes after the footer
-
-enum Kind : std::uint8_t {
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kDataEnd = 0x0F
-};
 
 std::string_view text(ByteCursor& cursor) {
   return cursor.take(cursor.number<std::uint32_t>());
@@ -32,16 +22,6 @@ std::string_view text(ByteCursor& cursor) {
 BagEncoding encoding_named(std::string_view name) {
   if (name == "cdr") return BagEncoding::kCdr;
   return name == "ros1" ? BagEncoding::kRos1 : BagEncoding::kOther;
-}
-
-std::uint32_t crc_of(std::string_view bytes) {
-  uLong crc = crc32(0, nullptr, 0);
-  while (!bytes.empty()) {
-    const std::string_view piece = bytes.substr(0, std::size_t{1} << 30);
-    crc = crc32(crc, reinterpret_cast<const Bytef*>(piece.data()), static_cast<uInt>(piece.size()));
-    bytes.remove_prefix(piece.size());
-  }
-  return static_cast<std::uint32_t>(crc);
 }
 
 /// Channels of the records read so far. The type of a channel is the name of its schema.
@@ -87,7 +67,7 @@ class Channels {
 class McapBag : public RecordBag {
  public:
   explicit McapBag(BagStream stream) : RecordBag(std::move(stream)) {
-    if (stream_.read_up_to(kMcapMagic.size()) != kMcapMagic)
+    if (stream_.read_up_to(mcap::kMagic.size()) != mcap::kMagic)
       throw UserError(
           stream_.path().string() +
           " is not an MCAP file of version 0, the only version that is read. Record the bag again");
@@ -109,8 +89,9 @@ class McapBag : public RecordBag {
     ByteCursor head(stream_.read(9));
     kind_ = head.number<std::uint8_t>();
     const auto size = head.number<std::uint64_t>();
-    at_end_ = kind_ == kDataEnd || kind_ == kFooter;
-    if (kind_ == kSchema || kind_ == kChannel || kind_ == kMessage || kind_ == kChunk) {
+    at_end_ = kind_ == mcap::kDataEnd || kind_ == mcap::kFooter;
+    if (kind_ == mcap::kSchema || kind_ == mcap::kChannel || kind_ == mcap::kMessage ||
+        kind_ == mcap::kChunk) {
       bytes_ = stream_.read(size);
     } else {
       stream_.skip(size);  // an attachment, for example, which may be of any size
@@ -125,10 +106,10 @@ class McapBag : public RecordBag {
 
   bool take_record(BagMessage& message) override {
     const ByteCursor cursor(bytes_);
-    if (kind_ == kSchema) channels_.add_schema(cursor);
-    if (kind_ == kChannel) channels_.add_channel(cursor);
-    if (kind_ == kChunk) open_chunk(cursor);
-    return kind_ == kMessage && take_message(cursor, message);
+    if (kind_ == mcap::kSchema) channels_.add_schema(cursor);
+    if (kind_ == mcap::kChannel) channels_.add_channel(cursor);
+    if (kind_ == mcap::kChunk) open_chunk(cursor);
+    return kind_ == mcap::kMessage && take_message(cursor, message);
   }
 
  private:
@@ -153,7 +134,7 @@ class McapBag : public RecordBag {
     const std::string_view compression = text(cursor);
     const std::string_view bytes = cursor.take(cursor.number<std::uint64_t>());
     unpack_chunk(compression, bytes, size);
-    if (crc != 0 && crc != crc_of(chunk_)) throw MalformedBytes("the checksum of a chunk is wrong");
+    if (crc != 0 && crc != crc32_of(chunk_)) throw MalformedBytes("the checksum of a chunk is wrong");
     begin_chunk();
   }
 
@@ -161,8 +142,8 @@ class McapBag : public RecordBag {
   Channels channels_of_summary() const {
     const std::string footer = tail_of_file(stream_.path(), -kFooterBytes);
     const bool is_footer =
-        !footer.empty() && footer.front() == kFooter &&
-        footer.compare(footer.size() - kMcapMagic.size(), kMcapMagic.size(), kMcapMagic) == 0;
+        !footer.empty() && footer.front() == mcap::kFooter &&
+        footer.compare(footer.size() - mcap::kMagic.size(), mcap::kMagic.size(), mcap::kMagic) == 0;
     if (!is_footer) return {};
     const auto start = ByteCursor(std::string_view(footer).substr(9)).number<std::uint64_t>();
     if (start == 0 || start > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) return {};
@@ -172,8 +153,8 @@ class McapBag : public RecordBag {
       for (ByteCursor cursor(summary); cursor.left() > static_cast<std::size_t>(kFooterBytes);) {
         const auto kind = cursor.number<std::uint8_t>();
         const ByteCursor record(cursor.take(cursor.number<std::uint64_t>()));
-        if (kind == kSchema) channels.add_schema(record);
-        if (kind == kChannel) channels.add_channel(record);
+        if (kind == mcap::kSchema) channels.add_schema(record);
+        if (kind == mcap::kChannel) channels.add_channel(record);
       }
     } catch (const MalformedBytes&) {
       return {};  // the records before the summary state the channels too

@@ -18,14 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr int kFileMode = 0666;  // the umask applies
 
-SystemFailure cannot_create(const fs::path& path, int error_number) {
-  const SystemFailure failure = cannot_write(path, error_number);
-  const bool is_of_folder =
-      error_number == ENOENT || error_number == ENOTDIR || error_number == EACCES || error_number == EROFS;
-  if (!is_of_folder) return failure;
-  return SystemFailure(std::string(failure.what()) + ". Choose a folder that exists and is writable");
-}
-
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path path)

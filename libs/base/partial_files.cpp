@@ -72,6 +72,14 @@ SystemFailure cannot_write(const fs::path& path, int error_number) {
   return SystemFailure("cannot write " + path.string() + ": " + std::strerror(error_number));
 }
 
+SystemFailure cannot_create(const fs::path& path, int error_number) {
+  const SystemFailure failure = cannot_write(path, error_number);
+  const bool is_of_folder =
+      error_number == ENOENT || error_number == ENOTDIR || error_number == EACCES || error_number == EROFS;
+  if (!is_of_folder) return failure;
+  return SystemFailure(std::string(failure.what()) + ". Choose a folder that exists and is writable");
+}
+
 void wait_for_disk(const Descriptor& written, const fs::path& path) {
   // Some file systems, such as those of the kernel, cannot wait.
   if (::fsync(written.number()) != 0 && errno != EINVAL && errno != EROFS) throw cannot_write(path, errno);

@@ -26,6 +26,10 @@ std::filesystem::path folder_of(const std::filesystem::path& path);
 /// Returns the exception for a file that cannot be written for a reason of the system, such as ENOSPC.
 SystemFailure cannot_write(const std::filesystem::path& path, int error_number);
 
+/// Returns the exception for a file that cannot be created. For a folder that is missing or not writable, it
+/// says what to do.
+SystemFailure cannot_create(const std::filesystem::path& path, int error_number);
+
 /// Waits until the disk holds an open file or the entries of an open folder. A power failure cannot undo it
 /// then. Throws SystemFailure that names `path`.
 void wait_for_disk(const Descriptor& written, const std::filesystem::path& path);

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/appended_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "base/partial_files.h"
+#include "base/thread_priority.h"
+#include "psi_slam/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr std::chrono::seconds kRetryPeriod{1};
+
+Descriptor created_file(const std::filesystem::path& path, bool overwrite) {
+  constexpr int kMode = 0666;  // the umask applies
+  const int how = overwrite ? O_TRUNC : O_EXCL;
+  Descriptor file(::open(path.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC | how, kMode));
+  if (!file.is_open() && errno == EEXIST)
+    throw UserError(
+        path.string() +
+        " exists already, expected the name of a new file. Choose another name, or delete the file");
+  if (!file.is_open()) throw cannot_create(path, errno);
+  wait_for_disk(folder_of(path), path);
+  return file;
+}
+
+}  // namespace
+
+AppendedFile::AppendedFile(std::filesystem::path path, bool overwrite)
+    : path_(std::move(path)), file_(created_file(path_, overwrite)), thread_([this] { work(); }) {}
+
+AppendedFile::~AppendedFile() {
+  close();
+}
+
+bool AppendedFile::append(std::string_view bytes) {
+  const std::lock_guard lock(mutex_);
+  if (waiting_bytes_ > 0 && waiting_bytes_ + bytes.size() > kMostWaitingBytes) return false;
+  appended_ += bytes;
+  waiting_bytes_ += bytes.size();
+  changed_.notify_all();
+  return true;
+}
+
+void AppendedFile::close() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+std::optional<std::string> AppendedFile::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+void AppendedFile::work() {
+  set_priority_of_this_thread(ThreadPriority::kLow);
+  std::string unwritten;
+  std::unique_lock lock(mutex_);
+  for (bool is_last = false; !is_last;) {
+    if (failure_) {
+      changed_.wait_for(lock, kRetryPeriod, [this] { return stop_; });
+    } else {
+      changed_.wait(lock, [this] { return stop_ || !appended_.empty(); });
+    }
+    is_last = stop_;
+    unwritten += std::exchange(appended_, {});
+    lock.unlock();
+    std::optional<std::string> failure;
+    try {
+      write(unwritten);
+    } catch (const std::exception& error) {
+      failure = error.what();
+    }
+    lock.lock();
+    failure_ = std::move(failure);
+    if (failure_) continue;
+    waiting_bytes_ -= unwritten.size();
+    unwritten.clear();
+  }
+}
+
+/// Writes bytes after those that the disk has. After a failure it begins with the same byte again, because
+/// the system may have dropped bytes that it accepted before.
+void AppendedFile::write(std::string_view bytes) {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t count = ::pwrite(file_.number(), bytes.data() + done, bytes.size() - done,
+                                   static_cast<off_t>(written_bytes_ + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) throw cannot_write(path_, count < 0 ? errno : ENOSPC);
+    done += static_cast<std::size_t>(count);
+  }
+  if (::fdatasync(file_.number()) != 0 && errno != EINVAL) throw cannot_write(path_, errno);
+  written_bytes_ += bytes.size();
+}
+
+}  // namespace psi_slam

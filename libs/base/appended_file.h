@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "base/descriptor.h"
+
+namespace psi_slam {
+
+/// A new file that grows while other programs read it. A thread of its own writes it, so that no function
+/// except the constructor and close() waits for the disk. What cannot be written, because the disk is full
+/// for example, waits in memory and is tried again every second.
+class AppendedFile {
+ public:
+  /// Most bytes that wait in memory while the file cannot be written.
+  static constexpr std::size_t kMostWaitingBytes = std::size_t{1} << 26;
+
+  /// Creates the file. Throws UserError if it exists and `overwrite` is false, and SystemFailure if it cannot
+  /// be created.
+  AppendedFile(std::filesystem::path path, bool overwrite);
+  /// Closes the file.
+  ~AppendedFile();
+  AppendedFile(const AppendedFile&) = delete;
+  AppendedFile& operator=(const AppendedFile&) = delete;
+
+  /// Appends bytes as a whole. Returns false, and appends nothing, if more than kMostWaitingBytes would wait.
+  bool append(std::string_view bytes);
+
+  /// Writes what is left, trying once. Call append() no more.
+  void close();
+
+  /// Why the file could not be written the last time, a sentence without full stop; empty if it was written.
+  std::optional<std::string> failure() const;
+
+ private:
+  void work();
+  void write(std::string_view bytes);
+
+  const std::filesystem::path path_;
+  const Descriptor file_;
+  std::size_t written_bytes_ = 0;  ///< bytes of the file that the disk has
+
+  mutable std::mutex mutex_;  ///< protects the members below
+  std::condition_variable changed_;
+  std::string appended_;           ///< bytes that the thread has not taken yet
+  std::size_t waiting_bytes_ = 0;  ///< bytes that the disk does not have yet
+  std::optional<std::string> failure_;
+  bool stop_ = false;  ///< the thread ends or has ended
+
+  std::thread thread_;
+};
+
+}  // namespace psi_slam

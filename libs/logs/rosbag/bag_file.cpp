@@ -65,6 +65,12 @@ std::string ros1_type_name(std::string_view type) {
   return name;
 }
 
+std::string ros2_type_name(std::string_view type) {
+  std::string name = ros1_type_name(type);
+  if (const std::size_t slash = name.find('/'); slash != std::string::npos) name.insert(slash, "/msg");
+  return name;
+}
+
 void add_topic(std::vector<BagTopic>& topics, const BagTopic& topic) {
   if (std::find(topics.begin(), topics.end(), topic) == topics.end()) topics.push_back(topic);
 }

@@ -35,6 +35,9 @@ struct BagTopic {
 /// Returns the ROS 1 name of a type: removes the "/msg" that ROS 2 inserts.
 std::string ros1_type_name(std::string_view type);
 
+/// Returns the ROS 2 name of a type: inserts the "/msg" that the ROS 1 name lacks.
+std::string ros2_type_name(std::string_view type);
+
 /// Appends a topic unless the list contains it.
 void add_topic(std::vector<BagTopic>& topics, const BagTopic& topic);
 

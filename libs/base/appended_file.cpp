@@ -65,7 +65,6 @@ std::optional<std::string> AppendedFile::failure() const {
 
 void AppendedFile::work() {
   set_priority_of_this_thread(ThreadPriority::kLow);
-  std::string unwritten;
   std::unique_lock lock(mutex_);
   for (bool is_last = false; !is_last;) {
     if (failure_) {
@@ -74,34 +73,33 @@ void AppendedFile::work() {
       changed_.wait(lock, [this] { return stop_ || !appended_.empty(); });
     }
     is_last = stop_;
-    unwritten += std::exchange(appended_, {});
+    unwritten_ += std::exchange(appended_, {});
     lock.unlock();
     std::optional<std::string> failure;
     try {
-      write(unwritten);
+      write_unwritten();
     } catch (const std::exception& error) {
       failure = error.what();
     }
     lock.lock();
+    waiting_bytes_ = unwritten_.size() + appended_.size();
     failure_ = std::move(failure);
-    if (failure_) continue;
-    waiting_bytes_ -= unwritten.size();
-    unwritten.clear();
   }
 }
 
-/// Writes bytes after those that the disk has. After a failure it begins with the same byte again, because
-/// the system may have dropped bytes that it accepted before.
-void AppendedFile::write(std::string_view bytes) {
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t count = ::pwrite(file_.number(), bytes.data() + done, bytes.size() - done,
+/// Writes the bytes that follow those of the disk. After a failure it begins with the same byte again,
+/// because the system may have dropped bytes that it accepted before.
+void AppendedFile::write_unwritten() {
+  for (std::size_t done = 0; done < unwritten_.size();) {
+    const ssize_t count = ::pwrite(file_.number(), unwritten_.data() + done, unwritten_.size() - done,
                                    static_cast<off_t>(written_bytes_ + done));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) throw cannot_write(path_, count < 0 ? errno : ENOSPC);
     done += static_cast<std::size_t>(count);
   }
   if (::fdatasync(file_.number()) != 0 && errno != EINVAL) throw cannot_write(path_, errno);
-  written_bytes_ += bytes.size();
+  written_bytes_ += unwritten_.size();
+  unwritten_ = {};
 }
 
 }  // namespace psi_slam

@@ -41,15 +41,16 @@ class AppendedFile {
 
  private:
   void work();
-  void write(std::string_view bytes);
+  void write_unwritten();
 
   const std::filesystem::path path_;
   const Descriptor file_;
   std::size_t written_bytes_ = 0;  ///< bytes of the file that the disk has
+  std::string unwritten_;          ///< bytes that follow them
 
   mutable std::mutex mutex_;  ///< protects the members below
   std::condition_variable changed_;
-  std::string appended_;           ///< bytes that the thread has not taken yet
+  std::string appended_;           ///< bytes that follow those of unwritten_
   std::size_t waiting_bytes_ = 0;  ///< bytes that the disk does not have yet
   std::optional<std::string> failure_;
   bool stop_ = false;  ///< the thread ends or has ended

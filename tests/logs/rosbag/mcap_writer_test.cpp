@@ -5,6 +5,7 @@
 #include <zlib.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -13,13 +14,14 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "bag_files.h"
 #include "base/byte_cursor.h"
 #include "full_disk.h"
+#include "logs/frames/log_reader.h"
 #include "logs/rosbag/ros2_definitions.h"
-#include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
 #include "same_frames.h"

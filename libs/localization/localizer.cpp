@@ -139,8 +139,10 @@ Localizer Localizer::open(const std::filesystem::path& map, const LocalizerOptio
 Localizer::~Localizer() = default;
 
 void Localizer::start_at(const TPose2D& map_T_robot) {
-  m_->map_T_local = map_T_robot;
+  m_->map_T_local = compose(map_T_robot, inverse(m_->last_local_T_robot));
   m_->is_near_given_start = true;
+  m_->misfit_m = 0;
+  m_->fitted_us = m_->now_us;
 }
 
 LocalizationStep Localizer::add(const Frame& frame) {

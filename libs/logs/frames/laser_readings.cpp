@@ -85,6 +85,21 @@ std::vector<float> make_bearings_rad(BeamAngles angles, std::size_t beams, doubl
   return bearings_rad;
 }
 
+std::optional<EvenBearings> bearings_of_whole_degrees(float first_rad, double step_rad, std::size_t beams) {
+  if (beams < 2 || !(step_rad > 0)) return std::nullopt;
+  for (const BeamAngles angles :
+       {BeamAngles::kCentredStepInclusive, BeamAngles::kCentredHalfStep, BeamAngles::kLeftOpen}) {
+    const auto steps = static_cast<double>(angles == BeamAngles::kCentredStepInclusive ? beams - 1 : beams);
+    const double field_of_view_rad = std::round(step_rad * steps * 180 / M_PI) * M_PI / 180;
+    EvenBearings even{field_of_view_rad / steps, make_bearings_rad(angles, beams, field_of_view_rad)};
+    const float stated_rad = static_cast<float>(step_rad);
+    const float true_rad = static_cast<float>(even.step_rad);
+    const bool has_step = std::abs(true_rad - stated_rad) <= std::nextafter(stated_rad, 10.0F) - stated_rad;
+    if (has_step && even.bearings_rad.front() == first_rad) return even;
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> fault_of_beams(std::size_t beams, double first_rad, double step_rad) {
   std::ostringstream fault;
   if (beams > kMaxBeams) {

@@ -40,6 +40,18 @@ BeamAngles usual_beam_angles(std::size_t beams);
 /// UserError for kSkipZero with an odd number of beams.
 std::vector<float> make_bearings_rad(BeamAngles angles, std::size_t beams, double field_of_view_rad);
 
+/// Bearings at equal steps, radians.
+struct EvenBearings {
+  double step_rad = 0;
+  std::vector<float> bearings_rad;
+};
+
+/// Returns the bearings of make_bearings_rad() whose first bearing and step are these numbers, up to the last
+/// bit of a 32-bit float of the step, for a field of view of a whole number of degrees. So a laser has the
+/// same bearings in a format that states floats and in one that states degrees. Empty if no convention has
+/// these numbers.
+std::optional<EvenBearings> bearings_of_whole_degrees(float first_rad, double step_rad, std::size_t beams);
+
 /// Returns what is wrong with the beams of a scan, as a part of a sentence. `step_rad` is the angle from each
 /// beam to the next. Returns nothing for up to 100,000 beams with bearings within two turns of straight
 /// ahead.

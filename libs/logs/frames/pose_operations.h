@@ -67,6 +67,8 @@ auto distance_m(const A& a, const B& b) {
 /// turns along the shorter arc.
 inline mrpt::math::TPose2D interpolate(const mrpt::math::TPose2D& from, const mrpt::math::TPose2D& to,
                                        double fraction) {
+  if (fraction == 0) return from;
+  if (fraction == 1) return to;  // exactly
   const double turn_rad = mrpt::math::wrapToPi(to.phi - from.phi);
   return {from.x + fraction * (to.x - from.x), from.y + fraction * (to.y - from.y),
           mrpt::math::wrapToPi(from.phi + fraction * turn_rad)};

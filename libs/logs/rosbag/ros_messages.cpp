@@ -13,6 +13,7 @@
 #include "base/byte_cursor.h"
 #include "base/compression/compression.h"
 #include "base/compression/decompressor.h"
+#include "base/portable_math.h"
 #include "logs/frames/pose_operations.h"
 
 namespace psi_slam {
@@ -88,14 +89,19 @@ std::string frame_name(std::string name) {
   return name;
 }
 
-RosHeader header(RosFields& fields, TimeUs recorded_us) {
-  RosHeader header;
-  if (!fields.is_cdr()) fields.number<std::uint32_t>();  // sequence number
+/// Parses a time, which is 0 in messages without a stamp.
+TimeUs ros_time_us(RosFields& fields) {
   const std::int64_t stamp_s = fields.is_cdr() ? std::int64_t{fields.number<std::int32_t>()}
                                                : std::int64_t{fields.number<std::uint32_t>()};
   const auto stamp_ns = std::int64_t{fields.number<std::uint32_t>()};
-  const bool is_stamped = stamp_s != 0 || stamp_ns != 0;
-  header.time_us = is_stamped ? stamp_s * 1'000'000 + (stamp_ns + 500) / 1000 : recorded_us;
+  return stamp_s * 1'000'000 + (stamp_ns + 500) / 1000;
+}
+
+RosHeader header(RosFields& fields, TimeUs recorded_us) {
+  RosHeader header;
+  if (!fields.is_cdr()) fields.number<std::uint32_t>();  // sequence number
+  const TimeUs stamp_us = ros_time_us(fields);
+  header.time_us = stamp_us != 0 ? stamp_us : recorded_us;
   header.frame = frame_name(fields.text());
   return header;
 }
@@ -264,6 +270,30 @@ RosHeader read_ros_header(const BagMessage& message) {
 std::optional<RosTransform> read_ros_odometry(const BagMessage& message) {
   RosFields fields(message);
   return transform(fields, message.recorded_us);
+}
+
+mrpt::math::TPose2D on_floor(const mrpt::poses::CPose3D& pose) {
+  constexpr double kSteps = 1e12;  // per radian
+  const mrpt::math::CMatrixDouble33& rotation = pose.getRotationMatrix();
+  return {pose.x(), pose.y(), std::round(portable::atan2(rotation(1, 0), rotation(0, 0)) * kSteps) / kSteps};
+}
+
+TimeUs read_ros_clock(const BagMessage& message) {
+  RosFields fields(message);
+  return ros_time_us(fields);
+}
+
+std::string read_ros_string(const BagMessage& message) {
+  RosFields fields(message);
+  return fields.text();
+}
+
+std::optional<mrpt::math::TPose2D> read_ros_pose(const BagMessage& message) {
+  RosFields fields(message);
+  header(fields, message.recorded_us);
+  const auto valid_pose = pose(fields);
+  if (!valid_pose) return std::nullopt;
+  return on_floor(*valid_pose);
 }
 
 std::string invalid_pose_text(const std::string& topic) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <mrpt/math/TPoint3D.h>
+#include <mrpt/math/TPose2D.h>
 #include <mrpt/poses/CPose3D.h>
 
 #include <optional>
@@ -74,6 +75,18 @@ RosHeader read_ros_header(const BagMessage& message);
 /// Returns the pose of the robot in the odometry's frame. Empty if the pose is invalid: not finite, or a
 /// quaternion whose length is not 1.
 std::optional<RosTransform> read_ros_odometry(const BagMessage& message);
+
+/// Returns x, y and yaw of a pose. The yaw is rounded to 10^-12 radians, because the last bits of a yaw that
+/// was a quaternion are arbitrary. So a played log of a format that states few decimals has its own odometry.
+mrpt::math::TPose2D on_floor(const mrpt::poses::CPose3D& pose);
+
+/// Returns the time of a rosgraph_msgs/Clock.
+TimeUs read_ros_clock(const BagMessage& message);
+/// Returns the text of a std_msgs/String.
+std::string read_ros_string(const BagMessage& message);
+/// Returns x, y and yaw of a geometry_msgs/PoseWithCovarianceStamped. Empty if it is invalid, as in
+/// read_ros_odometry().
+std::optional<mrpt::math::TPose2D> read_ros_pose(const BagMessage& message);
 
 /// Error message for odometry with an invalid pose, without the place.
 std::string invalid_pose_text(const std::string& topic);

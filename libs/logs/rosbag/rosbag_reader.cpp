@@ -34,11 +34,6 @@
 namespace psi_slam {
 namespace {
 
-mrpt::math::TPose2D on_floor(const mrpt::poses::CPose3D& pose) {
-  const mrpt::math::CMatrixDouble33& rotation = pose.getRotationMatrix();
-  return {pose.x(), pose.y(), portable::atan2(rotation(1, 0), rotation(0, 0))};
-}
-
 /// Returns the sweep time of a scan in seconds, or 0 if the stated time is implausible. Drivers may state 0,
 /// more than the time between scans, or more than any laser needs. A negative time_increment means that the
 /// last beam is measured first.
@@ -97,9 +92,12 @@ class RosLaser {
     const std::size_t beams = message.ranges_m.size();
     std::vector<float> bearings(beams);
     if (options_.beam_angles == BeamAngles::kAuto && !options_.field_of_view_rad) {
-      for (std::size_t i = 0; i < beams; ++i)
-        bearings[i] = static_cast<float>(static_cast<double>(message.angle_min_rad) +
-                                         static_cast<double>(i) * step_rad);
+      if (auto even = bearings_of_whole_degrees(message.angle_min_rad, step_rad, beams))
+        bearings = std::move(even->bearings_rad);
+      else
+        for (std::size_t i = 0; i < beams; ++i)
+          bearings[i] = static_cast<float>(static_cast<double>(message.angle_min_rad) +
+                                           static_cast<double>(i) * step_rad);
     } else {
       const bool is_auto = options_.beam_angles == BeamAngles::kAuto;
       const double steps = static_cast<double>(std::max<std::size_t>(beams - 1, 1));
@@ -331,13 +329,15 @@ std::unique_ptr<LogReader> open_followed_bag(std::unique_ptr<BagRecording> recor
       std::make_shared<const BeginningOfBag>(read_beginning(*recording->bag, options, look_over_s));
   BagPlan plan = with_agreeing_topics(plan_bag(begun_bag(beginning), recording->path, options, look_over_s),
                                       options, [&] { return begun_bag(beginning); });
+  if (recording->planned) recording->planned(plan);
   return std::make_unique<RosbagReader>(std::move(plan), begun_bag(beginning, std::move(recording->bag)),
                                         options, true);
 }
 
 std::unique_ptr<LogReader> open_rosbag_stream(std::unique_ptr<ByteSource> recording,
                                               const LogOptions& options, double look_over_s) {
-  BagRecording followed{recording->path(), nullptr};
+  BagRecording followed;
+  followed.path = recording->path();
   followed.bag = follow_record_bag(std::move(recording));
   if (!followed.bag)
     throw UserError(

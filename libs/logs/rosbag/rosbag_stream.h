@@ -2,18 +2,22 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "base/compression/byte_source.h"
 #include "logs/frames/log_reader.h"
 #include "logs/rosbag/bag_file.h"
+#include "logs/rosbag/bag_plan.h"
 
 namespace psi_slam {
 
-/// A bag that is still being recorded: its path for messages, and its messages.
+/// A bag that is still being recorded.
 struct BagRecording {
-  std::filesystem::path path;
-  std::unique_ptr<BagFile> bag;
+  std::filesystem::path path;    ///< for messages
+  std::unique_ptr<BagFile> bag;  ///< its messages
+  /// Called when the first messages have decided which topics and frames are read; may be empty.
+  std::function<void(const BagPlan&)> planned{};
 };
 
 /// Reads a ROS 1 bag or an MCAP file while it is recorded. The bag ends where the bytes end, also within a

@@ -18,9 +18,11 @@ LiveGridOptions live_options(const GridMapOptions& map) {
 
 }  // namespace
 
-LiveMapWriter::LiveMapWriter(std::filesystem::path folder, const GridMapOptions& map, double period_s)
+LiveMapWriter::LiveMapWriter(std::filesystem::path folder, const GridMapOptions& map, double period_s,
+                             ShowMap show_map)
     : folder_(std::move(folder)),
       period_(period_s),
+      show_map_(std::move(show_map)),
       map_(live_options(map)),
       last_(Clock::now()),
       thread_([this] { work(); }) {}
@@ -60,6 +62,10 @@ void LiveMapWriter::hand_over() {
   changed_.notify_all();
 }
 
+void LiveMapWriter::write_to(const std::filesystem::path& yaml_path) {
+  write_map_server_pair(yaml_path, *grid_of(map_.snapshot()));
+}
+
 std::optional<std::string> LiveMapWriter::failure() const {
   const std::lock_guard lock(mutex_);
   return failure_;
@@ -75,7 +81,9 @@ void LiveMapWriter::work() {
     lock.unlock();
     std::optional<std::string> failure;
     try {
-      write_map_server_pair(folder_ / "map.yaml", *grid_of(snapshot));
+      const auto grid = grid_of(snapshot);
+      if (show_map_) show_map_(*grid);
+      write_map_server_pair(folder_ / "map.yaml", *grid);
     } catch (const std::exception& error) {
       failure = error.what();
     }

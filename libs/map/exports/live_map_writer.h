@@ -10,6 +10,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -24,8 +25,13 @@ namespace psi_slam {
 
 class LiveMapWriter {
  public:
-  /// Writes to an existing folder every `period_s` seconds, if the map has changed. 0: never.
-  LiveMapWriter(std::filesystem::path folder, const GridMapOptions& map, double period_s);
+  /// Gets a map that is written, in the writing thread.
+  using ShowMap = std::function<void(const mrpt::maps::COccupancyGridMap2D&)>;
+
+  /// Writes to an existing folder every `period_s` seconds, if the map has changed. 0: never. Each map is
+  /// also given to `show_map`, which may be empty.
+  LiveMapWriter(std::filesystem::path folder, const GridMapOptions& map, double period_s,
+                ShowMap show_map = {});
   /// Waits until files that are being written are complete. Destroy the writer before the final export.
   ~LiveMapWriter();
   LiveMapWriter(const LiveMapWriter&) = delete;
@@ -39,6 +45,10 @@ class LiveMapWriter {
   /// Draws all scans that moved, as calls of update() do in the time between later scans.
   void settle(const Mapper& mapper);
 
+  /// Writes the map as it is drawn now to another pair of files, in this thread. Throws SystemFailure if it
+  /// cannot be written.
+  void write_to(const std::filesystem::path& yaml_path);
+
   /// Why the map could not be written the last time, a sentence without full stop; empty if it was written.
   std::optional<std::string> failure() const;
 
@@ -50,6 +60,7 @@ class LiveMapWriter {
 
   const std::filesystem::path folder_;
   const std::chrono::duration<double> period_;
+  const ShowMap show_map_;
   LiveGridMap map_;
   LivePoses poses_;
   Clock::time_point last_;       ///< time of the last hand-over

@@ -32,7 +32,8 @@ constexpr const char* kExamples =
     "  psi-slam localize out/map.yaml new.log   find and track a robot in a finished map\n"
     "  psi-slam diff may/ june/ -o changes/     show the walls that changed between two maps\n"
     "  psi-slam eval out/trajectory.tum my.relations   measure the errors of a path\n"
-    "  psi-slam live --tcp 5000 -o out/         map while the robot drives\n"
+    "  psi-slam live --ros2 -o out/             map while a ROS 2 robot drives\n"
+    "  psi-slam play my.log --ros2              play a log as a ROS 2 robot\n"
     "  psi-slam -c my.ini my.log -o out/ --set map.resolution_m=0.025\n"
     "  psi-slam --dump-config > my.ini          print settings to start from\n"
     "  psi-slam sweep *.log -o out/ --set loop_closure.matcher=csm,ga --seeds 10\n"
@@ -120,9 +121,9 @@ CLI::App* add_eval(CLI::App& app, CommandLine& line) {
 }
 
 CLI::App* add_live(CLI::App& app, CommandLine& line) {
-  CLI::App* const live = app.add_subcommand(
-      "live",
-      "Map while the robot drives: from a stream of CARMEN lines, a growing log or sensors, until Ctrl-C");
+  CLI::App* const live = app.add_subcommand("live",
+                                            "Map while the robot drives: from ROS 2, a stream of CARMEN "
+                                            "lines, a growing log or sensors, until Ctrl-C");
   add_live_options(*live, line.live);
   add_value(*live, "-o,--output", line.output, kFolderHelp, "DIR");
   add_value(*live, "--save-session", line.save_session, "Save the run to this file, for --resume", "FILE");
@@ -159,6 +160,21 @@ CLI::App* add_merge(CLI::App& app, CommandLine& line) {
             "FILE");
   add_run_options(*merge, line);
   return merge;
+}
+
+CLI::App* add_play(CLI::App& app, CommandLine& line) {
+  CLI::App* const play = app.add_subcommand(
+      "play",
+      "Play a log as a ROS 2 robot: scans, odometry, transforms and /clock, for psi-slam, nav2 or RViz");
+  add_value(*play, "LOG", line.log, "Any log that psi-slam reads", "");
+  add_ros2_options(*play, line.play.ros2, "Publish on the topics of ROS 2");
+  add_value(*play, "--speed", line.play.speed, "Speed compared with that of the robot; 0: without waiting",
+            "FACTOR")
+      ->check(number_between(0.0, 1e6))
+      ->capture_default_str();
+  add_settings_options(*play, line.config, line.settings);
+  play->add_flag("-q,--quiet", line.quiet, "Print no progress");
+  return play;
 }
 
 CLI::App* add_options(CLI::App& app, CommandLine& line) {
@@ -291,9 +307,12 @@ void check_together(const CommandLine& line, const std::string& log_to_map, cons
   const bool compares = line.command == Command::kDiff;
   const bool localizes = line.command == Command::kLocalize;
   if (maps) require(!line.log.empty() || !line.resume.empty(), "name the log: psi-slam LOG");
+  if (line.command == Command::kPlay)
+    require(!line.log.empty() && line.play.ros2.is_given, "name the log: psi-slam play LOG --ros2");
   if (line.command == Command::kCheck) require(!line.log.empty(), "name the log: psi-slam check LOG");
   const bool has_source = live_input(line.live).has_value();
-  if (is_live) require(has_source, "name a source: --stdin, --tcp PORT, --follow LOG or --sensors INI");
+  if (is_live)
+    require(has_source, "name a source: --ros2, --stdin, --tcp PORT, --follow LOG or --sensors INI");
   if (localizes)
     require(!line.map.empty() && (has_source || !line.log.empty()),
             "name a map and a log: psi-slam localize MAP LOG");
@@ -408,7 +427,8 @@ CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& 
       {add_check(app, line), Command::kCheck},       {add_diff(app, line), Command::kDiff},
       {add_eval(app, line), Command::kEval},         {add_live(app, line), Command::kLive},
       {add_localize(app, line), Command::kLocalize}, {add_merge(app, line), Command::kMerge},
-      {add_options(app, line), Command::kOptions},   {add_sweep(app, line), Command::kSweep}};
+      {add_options(app, line), Command::kOptions},   {add_play(app, line), Command::kPlay},
+      {add_sweep(app, line), Command::kSweep}};
   first_words.push_back(add_help(app, line));
   for (CLI::App* command : add_other_programs(app)) first_words.push_back(command);
   app.require_subcommand(0, 1);

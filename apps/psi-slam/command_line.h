@@ -34,6 +34,12 @@ struct EvalArguments {
   std::string per_relation;  ///< file for the error of each relation; empty: not written
 };
 
+/// The arguments of psi-slam play alone.
+struct PlayArguments {
+  Ros2Arguments ros2;
+  double speed = 1;  ///< times the speed of the robot
+};
+
 /// The arguments of psi-slam options alone.
 struct OptionsArguments {
   std::string word;       ///< shows only options with this word in their name or description
@@ -52,6 +58,7 @@ struct CommandLine {
     kLocalize,
     kMerge,
     kOptions,
+    kPlay,
     kDumpConfig,
     kSweep,
     kOtherProgram
@@ -79,6 +86,7 @@ struct CommandLine {
   DiffArguments diff;
   EvalArguments eval;
   LiveArguments live;
+  PlayArguments play;
   SweepArguments sweep;
   std::optional<OtherProgram> other_program;  ///< program to start instead
   std::vector<std::string> other_arguments;   ///< its arguments

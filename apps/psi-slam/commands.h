@@ -8,6 +8,7 @@
 
 #include "command_line.h"
 #include "interrupt_signals.h"
+#include "map/exports/run_summary.h"
 #include "map/report/output_folder.h"
 #include "progress_line.h"
 #include "psi_slam/mapping_session.h"
@@ -23,6 +24,10 @@ int map_log(const CommandLine& line, const Streams& streams);
 /// psi-slam live: maps what a driving robot sends, until it ends or the user interrupts. The exit code is 2
 /// if reading failed on the way.
 int map_live(const CommandLine& line, const Streams& streams);
+
+/// Localizes in the map `line.map` at the scans of a live source, beginning at `start` if it is known.
+int localize_live(const CommandLine& line, const LiveInput& source, const Settings& settings,
+                  const std::optional<mrpt::math::TPose2D>& start, const Streams& streams);
 
 /// psi-slam merge: makes one map of several runs. Writes nothing if a run is unreadable or cannot be placed.
 int merge_runs(const CommandLine& line, const Streams& streams);
@@ -40,6 +45,9 @@ int check_log(const CommandLine& line, const Streams& streams);
 
 /// psi-slam eval: compares a trajectory with known relative poses, by the metric of relations_metric.h.
 int evaluate_path(const CommandLine& line, const Streams& streams);
+
+/// psi-slam play: plays a log as a ROS 2 robot. The exit code is 2 if the log is damaged.
+int play_log(const CommandLine& line, const Streams& streams);
 
 /// psi-slam options: explains the options of the settings files, all of them or those that are asked for.
 int explain_options(const CommandLine& line, const Streams& streams);
@@ -71,8 +79,10 @@ void watch(MappingSession& session, const InterruptSignals& signals, const Comma
 
 /// Saves the finished session if --save-session is given, writes its results, deletes the journal, and prints
 /// the summary and all warnings. Returns the exit code. If the session cannot be saved, the results are
-/// written before the exception is thrown.
+/// written before the exception is thrown. Calls `exported`, unless it is empty, when the results are
+/// written.
 int save_and_export(MappingSession& session, const OutputFolder& folder, const CommandLine& line,
-                    const Streams& streams, std::optional<ProgressLine>& progress_line);
+                    const Streams& streams, std::optional<ProgressLine>& progress_line,
+                    const std::function<void(const RunSummary&)>& exported = {});
 
 }  // namespace psi_slam

@@ -26,7 +26,62 @@ std::uint16_t port_of(const std::string& text) {
   return static_cast<std::uint16_t>(*value);
 }
 
+std::uint32_t domain_of(const std::string& text) {
+  constexpr double kMostDomain = 232;  // above, the ports of DDS exceed 65535
+  const std::optional<double> value = parse_number(text);
+  if (!value || *value < 0 || *value > kMostDomain || *value != static_cast<std::uint32_t>(*value))
+    throw UserError("--domain " + text + ": expected a whole number from 0 to 232");
+  return static_cast<std::uint32_t>(*value);
+}
+
+std::string name_space_of(std::string text) {
+  if (text.front() != '/') text.insert(0, 1, '/');
+  if (text.size() > 1 && text.back() == '/') text.pop_back();
+  const bool is_valid =
+      text.find("//") == std::string::npos &&
+      text.find_first_not_of("/_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789") ==
+          std::string::npos;
+  if (!is_valid)
+    throw UserError("--namespace " + text + ": expected letters, digits, _ and /, such as /robot1");
+  return text;
+}
+
 }  // namespace
+
+void add_ros2_options(CLI::App& command, Ros2Arguments& arguments, const std::string& help) {
+  command.add_flag("--ros2", arguments.is_given, help);
+  add_value(command, "--domain", arguments.domain, "Domain of ROS 2. Default: ROS_DOMAIN_ID, or 0", "N");
+  add_value(command, "--namespace", arguments.name_space,
+            "Namespace of the robot and of this node, such as /robot1. Default: none", "NAME");
+  command
+      .add_option("--topic", arguments.topics,
+                  "Use another topic for one of psi-slam's names, such as scan=/robot1/front_scan. May be "
+                  "repeated")
+      ->type_name("NAME=TOPIC")
+      ->allow_extra_args(false);
+}
+
+Ros2Options ros2_options(const Ros2Arguments& arguments, const std::string& node_name) {
+  if (!arguments.is_given) {
+    const auto refuse = [](const char* option, bool given) {
+      if (given) throw UserError(std::string(option) + " has no effect without --ros2");
+    };
+    refuse("--domain", !arguments.domain.empty());
+    refuse("--namespace", !arguments.name_space.empty());
+    refuse("--topic", !arguments.topics.empty());
+  }
+  Ros2Options options;
+  options.name = node_name;
+  if (!arguments.domain.empty()) options.domain = domain_of(arguments.domain);
+  if (!arguments.name_space.empty()) options.name_space = name_space_of(arguments.name_space);
+  for (const std::string& topic : arguments.topics) {
+    const std::size_t equals = topic.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == topic.size())
+      throw UserError("--topic " + topic + ": expected NAME=TOPIC, such as scan=/robot1/front_scan");
+    options.topics[topic.substr(0, equals)] = topic.substr(equals + 1);
+  }
+  return options;
+}
 
 void add_source_options(CLI::App& command, LiveArguments& arguments) {
   add_value(command, "--tcp", arguments.tcp, "Read CARMEN lines that a client sends to this TCP port",
@@ -41,6 +96,10 @@ void add_source_options(CLI::App& command, LiveArguments& arguments) {
       command, "--sensors", arguments.sensors,
       "Read sensors by the drivers of MRPT, with the settings that rawlog-grabber and icp-slam-live use",
       "INI");
+  add_ros2_options(command, arguments.ros2,
+                   "Read the topics of a ROS 2 robot: scans, transforms, odometry, IMU");
+  add_value(command, "--record", arguments.record,
+            "Record what --ros2 receives in this bag, which psi-slam and ros2 bag play read", "MCAP");
   add_value(command, "--idle-s", arguments.idle_s,
             "End after so many seconds without data. Default: end with the data or by Ctrl-C", "SECONDS");
   add_value(
@@ -58,14 +117,18 @@ void add_live_options(CLI::App& command, LiveArguments& arguments) {
 
 std::optional<LiveInput> live_input(const LiveArguments& arguments) {
   const int sources = (arguments.standard_input ? 1 : 0) + (arguments.tcp.empty() ? 0 : 1) +
-                      (arguments.follow.empty() ? 0 : 1) + (arguments.sensors.empty() ? 0 : 1);
-  if (sources > 1) throw UserError("name only one source, such as --tcp PORT or --follow LOG");
+                      (arguments.follow.empty() ? 0 : 1) + (arguments.sensors.empty() ? 0 : 1) +
+                      (arguments.ros2.is_given ? 1 : 0);
+  if (sources > 1) throw UserError("name only one source, such as --ros2 or --follow LOG");
+  const Ros2Options ros2 = ros2_options(arguments.ros2, "psi_slam");
+  if (!arguments.record.empty() && !arguments.ros2.is_given)
+    throw UserError("--record has no effect without --ros2");
   if (!arguments.address.empty() && arguments.tcp.empty())
     throw UserError("--bind has no effect without --tcp PORT");
   if (sources == 0) {
     const auto refuse = [](const char* option, const std::string& value) {
       if (!value.empty())
-        throw UserError(std::string(option) + " needs a live source, such as --tcp PORT or --follow LOG");
+        throw UserError(std::string(option) + " needs a live source, such as --ros2 or --follow LOG");
     };
     refuse("--idle-s", arguments.idle_s);
     refuse("--look-over-s", arguments.look_over_s);
@@ -83,6 +146,10 @@ std::optional<LiveInput> live_input(const LiveArguments& arguments) {
   } else if (!arguments.sensors.empty()) {
     input.kind = LiveInput::Kind::kSensors;
     input.file = arguments.sensors;
+  } else if (arguments.ros2.is_given) {
+    input.kind = LiveInput::Kind::kRos2;
+    input.ros2 = ros2;
+    input.record = arguments.record;
   }
   if (!arguments.idle_s.empty()) input.idle_s = seconds_of("--idle-s", arguments.idle_s);
   if (!arguments.look_over_s.empty()) input.look_over_s = seconds_of("--look-over-s", arguments.look_over_s);

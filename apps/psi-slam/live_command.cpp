@@ -9,6 +9,7 @@
 #include "live_mapping.h"
 #include "live_run.h"
 #include "psi_slam/user_error.h"
+#include "ros2_run.h"
 #include "session/session_input.h"
 #include "session/session_prior.h"
 
@@ -18,6 +19,12 @@ namespace {
 LivePose live_pose(const FrameRecord& record, std::size_t frame, const Mapper& mapper) {
   return {record.time_us, record.map_T_robot, frame, record.match == ScanMatch::kMatched,
           mapper.newest_covariance()};
+}
+
+/// Pose of the robot by odometry at the newest scan; empty if the robot has no odometry.
+std::optional<mrpt::math::TPose2D> odometry_of(const FrameRecord& record, const Mapper& mapper) {
+  if (!mapper.log().back().has_odometry) return std::nullopt;
+  return record.odom_T_robot;
 }
 
 /// Throws UserError if the folder of the results has a journal of a run that was not finished, unless that
@@ -48,45 +55,117 @@ SessionInput input_of(const CommandLine& line, const LiveInput& source, const Li
   });
 }
 
+/// Returns the file that records what comes after a map was dropped or finished: "run-1.mcap".
+std::string further_recording(const std::filesystem::path& first, int number) {
+  if (first.empty()) return {};
+  return (first.parent_path() / (first.stem().string() + '-' + std::to_string(number))).string() +
+         first.extension().string();
+}
+
+/// What a live run needs besides its session. It serves several maps if a command begins the map again.
+struct LiveEnvironment {
+  const CommandLine& line;
+  const LiveInput& source;
+  const Settings& settings;
+  std::optional<OutputFolder>& folder;  ///< prepared when the source is open
+  const Streams& streams;               ///< of poses
+  const Streams& texts;                 ///< of everything else
+  std::optional<PoseFormat> poses;      ///< of the lines of poses; empty: none
+};
+
+/// Tells the receivers of poses about a scan.
+void send_pose(const LiveEnvironment& live, const FrameRecord& record, std::size_t frame,
+               const Mapper& mapper) {
+  if (live.poses) print_pose(live.streams.out, live_pose(record, frame, mapper), *live.poses);
+  if (live.source.ros2_link)
+    live.source.ros2_link->publish_pose(
+        {record.time_us, record.map_T_robot, odometry_of(record, mapper), mapper.newest_covariance()});
+}
+
+/// Maps until the source ends or a command ends the map. Returns the exit code; empty if the map is dropped.
+std::optional<int> make_map(const LiveEnvironment& live, const SessionInput& input, Ros2Commands* commands,
+                            LiveRun& run, std::optional<mrpt::math::TPose2D>& last_pose) {
+  Ros2Link* const link = live.source.ros2_link.get();
+  const std::size_t resumed_scans = input.recording() ? input.recording()->frames.size() : 0;
+  MappingSession session(input, live.settings);
+  const ScopeExit leave([&] { run.leave(); });  // the source ends before the session, also after an error
+  if (!live.folder) live.folder = OutputFolder::prepare(live.line.output, live.line.force);
+  const OutputFolder& folder = *live.folder;
+  session.set_observer([&](const SessionProgress& progress) { run.show(progress); });
+  if (live.poses || link != nullptr)
+    session.set_pose_observer([&](const FrameRecord& record) {
+      const std::size_t frame = session.mapper().frames().size() - 1;
+      if (frame >= resumed_scans) send_pose(live, record, frame, session.mapper());
+    });
+  try {
+    LiveMapWriter::ShowMap show_map;
+    if (link != nullptr) show_map = [link](const auto& map) { link->publish_map(map); };
+    LiveMapping mapping(session, folder.path(), live.settings, run.control().notify, show_map);
+    std::optional<Ros2Run> ros2;
+    if (link != nullptr) ros2.emplace(live.source.ros2_link, *commands, session, mapping, folder.path());
+    do {
+      if (ros2) ros2->wait_for_scan();
+    } while (mapping.step());
+  } catch (...) {
+    if (resumed_scans == 0 && session.mapper().frames().empty())
+      session.remove_journal();  // nothing could be resumed
+    throw;
+  }
+  if (commands != nullptr && commands->wish() == Ros2Wish::kReset) {
+    session.remove_journal();
+    return std::nullopt;
+  }
+  run.end();
+  session.finish(run.cuts_short());
+  const auto publish = [&](const RunSummary& summary) {
+    if (link == nullptr) return;
+    Ros2Run::publish_result(*link, session, summary, folder.path());
+    session.read_exported([&](const MappingResult& result) { last_pose = result.frames.back().map_T_robot; });
+  };
+  return save_and_export(session, folder, live.line, live.texts, run.progress_line(), publish);
+}
+
 }  // namespace
 
 int map_live(const CommandLine& line, const Streams& streams) {
-  const LiveInput source = live_input(line.live).value();
+  LiveInput source = live_input(line.live).value();
   const std::optional<PoseFormat> poses = pose_format(line.live);
   // Only poses go to standard output if there are any.
   const Streams texts{poses ? streams.err : streams.out, streams.err, streams.err_is_terminal};
   check_journal(line);
   OutputFolder::check(line.output, line.force);
   check_files_to_write(line);
-  LiveRun run(texts, streams.err_is_terminal && !line.quiet,
-              "mapping the scans that came before, then finishing the map. Interrupt again to finish it "
-              "without more loops");
-  BoundSettings bound;
-  const SessionInput input = input_of(line, source, run.control(), bound, texts);
-  const std::size_t resumed_scans = input.recording() ? input.recording()->frames.size() : 0;
-  bound.settings.mapper.estimates_covariance = poses == PoseFormat::kJson;
-  check_prior_apart(bound.settings, line.output);
-  MappingSession session(input, bound.settings);
-  const ScopeExit leave([&] { run.leave(); });  // the source ends before the session, also after an error
-  const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
-  session.set_observer([&](const SessionProgress& progress) { run.show(progress); });
-  if (poses)
-    session.set_pose_observer([&](const FrameRecord& record) {
-      const std::size_t frame = session.mapper().frames().size() - 1;
-      if (frame >= resumed_scans) print_pose(streams.out, live_pose(record, frame, session.mapper()), *poses);
-    });
-  try {
-    LiveMapping mapping(session, folder.path(), bound.settings, run.control().notify);
-    while (mapping.step()) {
-    }
-  } catch (...) {
-    if (resumed_scans == 0 && session.mapper().frames().empty())
-      session.remove_journal();  // nothing could be resumed
-    throw;
+  std::optional<Ros2Commands> commands;
+  if (source.kind == LiveInput::Kind::kRos2) {
+    source.ros2_link = open_ros2_link(source.ros2);
+    commands.emplace(source.ros2_link);
   }
-  run.end();
-  session.finish(run.cuts_short());
-  return save_and_export(session, folder, line, texts, run.progress_line());
+  std::optional<OutputFolder> folder;
+  int resets = 0;
+  while (true) {
+    LiveRun run(texts, streams.err_is_terminal && !line.quiet,
+                "mapping the scans that came before, then finishing the map. Interrupt again to finish it "
+                "without more loops");
+    const LiveControl control = commands ? commands->control(run.control()) : run.control();
+    BoundSettings bound;
+    const SessionInput input = input_of(line, source, control, bound, texts);
+    bound.settings.mapper.estimates_covariance = poses == PoseFormat::kJson || source.ros2_link;
+    check_prior_apart(bound.settings, line.output);
+    const LiveEnvironment live{line, source, bound.settings, folder, streams, texts, poses};
+    std::optional<mrpt::math::TPose2D> last_pose;
+    const std::optional<int> code = make_map(live, input, commands ? &*commands : nullptr, run, last_pose);
+    if (code && commands && commands->wish() == Ros2Wish::kLocalize) {
+      CommandLine in_map = line;
+      in_map.map = (folder->path() / "map.yaml").string();
+      in_map.output.clear();
+      source.record = further_recording(line.live.record, ++resets);
+      commands->set_wish(Ros2Wish::kGoOn);
+      return localize_live(in_map, source, bound.settings, last_pose, streams);
+    }
+    if (code) return *code;
+    commands->set_wish(Ros2Wish::kGoOn);
+    source.record = further_recording(line.live.record, ++resets);
+  }
 }
 
 }  // namespace psi_slam

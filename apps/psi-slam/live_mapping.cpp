@@ -6,8 +6,10 @@
 namespace psi_slam {
 
 LiveMapping::LiveMapping(MappingSession& session, const std::filesystem::path& folder,
-                         const Settings& settings, Notify notify)
-    : session_(session), notify_(std::move(notify)), map_(folder, settings.map, settings.live.map_period_s) {
+                         const Settings& settings, Notify notify, LiveMapWriter::ShowMap show_map)
+    : session_(session),
+      notify_(std::move(notify)),
+      map_(folder, settings.map, settings.live.map_period_s, std::move(show_map)) {
   session_.start_journal(journal_of_live_run(folder));
 }
 

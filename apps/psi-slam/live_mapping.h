@@ -24,14 +24,17 @@ class LiveMapping {
   using Notify = std::function<void(const std::string& sentence)>;
 
   /// Begins the journal in `folder`, which must exist. `notify` gets a sentence without full stop when the
-  /// journal or the map cannot be written, and when they can be again. Throws SystemFailure if the journal
-  /// cannot be created.
+  /// journal or the map cannot be written, and when they can be again. `show_map`: see LiveMapWriter. Throws
+  /// SystemFailure if the journal cannot be created.
   LiveMapping(MappingSession& session, const std::filesystem::path& folder, const Settings& settings,
-              Notify notify);
+              Notify notify, LiveMapWriter::ShowMap show_map = {});
 
   /// Waits for the next scan and maps it. Returns false after the last scan. Throws what
   /// MappingSession::step() throws.
   bool step();
+
+  /// Writes the map as it is drawn now, see LiveMapWriter::write_to().
+  void save_map(const std::filesystem::path& yaml_path) { map_.write_to(yaml_path); }
 
   /// Waits for the loops of the mapped scans, and draws all scans that they moved.
   void catch_up();

@@ -135,7 +135,8 @@ void watch(MappingSession& session, const InterruptSignals& signals, const Comma
 }
 
 int save_and_export(MappingSession& session, const OutputFolder& folder, const CommandLine& line,
-                    const Streams& streams, std::optional<ProgressLine>& progress_line) {
+                    const Streams& streams, std::optional<ProgressLine>& progress_line,
+                    const std::function<void(const RunSummary&)>& exported) {
   const bool to_save = !line.save_session.empty();
   SavedSession saved;
   std::string failure;  // to save the session; the results are written anyway
@@ -147,6 +148,7 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   const RunSummary summary = export_after(failure, session, folder);
   progress_line.reset();
   session.set_observer({});
+  if (exported) exported(summary);
   print_result(session, summary, folder, line, streams, to_save && failure.empty() && saved.remark.empty());
   const auto warn = [&](const std::string& sentence) { streams.err << "psi-slam: " << sentence << '\n'; };
   if (!saved.remark.empty()) warn(saved.remark);

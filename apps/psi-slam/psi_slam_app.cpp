@@ -33,6 +33,8 @@ int run(const CommandLine& line, const Streams& streams) {
       return map_live(line, streams);
     case CommandLine::Command::kMerge:
       return merge_runs(line, streams);
+    case CommandLine::Command::kPlay:
+      return play_log(line, streams);
     case CommandLine::Command::kOptions:
       return explain_options(line, streams);
     case CommandLine::Command::kDumpConfig:

@@ -10,6 +10,7 @@
 #include "live/sensor_module.h"
 #include "logs/carmen/carmen_stream.h"
 #include "logs/frame_pipeline.h"
+#include "logs/frames/height_slice.h"
 #include "logs/rawlog/observation_stream.h"
 #include "logs/rosbag/rosbag_stream.h"
 #include "psi_slam/user_error.h"
@@ -57,6 +58,7 @@ class AwaitedSource : public FrameSource {
 
 LogFormat format_of(const LiveInput& input) {
   if (input.kind == LiveInput::Kind::kFollow) return growing_format(input.file);
+  if (input.kind == LiveInput::Kind::kRos2) return LogFormat::kRos2Folder;
   return input.kind == LiveInput::Kind::kSensors ? LogFormat::kMrptRawlog : LogFormat::kCarmen;
 }
 
@@ -66,9 +68,17 @@ std::unique_ptr<BagRecording> follow_messages(const LiveInput& input, LogFormat 
   BagRecorder recorder = patient_recorder(control, input.idle_s);
   if (format == LogFormat::kRos2Folder)
     return std::make_unique<BagRecording>(
-        BagRecording{path, std::make_unique<GrowingFolder>(path, std::move(recorder))});
+        BagRecording{path, std::make_unique<GrowingFolder>(path, std::move(recorder)), {}});
   recorder.is_closed = [path] { return is_closed_bag(path.parent_path(), path); };
-  return std::make_unique<BagRecording>(BagRecording{path, follow_sqlite_bag(path, std::move(recorder))});
+  return std::make_unique<BagRecording>(BagRecording{path, follow_sqlite_bag(path, std::move(recorder)), {}});
+}
+
+std::unique_ptr<BagRecording> receive_messages(const LiveInput& input, const LogOptions& options,
+                                               const LiveControl& control) {
+  const auto link = input.ros2_link ? input.ros2_link : open_ros2_link(input.ros2);
+  const Ros2Reading reading{height_slice(options).has_value(), input.record, input.idle_s};
+  return std::make_unique<BagRecording>(BagRecording{name_of(input), link->messages(reading, control),
+                                                     [link](const BagPlan& plan) { link->set_plan(plan); }});
 }
 
 std::unique_ptr<LineStream> open_lines(const LiveInput& input, const LiveControl& control) {
@@ -85,6 +95,8 @@ std::string name_of(const LiveInput& input) {
       return "standard input";
     case LiveInput::Kind::kTcp:
       return "TCP port " + std::to_string(input.port);
+    case LiveInput::Kind::kRos2:
+      return "ROS 2";
     case LiveInput::Kind::kFollow:
     case LiveInput::Kind::kSensors:
       break;
@@ -106,6 +118,9 @@ std::unique_ptr<FrameSource> open_live(const LiveInput& input, const LogOptions&
     return std::make_unique<AwaitedSource<ObjectSource>>(open_sensors(input.file, control, input.idle_s),
                                                          open_observation_stream, format, options,
                                                          input.look_over_s);
+  if (input.kind == LiveInput::Kind::kRos2)
+    return std::make_unique<AwaitedSource<BagRecording>>(
+        receive_messages(input, options, control), open_followed_bag, format, options, input.look_over_s);
   if (format == LogFormat::kCarmen)
     return std::make_unique<AwaitedSource<ByteSource>>(open_lines(input, control), open_carmen_stream, format,
                                                        options, input.look_over_s);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "live/live_control.h"
+#include "live/ros2_link.h"
 #include "logs/frames/look_over.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/log_options.h"
@@ -21,6 +22,7 @@ struct LiveInput {
     kTcp,            ///< CARMEN lines that a client sends to a TCP port
     kFollow,         ///< a log that grows: CARMEN lines, a rawlog, a bag, or the folder of a ROS 2 bag
     kSensors,        ///< sensors with drivers of MRPT, described by a settings file of rawlog-grabber
+    kRos2,           ///< topics of ROS 2
   };
 
   Kind kind = Kind::kStandardInput;
@@ -32,10 +34,13 @@ struct LiveInput {
   /// lasers there are, their mounts and maximum ranges, whether there is odometry, and which readings are of
   /// the robot's own body. Frames wait for these decisions.
   double look_over_s = kUsualLookOver_s;
+  Ros2Options ros2;                     ///< kRos2: name of the node, domain and topics
+  std::string record;                   ///< kRos2: MCAP file that is written of all messages; empty: none
+  std::shared_ptr<Ros2Link> ros2_link;  ///< kRos2: an open node; empty: open_live() opens one
 };
 
-/// Returns the name of the source for messages and reports: "standard input", "TCP port 5000", or the name
-/// of the file or folder.
+/// Returns the name of the source for messages and reports: "standard input", "TCP port 5000", "ROS 2", or
+/// the name of the file or folder.
 std::string name_of(const LiveInput& input);
 
 /// Returns the frames of a live source, numbered from 0. next() waits for the next frame, and returns nothing

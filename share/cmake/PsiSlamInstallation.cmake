@@ -116,6 +116,7 @@ function(psi_slam_install_package)
   install(DIRECTORY libs/include/ ${PROJECT_BINARY_DIR}/include/
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING PATTERN "*.h")
   install(DIRECTORY ini/ DESTINATION ${CMAKE_INSTALL_DATADIR}/psi-slam/ini COMPONENT programs)
+  install(DIRECTORY share/ros2/ DESTINATION ${CMAKE_INSTALL_DATADIR}/psi-slam/ros2 COMPONENT programs)
 endfunction()
 
 # Builds the examples with this project, so that they keep compiling. Their own CMakeLists.txt is for other projects.

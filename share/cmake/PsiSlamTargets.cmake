@@ -93,11 +93,11 @@ function(psi_slam_configure_light_target target)
     $<$<CONFIG:Release>:-O1> $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-Wno-maybe-uninitialized>)
 endfunction()
 
-# psi_slam_add_tests(FOLDER [SEPARATE] LINK dependency...)
+# psi_slam_add_tests(FOLDER [SEPARATE] [LOCK resource] LINK dependency...)
 # Adds one program NAME_tests with all tests/FOLDER/*_test.cpp, see psi_slam_add_test_suites(). NAME is the last part of FOLDER.
-# SEPARATE compiles each source alone.
+# SEPARATE compiles each source alone. Suites with the same LOCK do not run at the same time.
 function(psi_slam_add_tests folder)
-  cmake_parse_arguments(ARG "SEPARATE" "" "LINK" ${ARGN})
+  cmake_parse_arguments(ARG "SEPARATE" "LOCK" "LINK" ${ARGN})
   get_filename_component(name ${folder} NAME)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cpp)
   if(NOT sources)
@@ -116,7 +116,11 @@ function(psi_slam_add_tests folder)
   if(PSI_SLAM_SANITIZE OR PSI_SLAM_SANITIZE_THREADS)
     set(timeout_s 3600)
   endif()
-  psi_slam_add_test_suites(${name} TIMEOUT ${timeout_s})
+  set(lock)
+  if(ARG_LOCK)
+    set(lock RESOURCE_LOCK ${ARG_LOCK})
+  endif()
+  psi_slam_add_test_suites(${name} TIMEOUT ${timeout_s} ${lock})
 endfunction()
 
 # psi_slam_add_test_suites(NAME PROPERTY VALUE...)

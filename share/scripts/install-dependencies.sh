@@ -21,13 +21,13 @@ build=(
   build-essential cmake ninja-build pkg-config file
   libmrpt-dev libeigen3-dev libopencv-dev libwxgtk3.2-dev libgdal-dev
   libcli11-dev nlohmann-json3-dev libpng-dev zlib1g-dev libbz2-dev liblzma-dev liblz4-dev
-  libzstd-dev libsqlite3-dev libssl-dev libsleef-dev
+  libzstd-dev libsqlite3-dev libssl-dev libsleef-dev cyclonedds-dev cyclonedds-tools
 )
 # shellcheck disable=SC2034
 runtime=(
   'libmrpt-slam[0-9.]+' 'libmrpt-graphslam[0-9.]+' 'libmrpt-hwdrivers[0-9.]+' 'libmrpt-gui[0-9.]+' mrpt-common
   'libopencv-imgcodecs[0-9]+(t64)?' 'libwxgtk3.2-1(t64)?' 'libwxgtk-gl3.2-1(t64)?' 'libgdal[0-9]+(t64)?' 'libssl3(t64)?'
-  'libpng16-16(t64)?' zlib1g libbz2-1.0 liblzma5 liblz4-1 libzstd1 libsqlite3-0 libsleef3 libgl1 libopengl0 libgl1-mesa-dri
+  'libpng16-16(t64)?' zlib1g libbz2-1.0 liblzma5 liblz4-1 libzstd1 libsqlite3-0 libsleef3 'libddsc0[a-z0-9]*' libgl1 libopengl0 libgl1-mesa-dri
 )
 # shellcheck disable=SC2034
 test=(
@@ -41,7 +41,11 @@ documentation=(doxygen python3)
 test+=("${documentation[@]}")
 
 # Part of the list `test`. Where the release has no package of these, tests do without it or are skipped.
-optional=(python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs libg2o-dev python3-gtsam)
+optional=(
+  python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs libg2o-dev python3-gtsam
+  'lib(fastrtps|fastdds)-dev' fastddsgen ros-std-msgs ros-geometry-msgs ros-sensor-msgs ros-nav-msgs ros-tf2-msgs
+  ros-rosgraph-msgs ros-visualization-msgs ros-diagnostic-msgs
+)
 test+=("${optional[@]}")
 
 say() { echo "install-dependencies.sh: $*" >&2; }

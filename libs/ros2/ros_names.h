@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Names of topics as ROS 2 resolves them.
+#pragma once
+
+#include <string>
+
+#include "base/text_parts.h"
+#include "live/ros2_link.h"
+
+namespace psi_slam {
+
+/// Returns whether a topic is in a namespace: "/robot1/scan" in "/robot1", and every topic in "/".
+inline bool is_in_namespace(const std::string& topic, const std::string& name_space) {
+  return name_space == "/" || starts_with(topic, name_space + "/");
+}
+
+/// Returns `name` in a namespace: "/map" or "/robot1/map". A name that begins with a slash stays.
+inline std::string in_namespace(const std::string& name, const std::string& name_space) {
+  if (starts_with(name, "/")) return name;
+  return (name_space == "/" ? "/" : name_space + "/") + name;
+}
+
+/// Returns the topic that psi-slam uses for one of its names, such as "map". `usual` is used if the user
+/// states none, and is relative to the namespace unless it begins with a slash.
+inline std::string topic_of(const Ros2Options& names, const std::string& name, const std::string& usual) {
+  const auto stated = names.topics.find(name);
+  return in_namespace(stated == names.topics.end() ? usual : stated->second, names.name_space);
+}
+
+}  // namespace psi_slam

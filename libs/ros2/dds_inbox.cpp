@@ -49,13 +49,14 @@ void DdsInbox::close(const Reader& reader) {
   dds_delete(reader.entity);
 }
 
-void DdsInbox::subscribe(const std::string& topic, const std::string& type, bool is_latched) {
+void DdsInbox::subscribe(const std::string& topic, const std::string& type, RosReading reading) {
   if (readers_.count(topic) > 0) return;
   const DdsQos qos = make_dds_qos();
-  // A reliable reader must be used to get the messages that a latched writer sent before.
-  dds_qset_reliability(qos.get(), is_latched ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
-                       DDS_SECS(1));
-  dds_qset_durability(qos.get(), is_latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+  dds_qset_reliability(
+      qos.get(), reading == RosReading::kBestEffort ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
+      DDS_SECS(1));
+  dds_qset_durability(
+      qos.get(), reading == RosReading::kLatched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, DDS_LENGTH_UNLIMITED);
   dds_qset_resource_limits(qos.get(), kMostSamples, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);

@@ -23,8 +23,14 @@ struct RosSample {
   std::string bytes;            ///< CDR, with the four bytes that state the encoding
 };
 
-/// Readers of a node. They are best effort, because such a reader receives from every writer. Used by one
-/// thread.
+/// How a topic is read.
+enum class RosReading {
+  kBestEffort,  ///< from every writer; without waiting for lost messages
+  kReliable,    ///< every message of reliable writers
+  kLatched,     ///< as kReliable, also the last messages that latched writers sent before, as on /tf_static
+};
+
+/// Readers of a node. Used by one thread.
 class DdsInbox {
  public:
   explicit DdsInbox(DdsNode& node);
@@ -32,10 +38,9 @@ class DdsInbox {
   DdsInbox(const DdsInbox&) = delete;
   DdsInbox& operator=(const DdsInbox&) = delete;
 
-  /// Receives the messages of a topic from now on. `is_latched`: also the last ones that latched writers sent
-  /// before, as on /tf_static. Does nothing if the topic is received already. Throws std::invalid_argument if
-  /// psi-slam does not know the type.
-  void subscribe(const std::string& topic, const std::string& type, bool is_latched);
+  /// Receives the messages of a topic from now on. Does nothing if the topic is received already. Throws
+  /// std::invalid_argument if psi-slam does not know the type.
+  void subscribe(const std::string& topic, const std::string& type, RosReading reading);
   void unsubscribe(const std::string& topic);
 
   /// Waits until messages have come, or until `timeout_s` has passed, and appends them in the order in which

@@ -65,12 +65,14 @@ DdsNetwork dds_network(std::optional<std::uint32_t> domain, const Environment& e
     general += "<Interfaces><NetworkInterface address=\"127.0.0.1\"/></Interfaces>";
     peers += "<Peer address=\"127.0.0.1\"/>";
   }
-  // Without multicast, participants are found by their ports, which follow from their indices.
+  // Without multicast, participants are found by their ports, which follow from their indices. Each asks
+  // often, because one that starts later does not hear the others.
   const bool has_multicast = range == Range::kSubnet;
   if (!has_multicast) general += "<AllowMulticast>false</AllowMulticast>";
-  const std::string index = has_multicast ? std::string()
-                                          : "<ParticipantIndex>auto</ParticipantIndex>"
-                                            "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>";
+  const std::string index =
+      has_multicast ? std::string()
+                    : "<ParticipantIndex>auto</ParticipantIndex>"
+                      "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><SPDPInterval>1s</SPDPInterval>";
   network.settings = "<General>" + general + "</General><Discovery>" + index +
                      (peers.empty() ? std::string() : "<Peers>" + peers + "</Peers>") + "</Discovery>";
   return network;

@@ -105,7 +105,8 @@ void NetworkBag::subscribe_to_new_topics() {
   last_discovery_s_ = steady_s();
   for (const RosPublisher& publisher : node_.publishers())
     if (is_of_robot(publisher) && is_needed(publisher))
-      inbox_.subscribe(publisher.topic, publisher.type, is_static(publisher.topic));
+      inbox_.subscribe(publisher.topic, publisher.type,
+                       is_static(publisher.topic) ? RosReading::kLatched : RosReading::kBestEffort);
 }
 
 bool NetworkBag::take_clock(const RosSample& sample) {

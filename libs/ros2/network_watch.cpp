@@ -142,7 +142,8 @@ void NetworkWatch::pass_time(double now_s) {
     return "no scan for " + seconds_text(kSilent_s) + ": " + facts_.describe();
   });
   if (is_silent || !plan_ || !plan_->has_odometry || !scan_) return;
-  const double last_odometry_s = odometry_ ? odometry_->last_s : *began_s_;
+  if (!planned_s_) planned_s_ = now_s;
+  const double last_odometry_s = odometry_ ? odometry_->last_s : *planned_s_;
   const bool has_stopped = report("no odometry", now_s - last_odometry_s >= kSilent_s, [&] {
     return "odometry has stopped for " + seconds_text(now_s - last_odometry_s) +
            " while scans come. The scans wait for it. Check the node that publishes " +

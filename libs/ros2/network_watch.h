@@ -64,8 +64,9 @@ class NetworkWatch {
   std::string map_frame_;
   Notify notify_;
   std::optional<BagPlan> plan_;
-  std::optional<double> began_s_;  ///< time of the first call
-  std::optional<Source> scan_;     ///< newest scan
+  std::optional<double> began_s_;    ///< time of the first call
+  std::optional<double> planned_s_;  ///< time from which odometry is watched
+  std::optional<Source> scan_;       ///< newest scan
   std::optional<Source> odometry_;
   std::map<std::string, std::uint64_t> publishers_;  ///< last publisher of each topic of scans and odometry
   std::map<std::string, std::map<std::uint64_t, double>> heard_;  ///< times of publishers of odometry and map

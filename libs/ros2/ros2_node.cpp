@@ -19,9 +19,10 @@ Ros2Node::Ros2Node(const Ros2Options& options)
       node_(dds_network(options.domain), options.name, options.name_space),
       publisher_(node_, options, clock_),
       requests_(node_) {
-  requests_.subscribe(topic_of(options_, "command", options_.name + "/command"), kString, false);
+  requests_.subscribe(topic_of(options_, "command", options_.name + "/command"), kString,
+                      RosReading::kReliable);
   requests_.subscribe(topic_of(options_, "initialpose", "initialpose"),
-                      "geometry_msgs/PoseWithCovarianceStamped", false);
+                      "geometry_msgs/PoseWithCovarianceStamped", RosReading::kReliable);
 }
 
 std::unique_ptr<BagFile> Ros2Node::messages(const Ros2Reading& reading, const LiveControl& control) {

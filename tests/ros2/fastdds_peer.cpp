@@ -6,6 +6,8 @@
 //     fastdds_peer publish FILE                    publishes the lines of FILE, see Publisher::publish()
 //     fastdds_peer listen SECONDS TOPIC TYPE ...   prints what comes, one JSON line each; TYPE:latched gets
 //     earlier messages, too
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -13,6 +15,7 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -29,8 +32,8 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #if __has_include(<fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>)  // Fast DDS 3
+#include <fastdds/dds/core/ReturnCode.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
-#include <fastdds/utils/IPLocator.hpp>
 #include "ros2_messages.hpp"
 #include "ros2_messagesPubSubTypes.hpp"
 namespace rtps = eprosima::fastdds::rtps;
@@ -38,7 +41,6 @@ namespace policies = eprosima::fastdds::rtps;
 #define PSI_SLAM_OK eprosima::fastdds::dds::RETCODE_OK
 #else
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 #include "ros2_messages.h"
 #include "ros2_messagesPubSubTypes.h"
 namespace rtps = eprosima::fastrtps::rtps;
@@ -55,22 +57,30 @@ int domain() {
   return text != nullptr ? std::atoi(text) : 0;
 }
 
+rtps::Locator_t loopback(std::uint32_t port) {
+  rtps::Locator_t locator(LOCATOR_KIND_UDPv4, port);
+  const std::uint8_t address[4] = {127, 0, 0, 1};
+  std::copy(std::begin(address), std::end(address), locator.address + 12);
+  return locator;
+}
+
 /// A participant on the loopback interface, which finds others by their ports.
 fdds::DomainParticipant* open_participant() {
   fdds::DomainParticipantQos qos;
   const std::string user_data = "enclave=/;";
   qos.user_data().data_vec(std::vector<unsigned char>(user_data.begin(), user_data.end()));
-  const auto loopback = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-  loopback->interfaceWhiteList.push_back("127.0.0.1");
-  loopback->sendBufferSize = loopback->receiveBufferSize = 4 * 1024 * 1024;
+  const auto transport = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  transport->interfaceWhiteList.push_back("127.0.0.1");
+  transport->sendBufferSize = transport->receiveBufferSize = 4 * 1024 * 1024;
   qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports.push_back(loopback);
-  for (int index = 0; index < 12; ++index) {
-    rtps::Locator_t peer;
-    rtps::IPLocator::setIPv4(peer, 127, 0, 0, 1);
-    peer.port = static_cast<std::uint32_t>(7400 + 250 * domain() + 10 + 2 * index);
-    qos.wire_protocol().builtin.initialPeersList.push_back(peer);
-  }
+  qos.transport().user_transports.push_back(transport);
+  auto& builtin = qos.wire_protocol().builtin;
+  // The usual 3 s would make tests wait, because one that starts later does not hear the others.
+  builtin.discovery_config.leaseDuration_announcementperiod = {0, 500'000'000};
+  builtin.metatrafficUnicastLocatorList.push_back(loopback(0));  // no multicast
+  for (std::uint32_t index = 0; index < 12; ++index)
+    builtin.initialPeersList.push_back(
+        loopback(7400 + 250 * static_cast<std::uint32_t>(domain()) + 10 + 2 * index));
   return fdds::DomainParticipantFactory::get_instance()->create_participant(
       static_cast<std::uint32_t>(domain()), qos);
 }
@@ -206,6 +216,7 @@ class Publisher {
         if (status.current_count > 0) break;
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
       }
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the reader may not know the writer yet
     }
     writer->write(&message);
   }

@@ -22,7 +22,8 @@ class LoopbackDomain {
 
  private:
   // Tests of ROS 2 do not run at the same time, but an earlier process may not have left the network yet.
-  int number_ = 30 + static_cast<int>(getpid() % 170);
+  // Ports of domains above 101 are in the range that Linux gives to other sockets.
+  int number_ = 21 + static_cast<int>(getpid() % 80);
 };
 
 }  // namespace psi_slam

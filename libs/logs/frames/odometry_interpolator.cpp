@@ -47,7 +47,10 @@ bool OdometryInterpolator::belongs_to_next_message(const Scan& scan) {
 }
 
 void OdometryInterpolator::place(Scan& scan) const {
-  if (!place_between_messages(scan.frame))
+  // Where stamps run backwards, other messages may enclose the stamp of the scan, too.
+  if (scan.before && scan.before->time_us == scan.frame.time_us)
+    scan.frame.odom_T_robot = scan.before->odom_T_robot;
+  else if (!place_between_messages(scan.frame))
     scan.frame.odom_T_robot = (belongs_to_next_message(scan) ? scan.after : scan.before)->odom_T_robot;
   scan.is_placed = true;
 }

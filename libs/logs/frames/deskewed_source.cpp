@@ -98,7 +98,7 @@ void DeskewedSource::straighten(LaserScan& scan, const Mark& mark, const Marks& 
   const double signed_sweep_s = timing_.sweep_time_s(scan);
   scan.sweep_time_s = static_cast<float>(signed_sweep_s);
   const double sweep_s = std::abs(signed_sweep_s);
-  if (!(sweep_s > 0) || scan.ranges_m.size() < 2) return;
+  if (!is_bent(scan)) return;
   std::optional<TPose2D> motion;
   if (!next_marks.empty()) motion = motion_between(mark, mark_like(mark, next_marks), sweep_s);
   if (!motion && !last_marks_.empty()) motion = motion_between(mark_like(mark, last_marks_), mark, sweep_s);
@@ -109,23 +109,31 @@ void DeskewedSource::straighten(LaserScan& scan, const Mark& mark, const Marks& 
     scan = deskewed(scan, *motion);
 }
 
-std::optional<Frame> DeskewedSource::read_ahead() {
+bool DeskewedSource::is_bent(const LaserScan& scan) const {
+  return std::abs(timing_.sweep_time_s(scan)) > 0 && scan.ranges_m.size() >= 2;
+}
+
+std::optional<Frame> DeskewedSource::read() {
+  if (ended_) return std::nullopt;
+  std::optional<Frame> frame;
   try {
-    return source_->next();
+    frame = source_->next();
   } catch (const UserError&) {
     failure_ = std::current_exception();
-    return std::nullopt;
   }
+  ended_ = !frame;
+  return frame;
 }
 
 std::optional<Frame> DeskewedSource::next() {
-  if (!std::exchange(started_, true)) ahead_ = read_ahead();
-  if (!ahead_) {
+  std::optional<Frame> frame = ahead_ ? std::exchange(ahead_, std::nullopt) : read();
+  if (!frame) {
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
     return std::nullopt;
   }
-  std::optional<Frame> frame = std::move(ahead_);
-  ahead_ = read_ahead();
+  bool waits = is_bent(frame->scan);
+  for (const CompanionScan& companion : frame->companions) waits = waits || is_bent(companion.scan);
+  if (waits) ahead_ = read();
   Marks marks = marks_of(*frame);
   const Marks next_marks = ahead_ ? marks_of(*ahead_) : Marks{};
   straighten(frame->scan, marks[0], next_marks);

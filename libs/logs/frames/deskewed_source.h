@@ -37,7 +37,8 @@ struct SweepTiming {
 /// Removes the robot's motion during a sweep from the scans of another source. Takes the motion from odometry
 /// between a scan and the next scan of the same laser, else from the previous scan to this scan. Ignores a
 /// neighbouring scan that is more than one second away, or less than two thirds of the sweep time. Scans
-/// without odometry keep their beams, and get the sweep time of the SweepTiming.
+/// without odometry keep their beams, and get the sweep time of the SweepTiming. Only a frame with a sweep
+/// time waits for the next one.
 class DeskewedSource : public FrameSource {
  public:
   DeskewedSource(std::unique_ptr<FrameSource> source, SweepTiming timing);
@@ -60,14 +61,15 @@ class DeskewedSource : public FrameSource {
   static Marks marks_of(const Frame& frame);
   static const Mark& mark_like(const Mark& mark, const Marks& marks);
   static std::optional<mrpt::math::TPose2D> motion_between(const Mark& from, const Mark& to, double time_s);
-  std::optional<Frame> read_ahead();
+  std::optional<Frame> read();
+  bool is_bent(const LaserScan& scan) const;
   void straighten(LaserScan& scan, const Mark& mark, const Marks& next_marks) const;
 
   std::unique_ptr<FrameSource> source_;
   SweepTiming timing_;
-  bool started_ = false;
+  bool ended_ = false;
   Marks last_marks_;
-  std::optional<Frame> ahead_;
+  std::optional<Frame> ahead_;  // read to learn the motion during the frame before
   std::exception_ptr failure_;  // error of reading ahead; thrown after the last frame before the error
 };
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "live_arguments.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "base/number_text.h"
+#include "base/text_parts.h"
 #include "document_options.h"
 #include "psi_slam/user_error.h"
 
@@ -46,6 +50,24 @@ std::string name_space_of(std::string text) {
   return text;
 }
 
+/// Parses "NAME=TOPIC".
+std::pair<std::string, std::string> renamed_topic(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals + 1 == text.size())
+    throw UserError("--topic " + text + ": expected NAME=TOPIC, such as scan=/robot1/front_scan");
+  const std::string name = text.substr(0, equals);
+  const std::vector<std::string> names{"scan",   "odom",         "imu",         "tf",         "tf_static",
+                                       "map",    "map_metadata", "pose",        "trajectory", "loops",
+                                       "status", "command",      "initialpose", "diagnostics"};
+  // A player has further lasers: scan_1, scan_2 and so on.
+  const bool is_known =
+      std::find(names.begin(), names.end(), name) != names.end() || name.rfind("scan_", 0) == 0;
+  if (!is_known)
+    throw UserError("--topic " + text + ": there is no topic \"" + name + "\", expected one of " +
+                    name_list(names));
+  return {name, text.substr(equals + 1)};
+}
+
 }  // namespace
 
 void add_ros2_options(CLI::App& command, Ros2Arguments& arguments, const std::string& help) {
@@ -74,12 +96,7 @@ Ros2Options ros2_options(const Ros2Arguments& arguments, const std::string& node
   options.name = node_name;
   if (!arguments.domain.empty()) options.domain = domain_of(arguments.domain);
   if (!arguments.name_space.empty()) options.name_space = name_space_of(arguments.name_space);
-  for (const std::string& topic : arguments.topics) {
-    const std::size_t equals = topic.find('=');
-    if (equals == 0 || equals == std::string::npos || equals + 1 == topic.size())
-      throw UserError("--topic " + topic + ": expected NAME=TOPIC, such as scan=/robot1/front_scan");
-    options.topics[topic.substr(0, equals)] = topic.substr(equals + 1);
-  }
+  for (const std::string& topic : arguments.topics) options.topics.insert(renamed_topic(topic));
   return options;
 }
 

@@ -316,6 +316,18 @@ TEST_F(LiveApp, says_what_is_wrong_with_the_arguments) {
               HasSubstr("--json contradicts --poses"));
   EXPECT_THAT(complaint(live({"--follow", log_.string(), "--set", "log.calibrate=true"})),
               HasSubstr("log.calibrate needs a complete log"));
+  EXPECT_THAT(complaint(live({"--stdin", "--domain", "1"})),
+              HasSubstr("--domain has no effect without --ros2"));
+  EXPECT_THAT(complaint(live({"--stdin", "--record", "a.mcap"})),
+              HasSubstr("--record has no effect without --ros2"));
+  EXPECT_THAT(complaint(live({"--ros2", "--domain", "233"})),
+              HasSubstr("--domain 233: expected a whole number"));
+  EXPECT_THAT(complaint(live({"--ros2", "--namespace", "a b"})),
+              HasSubstr("--namespace /a b: expected letters"));
+  EXPECT_THAT(complaint(live({"--ros2", "--topic", "scan"})), HasSubstr("--topic scan: expected NAME=TOPIC"));
+  EXPECT_THAT(complaint(live({"--ros2", "--topic", "laser=/scan"})),
+              HasSubstr("there is no topic \"laser\", expected one of scan, odom"));
+  EXPECT_THAT(complaint({"play", "my.log"}), HasSubstr("name the log: psi-slam play LOG --ros2"));
   EXPECT_THAT(complaint({"localize", "map.yaml", "--idle-s", "1"}),
               HasSubstr("--idle-s needs a live source"));
   EXPECT_THAT(complaint({"localize", "map.yaml", "my.log", "--stdin"}), HasSubstr("a log or a live source"));

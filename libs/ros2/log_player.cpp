@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "logs/frames/laser_readings.h"
+#include "logs/frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 #include "ros2/message_views.h"
 #include "ros2/ros_names.h"
@@ -78,7 +79,8 @@ void LogPlayer::publish(const Frame& frame) {
   if (frame.has_odometry) publish_odometry(frame.odom_T_robot, frame.time_us);
   publish_scan(frame.scan, frame.time_us);
   for (const CompanionScan& companion : frame.companions) {
-    if (frame.has_odometry) publish_odometry(frame.odom_T_robot + companion.frame_T_robot, companion.time_us);
+    if (frame.has_odometry)
+      publish_odometry(compose(frame.odom_T_robot, companion.frame_T_robot), companion.time_us);
     publish_scan(companion.scan, companion.time_us);
   }
 }

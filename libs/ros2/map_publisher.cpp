@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "logs/frames/pose_operations.h"
 #include "map/rendering/map_image.h"
 #include "ros2/message_views.h"
 #include "ros2/ros_names.h"
@@ -105,8 +106,9 @@ void MapPublisher::publish_pose(const Ros2Pose& pose) {
   }
   poses_.write(message);
   const std::lock_guard lock(mutex_);
-  const TPose2D robot_T_odom = TPose2D() - pose.odom_T_robot.value_or(TPose2D());
-  correction_ = Correction{pose.map_T_robot + robot_T_odom, pose.time_us, clock_.simulated_us, Clock::now()};
+  const TPose2D robot_T_odom = inverse(pose.odom_T_robot.value_or(TPose2D()));
+  correction_ =
+      Correction{compose(pose.map_T_robot, robot_T_odom), pose.time_us, clock_.simulated_us, Clock::now()};
   send_transform();
 }
 

@@ -5,11 +5,11 @@
 
 #include <mrpt/math/TPose2D.h>
 
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "base/portable_math.h"
 #include "psi_slam/time_stamp.h"
 #include "ros2_messages.h"
 
@@ -43,7 +43,7 @@ inline std_msgs_msg_dds__Header_ ros_header(TimeUs time_us, const std::string& f
 }
 
 inline geometry_msgs_msg_dds__Quaternion_ ros_rotation(double yaw_rad) {
-  return {0, 0, std::sin(yaw_rad / 2), std::cos(yaw_rad / 2)};
+  return {0, 0, portable::sin(yaw_rad / 2), portable::cos(yaw_rad / 2)};
 }
 
 inline geometry_msgs_msg_dds__Pose_ ros_pose(const mrpt::math::TPose2D& pose) {

@@ -43,7 +43,7 @@ program sudo 'while [ "$1" = --non-interactive ]; do shift; done' 'exec "$@"'
 program dpkg-query 'echo "installed cmake"' 'echo "config-files zlib1g"'
 "$install" --print build runtime test | grep -v '[[(]' | sed 's/^/Package: /' >"$scratch/packages"
 printf 'Package: %s\n' libgdal9 libgdal36t64 libgdal-grass libmrpt-slam2.14 libmrpt-graphslam2.14 libmrpt-hwdrivers2.14 \
-  libmrpt-gui2.14 libopencv-imgcodecs410 libwxgtk3.2-1t64 libwxgtk-gl3.2-1t64 libssl3t64 libpng16-16t64 >>"$scratch/packages"
+  libmrpt-gui2.14 libopencv-imgcodecs410 libwxgtk3.2-1t64 libwxgtk-gl3.2-1t64 libssl3t64 libpng16-16t64 libddsc0debian >>"$scratch/packages"
 program apt-cache "cat '$scratch/packages'"
 
 runtime=" $(installs runtime) "

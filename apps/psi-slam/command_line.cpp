@@ -167,9 +167,9 @@ CLI::App* add_play(CLI::App& app, CommandLine& line) {
       "play",
       "Play a log as a ROS 2 robot: scans, odometry, transforms and /clock, for psi-slam, nav2 or RViz");
   add_value(*play, "LOG", line.log, "Any log that psi-slam reads", "");
-  add_ros2_options(*play, line.play.ros2, "Publish on the topics of ROS 2");
-  add_value(*play, "--speed", line.play.speed, "Speed compared with that of the robot; 0: without waiting",
-            "FACTOR")
+  add_ros2_options(*play, line.play.ros2, "Required: publish on the topics of ROS 2");
+  add_value(*play, "--speed", line.play.speed,
+            "Speed: 1 as recorded, 2 twice as fast, 0 without waiting, which may lose messages", "FACTOR")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();
   add_settings_options(*play, line.config, line.settings);
@@ -308,14 +308,15 @@ void check_together(const CommandLine& line, const std::string& log_to_map, cons
   const bool localizes = line.command == Command::kLocalize;
   if (maps) require(!line.log.empty() || !line.resume.empty(), "name the log: psi-slam LOG");
   if (line.command == Command::kPlay)
-    require(!line.log.empty() && line.play.ros2.is_given, "name the log: psi-slam play LOG --ros2");
+    require(!line.log.empty() && line.play.ros2.is_given,
+            "name the log, and add --ros2: psi-slam play LOG --ros2");
   if (line.command == Command::kCheck) require(!line.log.empty(), "name the log: psi-slam check LOG");
   const bool has_source = live_input(line.live).has_value();
   if (is_live)
     require(has_source, "name a source: --ros2, --stdin, --tcp PORT, --follow LOG or --sensors INI");
   if (localizes)
     require(!line.map.empty() && (has_source || !line.log.empty()),
-            "name a map and a log: psi-slam localize MAP LOG");
+            "name a map and a log, or a live source: psi-slam localize MAP LOG");
   refuse(has_source && !line.log.empty(), "name a log or a live source, not both");
   refuse(
       line.json && pose_format(line.live),

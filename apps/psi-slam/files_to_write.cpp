@@ -73,7 +73,7 @@ void check_file_to_write(const NamedFile& file, const std::string& if_exists, co
 
 void check_files_to_write(const CommandLine& line) {
   check_file_to_write({"--save-session", line.save_session}, "Replace it with --force", line);
-  check_file_to_write({"--record", line.live.record}, "Name another file", line);
+  check_file_to_write({"--record", line.live.record}, "Replace it with --force, or name another file", line);
   check_file_to_write({"--journal", line.journal},
                       "Resume it with psi-slam --resume " + line.journal + ", or replace it with --force",
                       line);

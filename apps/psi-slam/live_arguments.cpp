@@ -34,7 +34,8 @@ std::uint32_t domain_of(const std::string& text) {
   constexpr double kMostDomain = 232;  // above, the ports of DDS exceed 65535
   const std::optional<double> value = parse_number(text);
   if (!value || *value < 0 || *value > kMostDomain || *value != static_cast<std::uint32_t>(*value))
-    throw UserError("--domain " + text + ": expected a whole number from 0 to 232");
+    throw UserError("--domain " + text +
+                    ": expected a whole number from 0 to 232. Use the ROS_DOMAIN_ID of the robot");
   return static_cast<std::uint32_t>(*value);
 }
 
@@ -72,13 +73,16 @@ std::pair<std::string, std::string> renamed_topic(const std::string& text) {
 
 void add_ros2_options(CLI::App& command, Ros2Arguments& arguments, const std::string& help) {
   command.add_flag("--ros2", arguments.is_given, help);
-  add_value(command, "--domain", arguments.domain, "Domain of ROS 2. Default: ROS_DOMAIN_ID, or 0", "N");
+  add_value(command, "--domain", arguments.domain, "Domain of ROS 2, 0 to 232. Default: ROS_DOMAIN_ID, or 0",
+            "N");
   add_value(command, "--namespace", arguments.name_space,
-            "Namespace of the robot and of this node, such as /robot1. Default: none", "NAME");
+            "Read topics in this namespace only, and publish in it, such as /robot1. Default: all topics",
+            "NAME");
   command
-      .add_option("--topic", arguments.topics,
-                  "Use another topic for one of psi-slam's names, such as scan=/robot1/front_scan. May be "
-                  "repeated")
+      .add_option(
+          "--topic", arguments.topics,
+          "Read or publish another topic: NAME is scan, odom, imu, tf, tf_static, map, map_metadata, pose, "
+          "trajectory, loops, status, command, initialpose or diagnostics. May be repeated")
       ->type_name("NAME=TOPIC")
       ->allow_extra_args(false);
 }
@@ -86,7 +90,8 @@ void add_ros2_options(CLI::App& command, Ros2Arguments& arguments, const std::st
 Ros2Options ros2_options(const Ros2Arguments& arguments, const std::string& node_name) {
   if (!arguments.is_given) {
     const auto refuse = [](const char* option, bool given) {
-      if (given) throw UserError(std::string(option) + " has no effect without --ros2");
+      if (given)
+        throw UserError(std::string(option) + " has no effect without --ros2. Add --ros2, or leave it out");
     };
     refuse("--domain", !arguments.domain.empty());
     refuse("--namespace", !arguments.name_space.empty());
@@ -116,7 +121,8 @@ void add_source_options(CLI::App& command, LiveArguments& arguments) {
   add_ros2_options(command, arguments.ros2,
                    "Read the topics of a ROS 2 robot: scans, transforms, odometry, IMU");
   add_value(command, "--record", arguments.record,
-            "Record what --ros2 receives in this bag, which psi-slam and ros2 bag play read", "MCAP");
+            "Record the messages that --ros2 receives in this bag, which psi-slam and ros2 bag play read",
+            "MCAP");
   add_value(command, "--idle-s", arguments.idle_s,
             "End after so many seconds without data. Default: end with the data or by Ctrl-C", "SECONDS");
   add_value(
@@ -139,7 +145,7 @@ std::optional<LiveInput> live_input(const LiveArguments& arguments) {
   if (sources > 1) throw UserError("name only one source, such as --ros2 or --follow LOG");
   const Ros2Options ros2 = ros2_options(arguments.ros2, "psi_slam");
   if (!arguments.record.empty() && !arguments.ros2.is_given)
-    throw UserError("--record has no effect without --ros2");
+    throw UserError("--record has no effect without --ros2. Add --ros2, or leave it out");
   if (!arguments.address.empty() && arguments.tcp.empty())
     throw UserError("--bind has no effect without --tcp PORT");
   if (sources == 0) {

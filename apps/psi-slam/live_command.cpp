@@ -21,10 +21,11 @@ LivePose live_pose(const FrameRecord& record, std::size_t frame, const Mapper& m
           mapper.newest_covariance()};
 }
 
-/// Pose of the robot by odometry at the newest scan; empty if the robot has no odometry.
-std::optional<mrpt::math::TPose2D> odometry_of(const FrameRecord& record, const Mapper& mapper) {
-  if (!mapper.log().back().has_odometry) return std::nullopt;
-  return record.odom_T_robot;
+/// Pose of the robot by its own odometry at the newest scan; empty if it has none. The record of a later run
+/// continues the odometry of the first run instead.
+std::optional<mrpt::math::TPose2D> odometry_of(const Mapper& mapper) {
+  const Frame& frame = mapper.log().back();
+  return frame.has_odometry ? std::optional(frame.odom_T_robot) : std::nullopt;
 }
 
 /// Throws UserError if the folder of the results has a journal of a run that was not finished, unless that
@@ -55,14 +56,19 @@ SessionInput input_of(const CommandLine& line, const LiveInput& source, const Li
   });
 }
 
-/// Returns the file that records what comes after a map was dropped or finished: "run-1.mcap".
-std::string further_recording(const std::filesystem::path& first, int number) {
+/// Returns the recording for the run after a reset or localize: "run-1.mcap", or the first number whose file
+/// does not exist.
+std::string further_recording(const std::filesystem::path& first) {
   if (first.empty()) return {};
-  return (first.parent_path() / (first.stem().string() + '-' + std::to_string(number))).string() +
-         first.extension().string();
+  for (int number = 1;; ++number) {
+    const std::filesystem::path file =
+        first.parent_path() /
+        (first.stem().string() + '-' + std::to_string(number) + first.extension().string());
+    if (!std::filesystem::exists(file)) return file.string();
+  }
 }
 
-/// What a live run needs besides its session. It serves several maps if a command begins the map again.
+/// Environment of a live run, shared by the maps before and after a reset.
 struct LiveEnvironment {
   const CommandLine& line;
   const LiveInput& source;
@@ -79,7 +85,7 @@ void send_pose(const LiveEnvironment& live, const FrameRecord& record, std::size
   if (live.poses) print_pose(live.streams.out, live_pose(record, frame, mapper), *live.poses);
   if (live.source.ros2_link)
     live.source.ros2_link->publish_pose(
-        {record.time_us, record.map_T_robot, odometry_of(record, mapper), mapper.newest_covariance()});
+        {record.time_us, record.map_T_robot, odometry_of(mapper), mapper.newest_covariance()});
 }
 
 /// Maps until the source ends or a command ends the map. Returns the exit code; empty if the map is dropped.
@@ -107,8 +113,9 @@ std::optional<int> make_map(const LiveEnvironment& live, const SessionInput& inp
       if (ros2) ros2->wait_for_scan();
     } while (mapping.step());
   } catch (...) {
-    if (resumed_scans == 0 && session.mapper().frames().empty())
-      session.remove_journal();  // nothing could be resumed
+    if (!session.mapper().frames().empty()) throw;
+    if (resumed_scans == 0) session.remove_journal();  // nothing could be resumed
+    if (commands != nullptr && commands->wish() == Ros2Wish::kReset) return std::nullopt;
     throw;
   }
   if (commands != nullptr && commands->wish() == Ros2Wish::kReset) {
@@ -127,7 +134,8 @@ std::optional<int> make_map(const LiveEnvironment& live, const SessionInput& inp
 
 }  // namespace
 
-int map_live(const CommandLine& line, const Streams& streams) {
+int map_live(const CommandLine& given, const Streams& streams) {
+  CommandLine line = given;
   LiveInput source = live_input(line.live).value();
   const std::optional<PoseFormat> poses = pose_format(line.live);
   // Only poses go to standard output if there are any.
@@ -135,36 +143,37 @@ int map_live(const CommandLine& line, const Streams& streams) {
   check_journal(line);
   OutputFolder::check(line.output, line.force);
   check_files_to_write(line);
+  if (line.force && !line.live.record.empty()) std::filesystem::remove(line.live.record);
   std::optional<Ros2Commands> commands;
   if (source.kind == LiveInput::Kind::kRos2) {
     source.ros2_link = open_ros2_link(source.ros2);
     commands.emplace(source.ros2_link);
   }
   std::optional<OutputFolder> folder;
-  int resets = 0;
   while (true) {
-    LiveRun run(texts, streams.err_is_terminal && !line.quiet,
-                "mapping the scans that came before, then finishing the map. Interrupt again to finish it "
-                "without more loops");
-    const LiveControl control = commands ? commands->control(run.control()) : run.control();
     BoundSettings bound;
-    const SessionInput input = input_of(line, source, control, bound, texts);
-    bound.settings.mapper.estimates_covariance = poses == PoseFormat::kJson || source.ros2_link;
-    check_prior_apart(bound.settings, line.output);
-    const LiveEnvironment live{line, source, bound.settings, folder, streams, texts, poses};
     std::optional<mrpt::math::TPose2D> last_pose;
-    const std::optional<int> code = make_map(live, input, commands ? &*commands : nullptr, run, last_pose);
-    if (code && commands && commands->wish() == Ros2Wish::kLocalize) {
-      CommandLine in_map = line;
-      in_map.map = (folder->path() / "map.yaml").string();
-      in_map.output.clear();
-      source.record = further_recording(line.live.record, ++resets);
-      commands->set_wish(Ros2Wish::kGoOn);
-      return localize_live(in_map, source, bound.settings, last_pose, streams);
+    std::optional<int> code;
+    {
+      LiveRun run(texts, streams.err_is_terminal && !line.quiet,
+                  "mapping the scans that came before, then finishing the map. Interrupt again to finish it "
+                  "without more loops");
+      const LiveControl control = commands ? commands->control(run.control()) : run.control();
+      const SessionInput input = input_of(line, source, control, bound, texts);
+      bound.settings.mapper.estimates_covariance = poses == PoseFormat::kJson || source.ros2_link;
+      check_prior_apart(bound.settings, line.output);
+      const LiveEnvironment live{line, source, bound.settings, folder, streams, texts, poses};
+      code = make_map(live, input, commands ? &*commands : nullptr, run, last_pose);
     }
-    if (code) return *code;
+    const Ros2Wish wish = commands ? commands->wish() : Ros2Wish::kGoOn;
+    if (code && wish != Ros2Wish::kLocalize) return *code;
     commands->set_wish(Ros2Wish::kGoOn);
-    source.record = further_recording(line.live.record, ++resets);
+    source.record = further_recording(line.live.record);
+    line.resume.clear();
+    if (!code) continue;
+    line.map = (folder->path() / "map.yaml").string();
+    line.output.clear();
+    return localize_live(line, source, bound.settings, last_pose, streams);
   }
 }
 

@@ -101,6 +101,7 @@ class LocalizationNode {
   LocalizationNode(std::shared_ptr<Ros2Link> link, const std::string& map)
       : link_(std::move(link)), commands_(link_) {
     link_->publish_map(read_map_file(map));
+    link_->initial_pose();  // one that came while mapping is out of date
   }
 
   LiveControl control(LiveControl control) {
@@ -112,11 +113,11 @@ class LocalizationNode {
     return control;
   }
 
-  /// Takes a start pose that a user has stated meanwhile. Call before each scan.
+  /// Takes a start pose that a user has stated meanwhile. Call between scans.
   void take_start(Localizer& localizer) {
     if (const auto start = link_->initial_pose()) {
       localizer.start_at(*start);
-      link_->answer("initialpose: searching near the stated pose");
+      link_->answer("initialpose: searching near the given pose");
     }
   }
 
@@ -180,6 +181,7 @@ int localize(const CommandLine& line, const Streams& streams) {
   if (!line.start.empty()) start = parse_start(line.start);
   if (!line.output.empty()) OutputFolder::check(line.output, line.force);
   check_files_to_write(line);
+  if (line.force && !line.live.record.empty()) std::filesystem::remove(line.live.record);
   if (const auto source = live_input(line.live))
     return localize_live(line, *source, bound.settings, start, streams);
   Localizer localizer(read_map_file(line.map), localizer_options(bound.settings));

@@ -48,14 +48,15 @@ int play_log(const CommandLine& line, const Streams& streams) {
   const auto log = open_log(line.log, log_options(bound.settings));
   const auto player = open_ros2_player(options);
   const InterruptSignals signals;
-  if (!player->wait_for_listener(kWaitForListener_s) && !line.quiet)
-    streams.err << "psi-slam: no node receives the scans yet; playing all the same\n";
+  std::optional<Frame> frame = log->next();
+  if (frame && !player->wait_for_listener(*frame, kWaitForListener_s) && !line.quiet)
+    streams.err << "psi-slam: no node receives the scans after 10 s; playing anyway\n";
   WorkProgress progress(streams.err_is_terminal && !line.quiet ? &streams.err : nullptr);
   Pace pace(line.play.speed);
   std::size_t scans = 0;
   int code = kExitDone;
   try {
-    for (std::optional<Frame> frame; !signals.came() && (frame = log->next()); ++scans) {
+    for (; frame && !signals.came(); frame = log->next(), ++scans) {
       pace.wait_for(frame->time_us, signals.came());
       player->publish(*frame);
       progress.show("playing", log->progress(), 1);

@@ -8,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "localization/reference_map.h"
+#include "map/report/output_folder.h"
 #include "map/verdict/map_verdict.h"
 
 namespace psi_slam {
@@ -38,15 +39,20 @@ std::vector<Ros2Constraint> constraints_of(const std::vector<LoopRecord>& loops,
   return constraints;
 }
 
-/// Returns the file of a command in the folder of the results. Empty for a name that leads out of it.
+/// Returns the file of a command in the folder of the results. Empty for a name that leads out
+/// of it, and for files that the run writes itself.
 std::optional<std::filesystem::path> file_of(const std::filesystem::path& folder, const std::string& name,
                                              const std::string& usual) {
   const std::filesystem::path file = name.empty() ? usual : name;
-  if (file.filename() != file || file == "." || file == "..") return std::nullopt;
+  const bool is_inside = file.filename() == file && file != "." && file != "..";
+  const bool is_of_run = OutputFolder::is_result(file.string()) || file.stem() == "map" ||
+                         file == journal_of_live_run(folder).filename();
+  if (!is_inside || is_of_run) return std::nullopt;
   return folder / file;
 }
 
-constexpr const char* kWrongName = "expected the name of a file in the folder of the results, without /";
+constexpr const char* kWrongName =
+    "expected a file name without / that is not one of the results; the file is written to their folder";
 
 Ros2Status::Level level_of(MapState state) {
   return state == MapState::kGood     ? Ros2Status::Level::kGood
@@ -66,7 +72,7 @@ LiveControl Ros2Commands::control(LiveControl control) const {
 std::optional<std::string> Ros2Commands::take_common(const std::string& name) {
   if (name == "pause" || name == "resume") {
     link_->pause(name == "pause");
-    return name == "pause" ? "scans are dropped until resume" : "scans are used";
+    return name == "pause" ? "scans are ignored until the command resume" : "scans are used";
   }
   if (name != "finish") return std::nullopt;
   wish_ = Ros2Wish::kFinish;
@@ -75,9 +81,9 @@ std::optional<std::string> Ros2Commands::take_common(const std::string& name) {
 
 std::string Ros2Commands::unknown_text(const std::string& command) {
   return "unknown command \"" + command +
-         "\". Commands are pause, resume, finish, and while mapping also save_map [NAME], save_session "
-         "[NAME], "
-         "reset and localize";
+         "\". Expected pause, resume or finish; while mapping also save_map [NAME], save_session [NAME], "
+         "reset or "
+         "localize";
 }
 
 Ros2Run::Ros2Run(std::shared_ptr<Ros2Link> link, Ros2Commands& commands, MappingSession& session,
@@ -111,7 +117,7 @@ void Ros2Run::wait_for_scan() {
 std::optional<std::string> Ros2Run::obey(const std::string& name, const std::string& argument) {
   if (name == "reset" || name == "localize") {
     commands_.set_wish(name == "reset" ? Ros2Wish::kReset : Ros2Wish::kLocalize);
-    return name == "reset" ? "dropping the map and beginning again"
+    return name == "reset" ? "dropping the map and starting a new one"
                            : "finishing the map, then localizing in it";
   }
   if (name != "save_map" && name != "save_session") return std::nullopt;
@@ -143,7 +149,7 @@ void Ros2Run::publish_status() const {
   const bool is_lost = newest == kScansOfStatus && 2 * matched < newest;
   status.level = is_lost ? Ros2Status::Level::kWarning : Ros2Status::Level::kGood;
   status.sentence = frames.empty() ? "waiting for scans"
-                    : is_lost      ? "most of the newest scans match nothing in the map"
+                    : is_lost      ? "most of the newest scans do not match the map"
                                    : "mapping";
   status.values = {{"scans", std::to_string(frames.size())},
                    {"nodes", std::to_string(session_.mapper().node_poses().size())},

@@ -17,7 +17,7 @@
 
 namespace psi_slam {
 
-/// What a user wants by a command on ~/command.
+/// Request of a user by a command on ~/command; kGoOn: none.
 enum class Ros2Wish { kGoOn, kFinish, kReset, kLocalize };
 
 /// Takes the commands that any run obeys: pause, resume, finish. Used by one thread.

@@ -10,7 +10,7 @@ template <class Function>
 Function* function_of_ros2(const char* name) {
   return reinterpret_cast<Function*>(function_of_module(
       "psi-slam-ros2.so", name, "the connection to ROS 2",
-      "Install psi-slam and Cyclone DDS (libddsc0) again, or build psi-slam with PSI_SLAM_ROS2"));
+      "Install psi-slam and Cyclone DDS (libddsc0) again, or build psi-slam with -DPSI_SLAM_ROS2=ON"));
 }
 
 }  // namespace

@@ -39,8 +39,9 @@ struct Ros2Options {
 
 /// What is received from the robot.
 struct Ros2Reading {
-  bool reads_clouds = false;     ///< whether point clouds are read, which are large
-  std::filesystem::path record;  ///< MCAP file that is written of all received messages, or replaced; empty: none
+  bool reads_clouds = false;  ///< whether point clouds are read, which are large
+  std::filesystem::path
+      record;  ///< MCAP file that is written of all received messages and must not exist; empty: none
   std::optional<double> idle_s;  ///< ends the messages after this time without one; empty: never
 };
 
@@ -71,11 +72,11 @@ class Ros2Link {
  public:
   virtual ~Ros2Link() = default;
 
-  /// Receives the messages of the robot from now on. One such bag at a time.
+  /// Opens the robot's messages as a bag. Only one may be open.
   virtual std::unique_ptr<BagFile> messages(const Ros2Reading& reading, const LiveControl& control) = 0;
-  /// Tells which topics and frames are read. Before, no pose is published.
+  /// Sets the topics and frames that are read. Poses are published only after this call.
   virtual void set_plan(const BagPlan& plan) = 0;
-  /// Whether scans are dropped.
+  /// Starts or stops dropping scans.
   virtual void pause(bool is_paused) = 0;
 
   /// Publishes the pose, and from now on the transform from the map to odometry at a steady rate.
@@ -97,8 +98,9 @@ class Ros2Link {
 class Ros2Player {
  public:
   virtual ~Ros2Player() = default;
-  /// Waits until a node receives scans, at most `timeout_s`. Returns whether there is one.
-  virtual bool wait_for_listener(double timeout_s) = 0;
+  /// Opens the topics of the lasers of a frame, and waits until a node receives all of them, at most
+  /// `timeout_s`. Returns whether there is one.
+  virtual bool wait_for_listener(const Frame& first, double timeout_s) = 0;
   /// Publishes the scans, the odometry and the clock of a frame. Throws UserError for scans that ROS cannot
   /// express, because their bearings are not evenly spaced.
   virtual void publish(const Frame& frame) = 0;

@@ -45,7 +45,7 @@ class DdsInbox {
 
   /// Waits until messages have come, or until `timeout_s` has passed, and appends them in the order in which
   /// they were sent. Returns the number of messages that were lost since the last call: on the network, or
-  /// because 20,000 waited.
+  /// because the queue of 20,000 messages was full.
   std::uint64_t take(std::deque<RosSample>& samples, double timeout_s);
 
  private:

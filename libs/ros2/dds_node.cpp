@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -69,7 +70,7 @@ DdsNode::DdsNode(const DdsNetwork& network, std::string name, std::string name_s
     // Another node of this process may have opened the domain already.
     if (domain != DDS_RETCODE_PRECONDITION_NOT_MET) checked_dds(domain, "the network");
   }
-  dds_set_log_mask(DDS_LC_FATAL | DDS_LC_ERROR);  // messages of unknown layouts are not worth a line
+  dds_set_log_mask(DDS_LC_FATAL | DDS_LC_ERROR);  // hides warnings about messages of unknown layout
   const DdsQos qos = make_dds_qos();
   constexpr std::string_view kUserData = "enclave=/;";
   dds_qset_userdata(qos.get(), kUserData.data(), kUserData.size());
@@ -117,7 +118,8 @@ std::string DdsNode::node_of(std::uint64_t publisher) const {
 dds_entity_t DdsNode::writer_of(const std::string& topic, const dds_topic_descriptor_t& type,
                                 const RosQuality& quality) {
   const DdsQos qos = make_dds_qos();
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE,
+                       static_cast<dds_duration_t>(quality.max_blocking_s * 1e9));
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, quality.depth);
   dds_qset_writer_data_lifecycle(qos.get(), false);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
@@ -139,9 +141,10 @@ dds_entity_t DdsNode::topic_of(const std::string& topic, const dds_topic_descrip
 
 std::vector<std::uint32_t> DdsNode::other_domains_in_use(std::uint32_t last) const {
   std::map<std::uint32_t, dds_entity_t> tried;
+  std::vector<dds_entity_t> opened;
   for (std::uint32_t domain = 0; domain <= last; ++domain) {
     if (domain == network_.domain) continue;
-    if (!network_.settings.empty()) dds_create_domain(domain, network_.settings.c_str());
+    if (!network_.settings.empty()) opened.push_back(dds_create_domain(domain, network_.settings.c_str()));
     const dds_entity_t participant = dds_create_participant(domain, nullptr, nullptr);
     if (participant >= 0) tried.emplace(domain, participant);
   }
@@ -155,6 +158,8 @@ std::vector<std::uint32_t> DdsNode::other_domains_in_use(std::uint32_t last) con
     if (count > 1) found.push_back(domain);
     dds_delete(participant);
   }
+  for (const dds_entity_t domain : opened)
+    if (domain > 0) dds_delete(domain);
   return found;
 }
 

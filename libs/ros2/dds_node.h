@@ -26,8 +26,9 @@ struct RosPublisher {
 
 /// How a topic is written.
 struct RosQuality {
-  std::int32_t depth = 1;   ///< number of messages that are kept for slow readers
-  bool is_latched = false;  ///< readers that come later get the last messages ("transient local")
+  std::int32_t depth = 1;       ///< number of messages that are kept for slow readers
+  bool is_latched = false;      ///< readers that come later get the last messages ("transient local")
+  double max_blocking_s = 0.1;  ///< write() waits at most so long for slow readers
 };
 
 class DdsNode;
@@ -37,7 +38,12 @@ class DdsNode;
 template <class Message>
 class RosWriter {
  public:
-  void write(const Message& message) const { dds_write(writer_, &message); }
+  /// Returns false if the message was dropped, because slow readers still need the messages before it.
+  bool write(const Message& message) const { return dds_write(writer_, &message) == DDS_RETCODE_OK; }
+  /// Waits until all readers have the messages, at most so long.
+  void wait_for_readers(double time_s) const {
+    dds_wait_for_acks(writer_, static_cast<dds_duration_t>(time_s * 1e9));
+  }
   /// Number of readers in other nodes.
   int readers() const;
 
@@ -47,7 +53,7 @@ class RosWriter {
   dds_entity_t writer_;
 };
 
-/// All functions may be called by several threads.
+/// A node of ROS 2. Its functions may be called by several threads.
 class DdsNode {
  public:
   /// `name` such as "psi_slam"; `name_space` is "/" or such as "/robot1". Throws UserError if the network

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros2/log_player.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -19,7 +20,7 @@ using mrpt::math::TPose2D;
 const std::string kOdomFrame = "odom";
 const std::string kBaseFrame = "base_link";
 
-// A reader that is slow for a while still gets all messages.
+// Depth of the queue for slow readers.
 constexpr RosQuality kSensor{2000, false};
 constexpr RosQuality kLatched{1, true};
 
@@ -33,11 +34,12 @@ double step_of(const std::vector<float>& bearings_rad) {
   for (std::size_t i = 0; i <= last; ++i)
     if (std::abs(bearing(0) + step_rad * static_cast<double>(i) - bearing(i)) > kTolerance_rad)
       throw UserError(
-          "the bearings of the laser are not evenly spaced, as sensor_msgs/LaserScan expects. "
-          "Play another laser with log.laser");
+          "the bearings of the laser are not evenly spaced, but sensor_msgs/LaserScan needs that. Choose "
+          "another "
+          "laser with log.laser");
   const auto even = bearings_of_whole_degrees(bearings_rad.front(), step_rad, bearings_rad.size());
   if (even && even->bearings_rad == bearings_rad)
-    return even->step_rad;  // rounded bearings have another mean
+    return even->step_rad;  // a mean of rounded bearings differs
   return step_rad;
 }
 
@@ -63,10 +65,12 @@ LogPlayer::Laser& LogPlayer::laser_of(std::size_t number) {
       .first->second;
 }
 
-bool LogPlayer::wait_for_listener(double timeout_s) {
-  const Laser& laser = laser_of(0);
+bool LogPlayer::wait_for_listener(const Frame& first, double timeout_s) {
+  laser_of(first.scan.laser);
+  for (const CompanionScan& companion : first.companions) laser_of(companion.scan.laser);
+  const auto is_heard = [](const auto& laser) { return laser.second.writer.readers() > 0; };
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
-  while (laser.writer.readers() == 0) {
+  while (!std::all_of(lasers_.begin(), lasers_.end(), is_heard)) {
     if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }

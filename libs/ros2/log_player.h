@@ -11,14 +11,14 @@
 
 namespace psi_slam {
 
-/// Publishes the frames of a log as a robot does: scans on /scan, or /scan_0, /scan_1 and so on of several
-/// lasers; odometry as nav_msgs/Odometry and as the transform from odom to base_link; the mounts of the
-/// lasers on /tf_static; and the time on /clock.
+/// Publishes the frames of a log as a robot does: scans of the first laser on /scan, of others on /scan_1,
+/// /scan_2 and so on; odometry as nav_msgs/Odometry and as the transform from odom to base_link; the mounts
+/// of the lasers on /tf_static; and the time on /clock.
 class LogPlayer : public Ros2Player {
  public:
   explicit LogPlayer(const Ros2Options& names);
 
-  bool wait_for_listener(double timeout_s) override;
+  bool wait_for_listener(const Frame& first, double timeout_s) override;
   void publish(const Frame& frame) override;
 
  private:

@@ -20,8 +20,11 @@ using mrpt::math::TPose2D;
 
 const std::string kMapFrame = "map";
 constexpr auto kTransformPeriod = std::chrono::milliseconds(50);
-// The transform is stamped so far in the future. Programs that look up the newest scan find it valid then.
+// Stamps the transform this far ahead, so that a lookup at the newest scan succeeds.
 constexpr TimeUs kTolerance_us = 100'000;
+
+constexpr double kWaitForMap_s = 10;  // a large map takes seconds on a wireless network
+constexpr double kWaitAtEnd_s = 3;
 
 constexpr std::int32_t kLineList = 5;  // visualization_msgs/Marker
 
@@ -46,7 +49,7 @@ std_msgs_msg_dds__ColorRGBA_ colour_of(const std::optional<LoopState>& loop) {
                                        : std_msgs_msg_dds__ColorRGBA_{0.9F, 0.1F, 0.1F, 0.6F};
 }
 
-/// One marker of lines for the constraints that `belongs` selects.
+/// Returns both ends of each constraint that `belongs` selects.
 template <class Belongs>
 std::vector<geometry_msgs_msg_dds__Point_> ends_of(const std::vector<Ros2Constraint>& constraints,
                                                    Belongs belongs) {
@@ -67,7 +70,8 @@ MapPublisher::MapPublisher(DdsNode& node, const Ros2Options& names, const RosClo
       transforms_(node.advertise<tf2_msgs_msg_dds__TFMessage_>(topic_of(names, "tf", "/tf"), {100, false})),
       poses_(node.advertise<geometry_msgs_msg_dds__PoseWithCovarianceStamped_>(
           topic_of(names, "pose", "pose"), {10, false})),
-      maps_(node.advertise<nav_msgs_msg_dds__OccupancyGrid_>(topic_of(names, "map", "map"), {1, true})),
+      maps_(node.advertise<nav_msgs_msg_dds__OccupancyGrid_>(topic_of(names, "map", "map"),
+                                                             {1, true, kWaitForMap_s})),
       metadata_(node.advertise<nav_msgs_msg_dds__MapMetaData_>(
           topic_of(names, "map_metadata", "map_metadata"), {1, true})),
       trajectories_(
@@ -87,6 +91,13 @@ MapPublisher::~MapPublisher() {
   }
   changed_.notify_all();
   thread_.join();
+  maps_.wait_for_readers(kWaitAtEnd_s);
+}
+
+void MapPublisher::forget() {
+  const std::lock_guard lock(mutex_);
+  correction_.reset();
+  child_frame_.clear();
 }
 
 void MapPublisher::set_plan(const BagPlan& plan) {
@@ -112,7 +123,7 @@ void MapPublisher::publish_pose(const Ros2Pose& pose) {
   send_transform();
 }
 
-/// Sends the transform, with the time by the robot's clock. Needs the lock.
+/// Sends the transform, with the time by the robot's clock. The caller holds mutex_.
 void MapPublisher::send_transform() {
   if (!correction_ || child_frame_.empty()) return;
   const TimeUs passed_us =
@@ -141,8 +152,7 @@ void MapPublisher::publish_map(const COccupancyGridMap2D& map) {
   message.info.height = static_cast<std::uint32_t>(map.getSizeY());
   message.info.origin = ros_pose({static_cast<double>(map.getXMin()), static_cast<double>(map.getYMin()), 0});
   show(message.data, cells);
-  maps_.write(message);
-  metadata_.write(message.info);
+  if (maps_.write(message)) metadata_.write(message.info);
 }
 
 void MapPublisher::publish_trajectory(const std::vector<std::pair<TimeUs, TPose2D>>& map_T_robot) {
@@ -187,9 +197,8 @@ void MapPublisher::publish_status(const Ros2Status& status) {
   std::vector<diagnostic_msgs_msg_dds__KeyValue_> values;
   for (const auto& [key, value] : status.values) values.push_back({dds_text(key), dds_text(value)});
   std::vector<diagnostic_msgs_msg_dds__DiagnosticStatus_> all(1);
-  const std::string name = hardware_ + ": mapping";
   all[0] = {static_cast<std::uint8_t>(status.level),
-            dds_text(name),
+            dds_text(hardware_),
             dds_text(status.sentence),
             dds_text(hardware_),
             {}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Publishes what slam_toolbox and Cartographer publish, under the same names.
+// Publishes map, pose, path, loops and state of a run.
 #pragma once
 
 #include <chrono>
@@ -22,8 +22,8 @@ namespace psi_slam {
 /// | /tf | the transform from map to odometry | after each scan, and 20 times a second |
 /// | /pose | PoseWithCovarianceStamped | after each scan |
 /// | /map, /map_metadata | OccupancyGrid, MapMetaData, latched | when the map has changed |
-/// | /trajectory | Path, latched | with the map |
-/// | ~/loops | MarkerArray, latched | with the map |
+/// | /trajectory | Path, latched | every 5 s while mapping keeps up |
+/// | ~/loops | MarkerArray, latched | every 5 s while mapping keeps up |
 /// | /diagnostics | DiagnosticArray | once a second |
 /// | ~/status | String, latched | answers to commands |
 class MapPublisher {
@@ -31,6 +31,8 @@ class MapPublisher {
   MapPublisher(DdsNode& node, const Ros2Options& names, const RosClock& clock);
   ~MapPublisher();
 
+  /// Publishes no transform until the next plan and pose.
+  void forget();
   void set_plan(const BagPlan& plan);
   void publish_pose(const Ros2Pose& pose);
   void publish_map(const mrpt::maps::COccupancyGridMap2D& map);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -13,13 +12,15 @@
 #include "logs/frames/laser_choice.h"
 #include "logs/rosbag/bag_topics.h"
 #include "logs/rosbag/ros_messages.h"
+#include "psi_slam/user_error.h"
 #include "ros2/ros_names.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr double kWait_s = 0.1;        // between questions whether the user stops
-constexpr double kDiscovery_s = 0.25;  // between searches for new topics
+constexpr double kWait_s = 0.1;        // period of asking whether to stop
+constexpr double kPrompt_s = 1;        // longest time between two readings that are prompt
+constexpr double kDiscovery_s = 0.25;  // period of searching for topics
 constexpr std::uint32_t kLastDomainToSearch = 20;
 const std::string kClockTopic = "/clock";
 
@@ -58,7 +59,7 @@ NetworkBag::NetworkBag(std::shared_ptr<const void> owner, DdsNode& node, const R
       watch_({[this] { return describe_network(); }, [this](std::uint64_t id) { return node_.node_of(id); }},
              "map", control.notify),
       last_message_s_(steady_s()) {
-  if (!reading_.record.empty()) recorder_ = std::make_unique<McapWriter>(reading_.record, true);
+  if (!reading_.record.empty()) recorder_ = std::make_unique<McapWriter>(reading_.record);
 }
 
 std::vector<BagTopic> NetworkBag::topics() {
@@ -75,7 +76,7 @@ void NetworkBag::want(const std::vector<std::string>& topics) {
     if (!is_needed(publisher)) inbox_.unsubscribe(publisher.topic);
 }
 
-/// Whether a publisher's messages are read: those of this robot that may be needed.
+/// Returns whether psi-slam can use this topic of the robot.
 bool NetworkBag::is_of_robot(const RosPublisher& publisher) const {
   const std::string& type = publisher.type;
   if (type == "rosgraph_msgs/Clock") return publisher.topic == kClockTopic;
@@ -90,12 +91,15 @@ bool NetworkBag::is_of_robot(const RosPublisher& publisher) const {
   if (name == nullptr) return false;
   if (const auto stated = names_.topics.find(name); stated != names_.topics.end()) {
     const std::vector<std::string> topics = laser_choice("--topic " + stated->first, stated->second).names;
-    return std::find(topics.begin(), topics.end(), publisher.topic) != topics.end();
+    return std::any_of(topics.begin(), topics.end(), [&](const std::string& topic) {
+      return in_namespace(topic, names_.name_space) == publisher.topic;
+    });
   }
-  return type == kRosTransforms || is_in_namespace(publisher.topic, names_.name_space);
+  const bool is_common = publisher.topic == "/tf" || publisher.topic == "/tf_static";
+  return is_common || is_in_namespace(publisher.topic, names_.name_space);
 }
 
-/// Whether messages are read or recorded, or state the time.
+/// Returns whether the topic is read or recorded, or states the time.
 bool NetworkBag::is_needed(const RosPublisher& publisher) const {
   return recorder_ || publisher.topic == kClockTopic ||
          is_wanted({publisher.topic, publisher.type, BagEncoding::kCdr, 0});
@@ -104,9 +108,19 @@ bool NetworkBag::is_needed(const RosPublisher& publisher) const {
 void NetworkBag::subscribe_to_new_topics() {
   last_discovery_s_ = steady_s();
   for (const RosPublisher& publisher : node_.publishers())
-    if (is_of_robot(publisher) && is_needed(publisher))
-      inbox_.subscribe(publisher.topic, publisher.type,
-                       is_static(publisher.topic) ? RosReading::kLatched : RosReading::kBestEffort);
+    if (is_of_robot(publisher) && is_needed(publisher)) subscribe(publisher);
+}
+
+/// Another node may use a topic with a type that DDS cannot read, for example one that psi-slam publishes.
+void NetworkBag::subscribe(const RosPublisher& publisher) {
+  if (refused_.count(publisher.topic) > 0) return;
+  try {
+    inbox_.subscribe(publisher.topic, publisher.type,
+                     is_static(publisher.topic) ? RosReading::kLatched : RosReading::kBestEffort);
+  } catch (const UserError& error) {
+    refused_.insert(publisher.topic);
+    control_.notify(std::string(error.what()) + ". This topic is not read");
+  }
 }
 
 bool NetworkBag::take_clock(const RosSample& sample) {
@@ -124,13 +138,15 @@ bool NetworkBag::receive() {
   while (waiting_.empty()) {
     if (control_.should_stop()) return false;
     if (steady_s() - last_discovery_s_ >= kDiscovery_s) subscribe_to_new_topics();
-    const std::uint64_t lost = inbox_.take(waiting_, kWait_s);
-    if (lost > 0 && lost_ == 0)
+    if (inbox_.take(waiting_, kWait_s) > 0 && !std::exchange(has_lost_, true))
       control_.notify(
-          "messages were lost, on the network or because mapping is too slow. Prefer a cable to Wi-Fi");
-    lost_ += lost;
+          "messages were lost on the network, or because mapping is too slow. Use a cable, or set "
+          "log.every_nth_scan=2");
     const double now_s = steady_s();
-    watch_.pass_time(now_s);
+    // After a pause of the reading, messages that came meanwhile are taken first.
+    is_prompt_ = now_s - last_take_s_ < kPrompt_s;
+    last_take_s_ = now_s;
+    if (is_prompt_) watch_.pass_time(now_s);
     if (!waiting_.empty()) last_message_s_ = now_s;
     if (waiting_.empty() && reading_.idle_s && now_s - last_message_s_ >= *reading_.idle_s) return false;
   }
@@ -139,8 +155,23 @@ bool NetworkBag::receive() {
 
 void NetworkBag::record(const BagMessage& message) {
   if (!recorder_) return;
-  recorder_->add(message);
+  try {
+    recorder_->add(message);
+  } catch (const SystemFailure& failure) {
+    control_.notify(std::string("the recording ends: ") + failure.what());
+    recorder_.reset();
+    return;
+  }
   if (const auto news = recorder_notice_.news(recorder_->failure())) control_.notify(*news);
+}
+
+void NetworkBag::end_recording() {
+  if (!recorder_) return;
+  recorder_->close();
+  if (const auto failure = recorder_->failure()) control_.notify("the recording is incomplete: " + *failure);
+  if (const std::uint64_t lost = recorder_->lost_messages(); lost > 0)
+    control_.notify("the recording lacks " + std::to_string(lost) +
+                    " messages, because it could not be written. Free disk space before the next run");
 }
 
 bool NetworkBag::next(BagMessage& message) {
@@ -151,14 +182,15 @@ bool NetworkBag::next(BagMessage& message) {
     message = {&current_.topic, clock_.now_us(), current_.bytes};
     const bool is_scan = has_scans(current_.topic, reading_.reads_clouds);
     if (!is_clock)
-      watch_.take(current_, steady_s(), clock_.is_simulated() ? std::nullopt : std::optional(system_us()));
+      watch_.take(current_, steady_s(),
+                  is_prompt_ && !clock_.is_simulated() ? std::optional(system_us()) : std::nullopt);
     if (is_paused_ && is_scan) continue;
     record(message);
     if (is_clock || !is_wanted(current_.topic)) continue;
     ++messages_;
     return true;
   }
-  if (recorder_) recorder_->close();
+  end_recording();
   return false;
 }
 
@@ -172,8 +204,8 @@ std::string NetworkBag::describe_network() const {
         .insert(publisher.topic + (publisher.type.empty() ? "" : " (" + publisher.type + ")"));
   if (!scans.empty()) {
     const std::vector<std::string> names(scans.begin(), scans.end());
-    return name_list(names) + " is published but sends nothing that arrives. Check the laser, and the " +
-           "--namespace, --topic and log.slice_z_m of psi-slam";
+    return "no message arrives from " + name_list(names) +
+           ". Check the laser, and psi-slam's options --namespace, --topic and log.slice_z_m";
   }
   if (!others.empty()) {
     const std::vector<std::string> names(others.begin(), others.end());
@@ -185,9 +217,9 @@ std::string NetworkBag::describe_network() const {
   std::string text = "no other node is in " + domain;
   for (const std::uint32_t used : node_.other_domains_in_use(kLastDomainToSearch))
     text +=
-        "; there are nodes in domain " + std::to_string(used) + ": set ROS_DOMAIN_ID=" + std::to_string(used);
+        "; set ROS_DOMAIN_ID=" + std::to_string(used) + " for the nodes in domain " + std::to_string(used);
   return text +
-         ". Check that the robot is on the same network, and that ROS_LOCALHOST_ONLY and "
+         ". Check that the robot is on the same network. Check that ROS_LOCALHOST_ONLY and "
          "ROS_AUTOMATIC_DISCOVERY_RANGE are equal on both computers";
 }
 

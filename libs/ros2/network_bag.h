@@ -5,6 +5,7 @@
 #include <atomic>
 #include <deque>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -43,16 +44,18 @@ class NetworkBag : public BagFile {
   bool next(BagMessage& message) override;
   std::string place() const override;
 
-  std::vector<BagTopic> topics() override;  ///< throws std::logic_error: the topics appear one by one
+  std::vector<BagTopic> topics() override;  ///< throws std::logic_error: unknown before the end
   double progress() const override { return 0; }
 
  private:
   void subscribe_to_new_topics();
+  void subscribe(const RosPublisher& publisher);
   bool is_of_robot(const RosPublisher& publisher) const;
   bool is_needed(const RosPublisher& publisher) const;
   bool receive();
   bool take_clock(const RosSample& sample);
   void record(const BagMessage& message);
+  void end_recording();
   std::string describe_network() const;
 
   const std::shared_ptr<const void> owner_;
@@ -68,10 +71,13 @@ class NetworkBag : public BagFile {
   FailureNotice recorder_notice_{"the recording"};
   std::deque<RosSample> waiting_;
   RosSample current_;
-  std::uint64_t messages_ = 0;  ///< number of messages that were returned
-  std::uint64_t lost_ = 0;
-  double last_message_s_ = 0;    ///< on a steady clock
-  double last_discovery_s_ = 0;  ///< on a steady clock
+  std::uint64_t messages_ = 0;     ///< number of messages that were returned
+  bool has_lost_ = false;          ///< whether the user knows of lost messages
+  std::set<std::string> refused_;  ///< topics that cannot be read
+  bool is_prompt_ = true;          ///< whether messages are read soon after they came
+  double last_take_s_ = 0;         ///< on a steady clock
+  double last_message_s_ = 0;      ///< on a steady clock
+  double last_discovery_s_ = 0;    ///< on a steady clock
 };
 
 }  // namespace psi_slam

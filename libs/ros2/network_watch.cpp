@@ -13,9 +13,9 @@
 namespace psi_slam {
 namespace {
 
-constexpr double kSilent_s = 5;   // time without messages that is worth a sentence
-constexpr double kMostLag_s = 2;  // of odometry behind the scans
-constexpr double kClockDiffers_s = 1;
+constexpr double kSilent_s = 5;        // time without messages that is worth a sentence
+constexpr double kMaximumLag_s = 2;    // seconds of odometry behind the scans
+constexpr double kClockDiffers_s = 1;  // seconds
 constexpr int kScansToCompareClocks = 20;
 constexpr double kDay_s = 86'400;
 
@@ -64,20 +64,20 @@ void NetworkWatch::take(const RosSample& sample, double now_s, std::optional<Tim
       take_odometry(sample, read_ros_header({&sample.topic, 0, sample.bytes}).time_us, now_s);
     }
   } catch (const MalformedBytes&) {
-    // The reader counts damaged messages.
+    // The reader of the bag counts damaged messages.
   }
 }
 
 void NetworkWatch::take_scan(const RosSample& sample, double now_s, std::optional<TimeUs> received_us) {
   const TimeUs stamp_us = read_ros_header({&sample.topic, 0, sample.bytes}).time_us;
   if (scan_ && now_s - scan_->last_s >= kSilent_s)
-    notify_("scans come again after " + seconds_text(now_s - scan_->last_s));
+    notify_("scans have resumed after " + seconds_text(now_s - scan_->last_s));
   present_.erase("silent");
-  std::uint64_t& publisher = publishers_[sample.topic.name];
-  if (publisher != 0 && publisher != sample.publisher && now_s - scan_->last_s >= 1)
-    notify_("the publisher of " + sample.topic.name + " was started again; it is " +
-            facts_.node_of(sample.publisher));
-  publisher = sample.publisher;
+  Source& of_topic = scans_[sample.topic.name];
+  const bool is_new = of_topic.publisher != 0 && of_topic.publisher != sample.publisher;
+  if (is_new && now_s - of_topic.last_s >= 1)
+    notify_("the publisher of " + sample.topic.name + " was restarted: " + facts_.node_of(sample.publisher));
+  of_topic = Source{now_s, stamp_us, sample.publisher};
   scan_ = Source{now_s, stamp_us, sample.publisher};
   if (received_us && stamp_us != 0) compare_clocks(stamp_us, *received_us);
 }
@@ -92,46 +92,51 @@ void NetworkWatch::compare_clocks(TimeUs stamp_us, TimeUs received_us) {
              " the time of this computer, as in a log that is played without /clock. If other programs need "
              "the time, play the log with /clock (ros2 bag play --clock)";
     return "the scans are stamped " + seconds_text(std::abs(ahead_s)) + (ahead_s > 0 ? " after" : " before") +
-           " the time of this computer. Mapping needs only the robot's clock, but programs on both computers "
-           "need equal clocks; run chrony or ntpd on both";
+           " the time of this computer. Mapping needs only the robot's clock. Other programs need equal "
+           "clocks: run chrony or ntpd on both computers";
   });
 }
 
 void NetworkWatch::take_transforms(const RosSample& sample, double now_s) {
   for (const RosTransform& transform : read_ros_transforms({&sample.topic, 0, sample.bytes})) {
-    if (transform.header.frame == map_frame_) {
-      auto& heard = heard_["map"];
-      heard[sample.publisher] = now_s;
+    const bool is_pose_in_map =
+        transform.header.frame == map_frame_ && plan_ &&
+        (transform.child_frame == plan_->odom_frame || transform.child_frame == plan_->base_frame);
+    if (is_pose_in_map)
       report("map", true, [&] {
         return facts_.node_of(sample.publisher) + " also publishes the transform from " + map_frame_ +
                " to " + transform.child_frame +
-               ". Stop the other SLAM or localization program, or both will move the "
-               "robot";
+               ". Stop the other SLAM or localization program: with two, the robot's pose jumps";
       });
-    }
     if (!plan_ || !plan_->has_odometry || transform.header.frame != plan_->odom_frame ||
         transform.child_frame != plan_->base_frame)
       continue;
-    std::map<std::uint64_t, double>& heard = heard_["odometry"];
-    heard[sample.publisher] = now_s;
+    const auto [entry, is_new] = odometry_heard_s_.emplace(sample.publisher, Span{now_s, now_s});
+    entry->second.last_s = now_s;
+    auto& heard = odometry_heard_s_;
     for (auto one = heard.begin(); one != heard.end();)
-      one = now_s - one->second > kSilent_s ? heard.erase(one) : std::next(one);
-    report("two odometries", heard.size() > 1, [&] {
+      one = now_s - one->second.last_s > kSilent_s ? heard.erase(one) : std::next(one);
+    // A publisher that was restarted sends nothing after the first message of the new one.
+    const bool both = std::any_of(heard.begin(), heard.end(), [&](const auto& a) {
+      return std::any_of(heard.begin(), heard.end(), [&](const auto& b) {
+        return a.first != b.first && a.second.first_s <= b.second.first_s &&
+               a.second.last_s > b.second.first_s + kClockDiffers_s;
+      });
+    });
+    report("two odometries", both, [&] {
       std::string nodes;
-      for (const auto& [publisher, heard_s] : heard)
+      for (const auto& [publisher, span] : heard)
         nodes += (nodes.empty() ? "" : " and ") + facts_.node_of(publisher);
       return nodes + " both publish the transform from " + plan_->odom_frame + " to " + plan_->base_frame +
-             ". Switch one of them off, because their poses differ";
+             ". Stop one of them, because their poses differ";
     });
     if (plan_->odometry_topic.empty()) take_odometry(sample, transform.header.time_us, now_s);
   }
 }
 
 void NetworkWatch::take_odometry(const RosSample& sample, TimeUs stamp_us, double now_s) {
-  std::uint64_t& publisher = publishers_[sample.topic.name + " (odometry)"];
-  if (publisher != 0 && publisher != sample.publisher && odometry_ && now_s - odometry_->last_s >= 1)
-    notify_("the publisher of odometry was started again; it is " + facts_.node_of(sample.publisher));
-  publisher = sample.publisher;
+  if (odometry_ && odometry_->publisher != sample.publisher && now_s - odometry_->last_s >= 1)
+    notify_("the publisher of odometry was restarted: " + facts_.node_of(sample.publisher));
   odometry_ = Source{now_s, stamp_us, sample.publisher};
 }
 
@@ -145,18 +150,18 @@ void NetworkWatch::pass_time(double now_s) {
   if (!planned_s_) planned_s_ = now_s;
   const double last_odometry_s = odometry_ ? odometry_->last_s : *planned_s_;
   const bool has_stopped = report("no odometry", now_s - last_odometry_s >= kSilent_s, [&] {
-    return "odometry has stopped for " + seconds_text(now_s - last_odometry_s) +
-           " while scans come. The scans wait for it. Check the node that publishes " +
+    return "no odometry for " + seconds_text(kSilent_s) +
+           ", while scans arrive. Scans wait for odometry. Check the node that publishes " +
            (plan_->odometry_topic.empty() ? plan_->odom_frame + " to " + plan_->base_frame
                                           : plan_->odometry_topic);
   });
   if (has_stopped || !odometry_) return;
   const double lag_s = seconds(scan_->stamp_us - odometry_->stamp_us);
-  const bool comes = now_s - odometry_->last_s < kMostLag_s / 2;
-  report("late odometry", comes && lag_s > kMostLag_s, [&] {
+  const bool comes = now_s - odometry_->last_s < kMaximumLag_s / 2;
+  report("late odometry", comes && lag_s > kMaximumLag_s, [&] {
     return "the stamps of odometry are " + seconds_text(lag_s) +
-           " behind those of the scans, though messages of both come. Poses are late by as much. Check the "
-           "clocks of the computers that publish them";
+           " behind those of the scans. Poses are late by as much. Check the clocks of the computers that "
+           "publish them";
   });
 }
 

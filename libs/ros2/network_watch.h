@@ -25,10 +25,12 @@ struct NetworkFacts {
   std::function<std::string(std::uint64_t publisher)> node_of;
 };
 
-/// Prints one sentence about each of these faults: no scan for five seconds, and scans that come again;
-/// odometry that stops or lags behind the scans; two nodes that publish odometry, or the pose in the map; a
-/// publisher that was started again; stamps that differ from the clock of this computer. Each sentence is
-/// printed when the fault begins, and again only after it had ended.
+/// Prints a sentence when one of these faults begins, and again only after the fault had ended:
+/// - no scan for five seconds; another sentence says when scans have resumed
+/// - odometry that stops, or lags behind the scans
+/// - two nodes that publish odometry, or the pose in the map
+/// - a publisher that was restarted
+/// - stamps that differ from the clock of this computer
 class NetworkWatch {
  public:
   using Notify = std::function<void(const std::string&)>;
@@ -52,6 +54,11 @@ class NetworkWatch {
     std::uint64_t publisher = 0;
   };
 
+  struct Span {
+    double first_s = 0;
+    double last_s = 0;
+  };
+
   bool is_scan(const BagTopic& topic) const;
   void take_scan(const RosSample& sample, double now_s, std::optional<TimeUs> received_us);
   void take_transforms(const RosSample& sample, double now_s);
@@ -68,10 +75,10 @@ class NetworkWatch {
   std::optional<double> planned_s_;  ///< time from which odometry is watched
   std::optional<Source> scan_;       ///< newest scan
   std::optional<Source> odometry_;
-  std::map<std::string, std::uint64_t> publishers_;  ///< last publisher of each topic of scans and odometry
-  std::map<std::string, std::map<std::uint64_t, double>> heard_;  ///< times of publishers of odometry and map
-  std::set<std::string> present_;  ///< faults that were reported and have not ended
-  int clock_differs_ = 0;          ///< number of scans in succession whose stamps differ from the clock
+  std::map<std::string, Source> scans_;             ///< newest scan of each topic
+  std::map<std::uint64_t, Span> odometry_heard_s_;  ///< when each publisher of odometry was heard
+  std::set<std::string> present_;                   ///< faults that were reported and have not ended
+  int clock_differs_ = 0;  ///< number of scans in succession whose stamps differ from the clock
 };
 
 }  // namespace psi_slam

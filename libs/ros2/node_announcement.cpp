@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <memory>
 #include <utility>
 #include <vector>
 
+#include "ros2/dds_entities.h"
 #include "ros2/message_views.h"
 #include "ros2_messages.h"
 
@@ -29,8 +29,8 @@ dds_topic_descriptor_t type_with_24_bytes() {
   return type;
 }
 
-std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> quality() {
-  std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos(dds_create_qos(), dds_delete_qos);
+DdsQos quality() {
+  DdsQos qos = make_dds_qos();
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
   dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
   dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, 1, DDS_LENGTH_UNLIMITED,
@@ -85,8 +85,8 @@ NodeAnnouncement::NodeAnnouncement(dds_entity_t participant, std::string name, s
     : participant_(participant), name_(std::move(name)), name_space_(std::move(name_space)) {
   const auto qos = quality();
   for (const bool has_24_bytes : {false, true})
-    readers_of_others_[has_24_bytes ? 1 : 0] =
-        dds_create_reader(participant_, topic(participant_, has_24_bytes), qos.get(), nullptr);
+    readers_of_others_[has_24_bytes ? 1 : 0] = checked_dds(
+        dds_create_reader(participant_, topic(participant_, has_24_bytes), qos.get(), nullptr), kTopic);
   thread_ = std::thread([this] { work(); });
 }
 

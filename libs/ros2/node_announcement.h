@@ -18,8 +18,8 @@ namespace psi_slam {
 /// Number that stands for a reader or writer in this process, made of its GUID.
 std::uint64_t id_of_guid(const dds_guid_t& guid);
 
-/// Announces a node from a thread of its own. Iron and later state 16 bytes for each identifier, Humble and
-/// before 24 bytes, with one name for both types. Another node's announcement decides; without one, 16.
+/// Announces a node from a thread of its own. Iron and later use 16 bytes for each identifier, Humble and
+/// earlier 24 bytes, under the same type name. The node follows other nodes, and uses 16 until it hears one.
 class NodeAnnouncement {
  public:
   NodeAnnouncement(dds_entity_t participant, std::string name, std::string name_space);

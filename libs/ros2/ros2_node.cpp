@@ -26,6 +26,8 @@ Ros2Node::Ros2Node(const Ros2Options& options)
 }
 
 std::unique_ptr<BagFile> Ros2Node::messages(const Ros2Reading& reading, const LiveControl& control) {
+  publisher_.forget();
+  is_paused_ = false;
   auto bag =
       std::make_unique<NetworkBag>(shared_from_this(), node_, options_, reading, control, clock_, is_paused_);
   bag_ = bag.get();
@@ -37,7 +39,7 @@ void Ros2Node::set_plan(const BagPlan& plan) {
   bag_->set_plan(plan);
 }
 
-/// Takes the messages that have come for psi-slam itself. Needs the lock.
+/// Takes the messages that have come for psi-slam itself. The caller holds mutex_.
 void Ros2Node::take_requests() {
   std::deque<RosSample> samples;
   requests_.take(samples, 0);
@@ -46,6 +48,9 @@ void Ros2Node::take_requests() {
     try {
       if (sample.topic.type == kString)
         commands_.push_back(read_ros_string(message));
+      else if (const std::string frame = read_ros_header(message).frame; frame != "map")
+        publisher_.answer("initialpose: the pose is in the frame \"" + frame +
+                          "\", expected \"map\". Set the fixed frame of RViz to map");
       else if (const auto pose = read_ros_pose(message))
         initial_pose_ = *pose;
     } catch (const MalformedBytes&) {

@@ -20,11 +20,12 @@ inline std::string in_namespace(const std::string& name, const std::string& name
   return (name_space == "/" ? "/" : name_space + "/") + name;
 }
 
-/// Returns the topic that psi-slam uses for one of its names, such as "map". `usual` is used if the user
-/// states none, and is relative to the namespace unless it begins with a slash.
+/// Returns the topic that psi-slam publishes or receives for one of its names, such as "map": the first that
+/// the user states, or else `usual`. Both are relative to the namespace unless they begin with a slash.
 inline std::string topic_of(const Ros2Options& names, const std::string& name, const std::string& usual) {
   const auto stated = names.topics.find(name);
-  return in_namespace(stated == names.topics.end() ? usual : stated->second, names.name_space);
+  const std::string topics = stated == names.topics.end() ? usual : stated->second;
+  return in_namespace(topics.substr(0, topics.find(',')), names.name_space);
 }
 
 }  // namespace psi_slam

@@ -327,7 +327,7 @@ TEST_F(LiveApp, says_what_is_wrong_with_the_arguments) {
   EXPECT_THAT(complaint(live({"--ros2", "--topic", "scan"})), HasSubstr("--topic scan: expected NAME=TOPIC"));
   EXPECT_THAT(complaint(live({"--ros2", "--topic", "laser=/scan"})),
               HasSubstr("there is no topic \"laser\", expected one of scan, odom"));
-  EXPECT_THAT(complaint({"play", "my.log"}), HasSubstr("name the log: psi-slam play LOG --ros2"));
+  EXPECT_THAT(complaint({"play", "my.log"}), HasSubstr("name the log, and add --ros2"));
   EXPECT_THAT(complaint({"localize", "map.yaml", "--idle-s", "1"}),
               HasSubstr("--idle-s needs a live source"));
   EXPECT_THAT(complaint({"localize", "map.yaml", "my.log", "--stdin"}), HasSubstr("a log or a live source"));

@@ -61,7 +61,7 @@ int measure(const std::string& path, double speed, std::size_t beams) {
   psi_slam::DdsNode node(psi_slam::dds_network(std::nullopt), "listener", "/");
   psi_slam::DdsInbox inbox(node);
   inbox.subscribe("/pose", "geometry_msgs/PoseWithCovarianceStamped", psi_slam::RosReading::kBestEffort);
-  if (!player.wait_for_listener(30)) {
+  if (!player.wait_for_listener(frames.front(), 30)) {
     std::fprintf(stderr, "measure_latency: psi-slam live --ros2 does not run in this domain\n");
     return 2;
   }

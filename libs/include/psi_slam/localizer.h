@@ -78,7 +78,8 @@ class Localizer {
   Localizer(const Localizer&) = delete;
   Localizer& operator=(const Localizer&) = delete;
 
-  /// Sets the approximate start pose of the robot in the map: metres, radians. May be called between scans, too.
+  /// Sets the approximate pose of the robot in the map: metres, radians. Call before the first scan or between
+  /// scans.
   void start_at(const mrpt::math::TPose2D& map_T_robot);
 
   /// Localizes the robot at the next scan. Frames must come in the order of the log.

@@ -47,7 +47,7 @@ bool OdometryInterpolator::belongs_to_next_message(const Scan& scan) {
 }
 
 void OdometryInterpolator::place(Scan& scan) const {
-  // Where stamps run backwards, other messages may enclose the stamp of the scan, too.
+  // If stamps run backwards, another pair of messages may enclose this stamp, too.
   if (scan.before && scan.before->time_us == scan.frame.time_us)
     scan.frame.odom_T_robot = scan.before->odom_T_robot;
   else if (!place_between_messages(scan.frame))

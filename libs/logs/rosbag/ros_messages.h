@@ -77,7 +77,7 @@ RosHeader read_ros_header(const BagMessage& message);
 std::optional<RosTransform> read_ros_odometry(const BagMessage& message);
 
 /// Returns x, y and yaw of a pose. The yaw is rounded to 10^-12 radians, because the last bits of a yaw that
-/// was a quaternion are arbitrary. So a played log of a format that states few decimals has its own odometry.
+/// was a quaternion are arbitrary. So a log keeps its odometry when it is played.
 mrpt::math::TPose2D on_floor(const mrpt::poses::CPose3D& pose);
 
 /// Returns the time of a rosgraph_msgs/Clock.

@@ -3,6 +3,7 @@
 // What psi-slam publishes is decoded by the code that Fast DDS generates, and a robot on Fast DDS sends what
 // psi-slam maps.
 #include <gmock/gmock.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
 
 #include <cmath>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include "foreign_program.h"
 #include "logs/frames/laser_readings.h"
 #include "loopback_domain.h"
+#include "ros2/ros2_node.h"
 #include "simulated_run.h"
 #include "temporary_folder.h"
 #include "test_files.h"
@@ -193,6 +195,21 @@ $peer publish $dir/commands
   for (std::string line; std::getline(trajectory, line);) ++lines;
   EXPECT_GT(lines, 10);
   EXPECT_LT(lines, 170);
+}
+
+TEST_F(Ros2Programs, GivesALargeMapToALateListenerAsAWhole) {
+  mrpt::maps::COccupancyGridMap2D map(-100, 100, -100, 100, 0.05F);
+  map.fill(0.5F);
+  for (int i = 0; i < 4000; ++i) map.setCell(i, 2000, 0.0F);
+  const auto node = std::make_shared<Ros2Node>(Ros2Options());
+  node->publish_map(map);
+  run("$peer listen 12 /map OccupancyGrid:latched >$dir/heard");
+  auto heard = messages_of("heard");
+  ASSERT_THAT(heard["/map"], testing::SizeIs(1));
+  const json& message = heard["/map"].front();
+  EXPECT_EQ(message["cells"], 16'000'000);
+  EXPECT_EQ(message["occupied"], 4000);
+  EXPECT_EQ(message["unknown"], 16'000'000 - 4000);
 }
 
 TEST_F(Ros2Programs, SaysThatAnotherProgramPublishesThePoseInTheMap) {

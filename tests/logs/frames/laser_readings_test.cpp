@@ -45,5 +45,24 @@ TEST(LaserReadings, equal_the_maximum_if_written_alike) {
   EXPECT_TRUE(std::isfinite(ranges_m[1]));
 }
 
+TEST(LaserReadings, restores_bearings_that_a_message_states_as_floats) {
+  for (const auto& [angles, beams, degrees] :
+       {std::tuple{BeamAngles::kLeftOpen, std::size_t{180}, 180.0},
+        {BeamAngles::kCentredStepInclusive, std::size_t{361}, 180.0},
+        {BeamAngles::kCentredHalfStep, std::size_t{1080}, 270.0},
+        {BeamAngles::kCentredStepInclusive, std::size_t{1081}, 270.0}}) {
+    const double field_of_view_rad = degrees * M_PI / 180;
+    const std::vector<float> bearings = make_bearings_rad(angles, beams, field_of_view_rad);
+    const double steps = static_cast<double>(angles == BeamAngles::kCentredStepInclusive ? beams - 1 : beams);
+    const auto stated_step = static_cast<float>(field_of_view_rad / steps);
+    const auto even = bearings_of_whole_degrees(bearings.front(), static_cast<double>(stated_step), beams);
+    ASSERT_TRUE(even) << beams;
+    EXPECT_EQ(even->bearings_rad, bearings) << beams;
+  }
+  EXPECT_FALSE(bearings_of_whole_degrees(-1.57F, 0.0174, 180)) << "179.4 degrees from -90";
+  EXPECT_FALSE(bearings_of_whole_degrees(1.57F, -0.01745, 180)) << "clockwise";
+  EXPECT_FALSE(bearings_of_whole_degrees(0, 0, 1));
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -50,6 +50,8 @@ void OdometryInterpolator::place(Scan& scan) const {
   // If stamps run backwards, another pair of messages may enclose this stamp, too.
   if (scan.before && scan.before->time_us == scan.frame.time_us)
     scan.frame.odom_T_robot = scan.before->odom_T_robot;
+  else if (scan.after && scan.after->time_us == scan.frame.time_us)
+    scan.frame.odom_T_robot = scan.after->odom_T_robot;
   else if (!place_between_messages(scan.frame))
     scan.frame.odom_T_robot = (belongs_to_next_message(scan) ? scan.after : scan.before)->odom_T_robot;
   scan.is_placed = true;

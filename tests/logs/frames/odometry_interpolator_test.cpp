@@ -86,16 +86,19 @@ std::vector<double> poses_taken(OdometryInterpolator& interpolator) {
 }
 
 TEST(OdometryInterpolator, takes_the_message_of_the_same_time_where_time_runs_backwards) {
-  OdometryInterpolator interpolator;
-  std::vector<double> x_m;
-  for (const auto& [time_us, odometry_m] : {std::pair{10, 1.0}, {30, 2.0}, {20, 3.0}, {40, 4.0}}) {
-    interpolator.add_odometry(time_us, {odometry_m, 0, 0});
-    interpolator.add_scan(scan_at(time_us));
+  for (const bool odometry_is_first : {true, false}) {
+    OdometryInterpolator interpolator;
+    std::vector<double> x_m;
+    for (const auto& [time_us, odometry_m] : {std::pair{10, 1.0}, {30, 2.0}, {20, 3.0}, {40, 4.0}}) {
+      if (!odometry_is_first) interpolator.add_scan(scan_at(time_us));
+      interpolator.add_odometry(time_us, {odometry_m, 0, 0});
+      if (odometry_is_first) interpolator.add_scan(scan_at(time_us));
+      while (const auto frame = interpolator.take()) x_m.push_back(frame->odom_T_robot.x);
+    }
+    interpolator.end_of_log();
     while (const auto frame = interpolator.take()) x_m.push_back(frame->odom_T_robot.x);
+    EXPECT_EQ(x_m, (std::vector<double>{1, 2, 3, 4})) << odometry_is_first;
   }
-  interpolator.end_of_log();
-  while (const auto frame = interpolator.take()) x_m.push_back(frame->odom_T_robot.x);
-  EXPECT_EQ(x_m, (std::vector<double>{1, 2, 3, 4}));
 }
 
 TEST(OdometryInterpolator, follows_a_clock_that_is_set_back) {

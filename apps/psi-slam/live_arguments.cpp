@@ -22,21 +22,19 @@ double seconds_of(const std::string& option, const std::string& text) {
 }
 
 std::uint16_t port_of(const std::string& text) {
-  constexpr double kMostPort = std::numeric_limits<std::uint16_t>::max();
-  const std::optional<double> value = parse_number(text);
-  if (!value || *value < 0 || *value > kMostPort || *value != static_cast<std::uint16_t>(*value))
+  const auto port = parse_whole_number(text, std::numeric_limits<std::uint16_t>::max());
+  if (!port)
     throw UserError("--tcp " + text +
                     ": expected the number of a port, 0 to 65535. With 0 the system chooses one");
-  return static_cast<std::uint16_t>(*value);
+  return static_cast<std::uint16_t>(*port);
 }
 
 std::uint32_t domain_of(const std::string& text) {
-  constexpr double kMostDomain = 232;  // above, the ports of DDS exceed 65535
-  const std::optional<double> value = parse_number(text);
-  if (!value || *value < 0 || *value > kMostDomain || *value != static_cast<std::uint32_t>(*value))
+  const auto domain = parse_whole_number(text, kMaximumRos2Domain);
+  if (!domain)
     throw UserError("--domain " + text +
                     ": expected a whole number from 0 to 232. Use the ROS_DOMAIN_ID of the robot");
-  return static_cast<std::uint32_t>(*value);
+  return *domain;
 }
 
 std::string name_space_of(std::string text) {

@@ -137,13 +137,13 @@ std::optional<int> make_map(const LiveEnvironment& live, const SessionInput& inp
 int map_live(const CommandLine& given, const Streams& streams) {
   CommandLine line = given;
   LiveInput source = live_input(line.live).value();
+  source.replaces_record = line.force;
   const std::optional<PoseFormat> poses = pose_format(line.live);
   // Only poses go to standard output if there are any.
   const Streams texts{poses ? streams.err : streams.out, streams.err, streams.err_is_terminal};
   check_journal(line);
   OutputFolder::check(line.output, line.force);
   check_files_to_write(line);
-  if (line.force && !line.live.record.empty()) std::filesystem::remove(line.live.record);
   std::optional<Ros2Commands> commands;
   if (source.kind == LiveInput::Kind::kRos2) {
     source.ros2_link = open_ros2_link(source.ros2);

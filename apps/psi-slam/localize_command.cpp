@@ -98,9 +98,9 @@ int localize_in_log(const CommandLine& line, const Settings& settings, Localizer
 /// Tells other nodes where the robot is, and obeys their commands.
 class LocalizationNode {
  public:
-  LocalizationNode(std::shared_ptr<Ros2Link> link, const std::string& map)
+  LocalizationNode(std::shared_ptr<Ros2Link> link, const mrpt::maps::COccupancyGridMap2D& map)
       : link_(std::move(link)), commands_(link_) {
-    link_->publish_map(read_map_file(map));
+    link_->publish_map(map);
     link_->initial_pose();  // one that came while mapping is out of date
   }
 
@@ -148,14 +148,15 @@ int localize_live(const CommandLine& line, const LiveInput& given, const Setting
                   const std::optional<TPose2D>& start, const Streams& streams) {
   const std::optional<PoseFormat> poses = pose_format(line.live);
   const Streams texts{poses ? streams.err : streams.out, streams.err, streams.err_is_terminal};
-  Localizer localizer(read_map_file(line.map), localizer_options(settings));
+  const mrpt::maps::COccupancyGridMap2D map = read_map_file(line.map);
+  Localizer localizer(map, localizer_options(settings));
   if (start) localizer.start_at(*start);
   LiveRun run(texts, false, "localizing at the scans that came before. Interrupt again to skip them");
   LiveInput source = given;
   std::optional<LocalizationNode> node;
   if (source.kind == LiveInput::Kind::kRos2) {
     if (!source.ros2_link) source.ros2_link = open_ros2_link(source.ros2);
-    node.emplace(source.ros2_link, line.map);
+    node.emplace(source.ros2_link, map);
   }
   const auto frames =
       open_live(source, log_options(settings), node ? node->control(run.control()) : run.control());
@@ -181,9 +182,10 @@ int localize(const CommandLine& line, const Streams& streams) {
   if (!line.start.empty()) start = parse_start(line.start);
   if (!line.output.empty()) OutputFolder::check(line.output, line.force);
   check_files_to_write(line);
-  if (line.force && !line.live.record.empty()) std::filesystem::remove(line.live.record);
-  if (const auto source = live_input(line.live))
+  if (auto source = live_input(line.live)) {
+    source->replaces_record = line.force;
     return localize_live(line, *source, bound.settings, start, streams);
+  }
   Localizer localizer(read_map_file(line.map), localizer_options(bound.settings));
   if (start) localizer.start_at(*start);
   return localize_in_log(line, bound.settings, localizer, streams);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A live run as a node of ROS 2: it publishes what it maps, and takes commands.
+// A live run as a node of ROS 2: publishes map, path, loops and state, and takes commands.
 #pragma once
 
 #include <atomic>

@@ -2,7 +2,6 @@
 #include "base/appended_file.h"
 
 #include <fcntl.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
@@ -33,8 +32,8 @@ Descriptor created_file(const std::filesystem::path& path, bool overwrite) {
 
 }  // namespace
 
-AppendedFile::AppendedFile(std::filesystem::path path, bool overwrite)
-    : path_(std::move(path)), file_(created_file(path_, overwrite)), thread_([this] { work(); }) {}
+AppendedFile::AppendedFile(const std::filesystem::path& path, bool overwrite)
+    : tail_(path, created_file(path, overwrite), 0), thread_([this] { work(); }) {}
 
 AppendedFile::~AppendedFile() {
   close();
@@ -73,33 +72,18 @@ void AppendedFile::work() {
       changed_.wait(lock, [this] { return stop_ || !appended_.empty(); });
     }
     is_last = stop_;
-    unwritten_ += std::exchange(appended_, {});
+    tail_.append(std::exchange(appended_, {}));
     lock.unlock();
     std::optional<std::string> failure;
     try {
-      write_unwritten();
+      tail_.write();
     } catch (const std::exception& error) {
       failure = error.what();
     }
     lock.lock();
-    waiting_bytes_ = unwritten_.size() + appended_.size();
+    waiting_bytes_ = tail_.unwritten_bytes() + appended_.size();
     failure_ = std::move(failure);
   }
-}
-
-/// Writes the bytes that follow those of the disk. After a failure it begins with the same byte again,
-/// because the system may have dropped bytes that it accepted before.
-void AppendedFile::write_unwritten() {
-  for (std::size_t done = 0; done < unwritten_.size();) {
-    const ssize_t count = ::pwrite(file_.number(), unwritten_.data() + done, unwritten_.size() - done,
-                                   static_cast<off_t>(written_bytes_ + done));
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) throw cannot_write(path_, count < 0 ? errno : ENOSPC);
-    done += static_cast<std::size_t>(count);
-  }
-  if (::fdatasync(file_.number()) != 0 && errno != EINVAL) throw cannot_write(path_, errno);
-  written_bytes_ += unwritten_.size();
-  unwritten_ = {};
 }
 
 }  // namespace psi_slam

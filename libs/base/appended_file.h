@@ -10,7 +10,7 @@
 #include <string_view>
 #include <thread>
 
-#include "base/descriptor.h"
+#include "base/file_tail.h"
 
 namespace psi_slam {
 
@@ -19,12 +19,12 @@ namespace psi_slam {
 /// for example, waits in memory and is tried again every second.
 class AppendedFile {
  public:
-  /// Most bytes that wait in memory while the file cannot be written.
+  /// Maximum number of bytes that wait in memory while the file cannot be written.
   static constexpr std::size_t kMostWaitingBytes = std::size_t{1} << 26;
 
   /// Creates the file. Throws UserError if it exists and `overwrite` is false, and SystemFailure if it cannot
   /// be created.
-  AppendedFile(std::filesystem::path path, bool overwrite);
+  AppendedFile(const std::filesystem::path& path, bool overwrite);
   /// Closes the file.
   ~AppendedFile();
   AppendedFile(const AppendedFile&) = delete;
@@ -33,7 +33,7 @@ class AppendedFile {
   /// Appends bytes as a whole. Returns false, and appends nothing, if more than kMostWaitingBytes would wait.
   bool append(std::string_view bytes);
 
-  /// Writes what is left, trying once. Call append() no more.
+  /// Tries once to write the rest. Do not call append() afterwards.
   void close();
 
   /// Why the file could not be written the last time, a sentence without full stop; empty if it was written.
@@ -41,16 +41,12 @@ class AppendedFile {
 
  private:
   void work();
-  void write_unwritten();
 
-  const std::filesystem::path path_;
-  const Descriptor file_;
-  std::size_t written_bytes_ = 0;  ///< bytes of the file that the disk has
-  std::string unwritten_;          ///< bytes that follow them
+  FileTail tail_;
 
   mutable std::mutex mutex_;  ///< protects the members below
   std::condition_variable changed_;
-  std::string appended_;           ///< bytes that follow those of unwritten_
+  std::string appended_;           ///< bytes that follow those of tail_
   std::size_t waiting_bytes_ = 0;  ///< bytes that the disk does not have yet
   std::optional<std::string> failure_;
   bool stop_ = false;  ///< the thread ends or has ended

@@ -59,6 +59,13 @@ std::string exact_text(double value) {
   return to_text(value);
 }
 
+std::optional<std::uint32_t> parse_whole_number(std::string_view text, std::uint32_t maximum) {
+  const std::optional<double> value = parse_number(text);
+  const bool is_in_range = value && *value >= 0 && *value <= maximum;
+  if (!is_in_range || *value != static_cast<std::uint32_t>(*value)) return std::nullopt;
+  return static_cast<std::uint32_t>(*value);
+}
+
 std::optional<double> parse_degrees(std::string_view text) {
   const std::optional<long double> degrees = parse_finite<long double>(text);
   if (!degrees || !parse_number(text)) return {};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@ std::string shortest_text(float value);
 /// Reads a text that is a finite decimal number and nothing else. Empty for "12abc", "", "nan", "inf",
 /// "1e999", "0x10".
 std::optional<double> parse_number(std::string_view text);
+
+/// Parses a whole number from 0 to `maximum`. Empty for any other text.
+std::optional<std::uint32_t> parse_whole_number(std::string_view text, std::uint32_t maximum);
 
 /// Decimal text with the fewest digits that parse_number() reads as exactly `value`. The text has an exponent
 /// only below 1e-5 and from 1e15 on. "nan", "inf" or "-inf" if `value` is not finite.

@@ -76,7 +76,8 @@ std::unique_ptr<BagRecording> follow_messages(const LiveInput& input, LogFormat 
 std::unique_ptr<BagRecording> receive_messages(const LiveInput& input, const LogOptions& options,
                                                const LiveControl& control) {
   const auto link = input.ros2_link ? input.ros2_link : open_ros2_link(input.ros2);
-  const Ros2Reading reading{height_slice(options).has_value(), input.record, input.idle_s};
+  const Ros2Reading reading{height_slice(options).has_value(), input.record, input.replaces_record,
+                            input.idle_s};
   return std::make_unique<BagRecording>(BagRecording{name_of(input), link->messages(reading, control),
                                                      [link](const BagPlan& plan) { link->set_plan(plan); }});
 }

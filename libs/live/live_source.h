@@ -36,6 +36,7 @@ struct LiveInput {
   double look_over_s = kUsualLookOver_s;
   Ros2Options ros2;                     ///< kRos2: name of the node, domain and topics
   std::string record;                   ///< kRos2: MCAP file that is written of all messages; empty: none
+  bool replaces_record = false;         ///< kRos2: whether `record` may replace a file
   std::shared_ptr<Ros2Link> ros2_link;  ///< kRos2: an open node; empty: open_live() opens one
 };
 

@@ -27,6 +27,9 @@ class COccupancyGridMap2D;
 
 namespace psi_slam {
 
+/// Largest number of a domain. The ports of larger ones would exceed 65535.
+inline constexpr std::uint32_t kMaximumRos2Domain = 232;
+
 /// Name and place of a node in ROS 2.
 struct Ros2Options {
   std::optional<std::uint32_t> domain;  ///< empty: ROS_DOMAIN_ID, or 0
@@ -39,9 +42,9 @@ struct Ros2Options {
 
 /// What is received from the robot.
 struct Ros2Reading {
-  bool reads_clouds = false;  ///< whether point clouds are read, which are large
-  std::filesystem::path
-      record;  ///< MCAP file that is written of all received messages and must not exist; empty: none
+  bool reads_clouds = false;     ///< whether point clouds are read, which are large
+  std::filesystem::path record;  ///< MCAP file that is written of all received messages; empty: none
+  bool replaces_record = false;  ///< whether an existing file may be replaced
   std::optional<double> idle_s;  ///< ends the messages after this time without one; empty: never
 };
 

@@ -4,6 +4,7 @@
 
 #include <dds/dds.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -15,6 +16,13 @@ using DdsQos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
 inline DdsQos make_dds_qos() {
   return {dds_create_qos(), dds_delete_qos};
+}
+
+/// Lets readers that come later get the last `depth` messages of a writer.
+inline void latch(dds_qos_t* qos, std::int32_t depth) {
+  dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+  dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED,
+                              DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
 }
 
 /// Returns the entity. Throws UserError if it could not be made. `what` names it: "the topic /scan".

@@ -5,19 +5,18 @@
 #include <sstream>
 
 #include "base/number_text.h"
+#include "live/ros2_link.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr std::uint32_t kMostDomain = 232;  // above, the ports of DDS exceed 65535
-
 std::uint32_t domain_of(const std::string& text) {
-  const std::optional<double> value = parse_number(text);
-  if (!value || *value < 0 || *value > kMostDomain || *value != static_cast<std::uint32_t>(*value))
+  const auto domain = parse_whole_number(text, kMaximumRos2Domain);
+  if (!domain)
     throw UserError("ROS_DOMAIN_ID=" + text + ": expected a whole number from 0 to " +
-                    std::to_string(kMostDomain));
-  return static_cast<std::uint32_t>(*value);
+                    std::to_string(kMaximumRos2Domain));
+  return *domain;
 }
 
 enum class Range { kSubnet, kLocalhost, kOff };
@@ -66,7 +65,7 @@ DdsNetwork dds_network(std::optional<std::uint32_t> domain, const Environment& e
     peers += "<Peer address=\"127.0.0.1\"/>";
   }
   // Without multicast, participants are found by their ports, which follow from their indices. Each asks
-  // often, because one that starts later does not hear the others.
+  // often, because one that starts later does not get what was sent before.
   const bool has_multicast = range == Range::kSubnet;
   if (!has_multicast) general += "<AllowMulticast>false</AllowMulticast>";
   const std::string index =

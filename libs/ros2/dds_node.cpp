@@ -123,11 +123,7 @@ dds_entity_t DdsNode::writer_of(const std::string& topic, const dds_topic_descri
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, quality.depth);
   dds_qset_writer_data_lifecycle(qos.get(), false);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-  if (quality.is_latched) {
-    dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, quality.depth, DDS_LENGTH_UNLIMITED,
-                                DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
-  }
+  if (quality.is_latched) latch(qos.get(), quality.depth);
   const dds_entity_t writer = checked_dds(
       dds_create_writer(participant_, topic_of(topic, type), qos.get(), nullptr), "the topic " + topic);
   announcement_->add_writer(writer);

@@ -34,6 +34,10 @@ TimeUs system_us() {
       .count();
 }
 
+BagTopic topic_of(const RosPublisher& publisher) {
+  return {publisher.topic, publisher.type, BagEncoding::kCdr, 0};
+}
+
 bool is_static(const std::string& topic) {
   return has_word(topic, "static");
 }
@@ -59,7 +63,8 @@ NetworkBag::NetworkBag(std::shared_ptr<const void> owner, DdsNode& node, const R
       watch_({[this] { return describe_network(); }, [this](std::uint64_t id) { return node_.node_of(id); }},
              "map", control.notify),
       last_message_s_(steady_s()) {
-  if (!reading_.record.empty()) recorder_ = std::make_unique<McapWriter>(reading_.record);
+  if (!reading_.record.empty())
+    recorder_ = std::make_unique<McapWriter>(reading_.record, reading_.replaces_record);
 }
 
 std::vector<BagTopic> NetworkBag::topics() {
@@ -81,7 +86,7 @@ bool NetworkBag::is_of_robot(const RosPublisher& publisher) const {
   const std::string& type = publisher.type;
   if (type == "rosgraph_msgs/Clock") return publisher.topic == kClockTopic;
   const bool is_scan =
-      type == kRosLaserScan || type == kRosMultiEchoScan || (type == kRosPointCloud && reading_.reads_clouds);
+      has_scans(topic_of(publisher), false) || (type == kRosPointCloud && reading_.reads_clouds);
   const char* const name = is_scan                      ? "scan"
                            : type == kRosOdometry       ? "odom"
                            : type == kRosImu            ? "imu"
@@ -101,8 +106,7 @@ bool NetworkBag::is_of_robot(const RosPublisher& publisher) const {
 
 /// Returns whether the topic is read or recorded, or states the time.
 bool NetworkBag::is_needed(const RosPublisher& publisher) const {
-  return recorder_ || publisher.topic == kClockTopic ||
-         is_wanted({publisher.topic, publisher.type, BagEncoding::kCdr, 0});
+  return recorder_ || publisher.topic == kClockTopic || is_wanted(topic_of(publisher));
 }
 
 void NetworkBag::subscribe_to_new_topics() {
@@ -123,14 +127,13 @@ void NetworkBag::subscribe(const RosPublisher& publisher) {
   }
 }
 
-bool NetworkBag::take_clock(const RosSample& sample) {
-  if (sample.topic.name != kClockTopic) return false;
+/// Takes the time of a message on /clock.
+void NetworkBag::take_clock(const RosSample& sample) {
   try {
     clock_.simulated_us = read_ros_clock({&sample.topic, 0, sample.bytes});
   } catch (const MalformedBytes&) {
-    return true;
+    // The next message states the time.
   }
-  return true;
 }
 
 /// Waits for messages. Returns false at the end.
@@ -178,7 +181,8 @@ bool NetworkBag::next(BagMessage& message) {
   while (receive()) {
     current_ = std::move(waiting_.front());
     waiting_.pop_front();
-    const bool is_clock = take_clock(current_);
+    const bool is_clock = current_.topic.name == kClockTopic;
+    if (is_clock) take_clock(current_);
     message = {&current_.topic, clock_.now_us(), current_.bytes};
     const bool is_scan = has_scans(current_.topic, reading_.reads_clouds);
     if (!is_clock)
@@ -200,7 +204,7 @@ std::string NetworkBag::describe_network() const {
   std::set<std::string> scans;
   std::set<std::string> others;
   for (const RosPublisher& publisher : node_.publishers())
-    (is_any_scan({publisher.topic, publisher.type, BagEncoding::kCdr, 0}) ? scans : others)
+    (is_any_scan(topic_of(publisher)) ? scans : others)
         .insert(publisher.topic + (publisher.type.empty() ? "" : " (" + publisher.type + ")"));
   if (!scans.empty()) {
     const std::vector<std::string> names(scans.begin(), scans.end());

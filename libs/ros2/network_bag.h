@@ -53,7 +53,7 @@ class NetworkBag : public BagFile {
   bool is_of_robot(const RosPublisher& publisher) const;
   bool is_needed(const RosPublisher& publisher) const;
   bool receive();
-  bool take_clock(const RosSample& sample);
+  void take_clock(const RosSample& sample);
   void record(const BagMessage& message);
   void end_recording();
   std::string describe_network() const;

@@ -76,7 +76,7 @@ class NetworkWatch {
   std::optional<Source> scan_;       ///< newest scan
   std::optional<Source> odometry_;
   std::map<std::string, Source> scans_;             ///< newest scan of each topic
-  std::map<std::uint64_t, Span> odometry_heard_s_;  ///< when each publisher of odometry was heard
+  std::map<std::uint64_t, Span> odometry_heard_s_;  ///< when each publisher of odometry sent
   std::set<std::string> present_;                   ///< faults that were reported and have not ended
   int clock_differs_ = 0;  ///< number of scans in succession whose stamps differ from the clock
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,9 +33,7 @@ dds_topic_descriptor_t type_with_24_bytes() {
 DdsQos quality() {
   DdsQos qos = make_dds_qos();
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
-  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-  dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, 1, DDS_LENGTH_UNLIMITED,
-                              DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+  latch(qos.get(), 1);
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
   dds_qset_writer_data_lifecycle(qos.get(), false);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
@@ -64,7 +63,7 @@ std::vector<Gid> gids_of(const std::set<dds_entity_t>& entities) {
 }
 
 /// Whether an announcement was read with the layout in which it was written. A message with 16 bytes that is
-/// read with 24 has numbers behind them, not zeros.
+/// read with 24 has numbers after them, not zeros.
 bool has_this_layout(const Info16&) {
   return true;
 }
@@ -123,18 +122,15 @@ std::string NodeAnnouncement::node_of(std::uint64_t writer_id) const {
 void NodeAnnouncement::work() {
   std::unique_lock lock(mutex_);
   for (int period = 0; !stop_; ++period) {
-    hear<Info16>(readers_of_others_[0]);
-    hear<Info24>(readers_of_others_[1]);
+    take<Info16>(readers_of_others_[0]);
+    take<Info24>(readers_of_others_[1]);
     if (has_news_ && period >= kPeriodsToListen) {
       has_news_ = false;
       dds_entity_t& writer = announcers_[others_use_24_bytes_ ? 1 : 0];
       if (writer == 0)
         writer = dds_create_writer(participant_, topic(participant_, others_use_24_bytes_), quality().get(),
                                    nullptr);
-      if (others_use_24_bytes_)
-        announce<Info24, rmw_dds_common_msg_dds__NodeEntitiesInfo24_, rmw_dds_common_msg_dds__Gid24_>(writer);
-      else
-        announce<Info16, rmw_dds_common_msg_dds__NodeEntitiesInfo_, rmw_dds_common_msg_dds__Gid_>(writer);
+      others_use_24_bytes_ ? announce<Info24>(writer) : announce<Info16>(writer);
     }
     changed_.wait_for(lock, kPeriod, [this] { return stop_; });
   }
@@ -142,7 +138,7 @@ void NodeAnnouncement::work() {
 
 /// Takes the announcements of other nodes.
 template <class Info>
-void NodeAnnouncement::hear(dds_entity_t reader) {
+void NodeAnnouncement::take(dds_entity_t reader) {
   void* sample = nullptr;
   dds_sample_info_t state;
   while (dds_take(reader, &sample, &state, 1, 1) == 1) {
@@ -166,8 +162,11 @@ void NodeAnnouncement::hear(dds_entity_t reader) {
   }
 }
 
-template <class Info, class Node, class Gid>
+template <class Info>
 void NodeAnnouncement::announce(dds_entity_t writer) const {
+  Info info{};
+  using Gid = decltype(info.gid);
+  using Node = std::remove_reference_t<decltype(*info.node_entities_info_seq._buffer)>;
   std::vector<Gid> readers = gids_of<Gid>(readers_);
   std::vector<Gid> writers = gids_of<Gid>(writers_);
   std::vector<Node> nodes(1);
@@ -175,7 +174,6 @@ void NodeAnnouncement::announce(dds_entity_t writer) const {
   nodes[0].node_name = dds_text(name_);
   show(nodes[0].reader_gid_seq, readers);
   show(nodes[0].writer_gid_seq, writers);
-  Info info{};
   info.gid = gid_of<Gid>(participant_);
   show(info.node_entities_info_seq, nodes);
   dds_write(writer, &info);

@@ -15,11 +15,12 @@
 
 namespace psi_slam {
 
-/// Number that stands for a reader or writer in this process, made of its GUID.
+/// Number of a reader or writer in this process, made of its GUID.
 std::uint64_t id_of_guid(const dds_guid_t& guid);
 
 /// Announces a node from a thread of its own. Iron and later use 16 bytes for each identifier, Humble and
-/// earlier 24 bytes, under the same type name. The node follows other nodes, and uses 16 until it hears one.
+/// earlier 24 bytes, under the same type name. The node follows other nodes, and uses 16 until one announces
+/// itself.
 class NodeAnnouncement {
  public:
   NodeAnnouncement(dds_entity_t participant, std::string name, std::string name_space);
@@ -37,8 +38,8 @@ class NodeAnnouncement {
  private:
   void work();
   template <class Info>
-  void hear(dds_entity_t reader);
-  template <class Info, class Node, class Gid>
+  void take(dds_entity_t reader);
+  template <class Info>
   void announce(dds_entity_t writer) const;
 
   dds_entity_t participant_;

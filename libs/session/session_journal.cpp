@@ -9,22 +9,28 @@
 #include <utility>
 
 #include "base/atomic_file.h"
-#include "base/partial_files.h"
 #include "base/thread_priority.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
 
+namespace {
+
+/// Creates the file of a journal with its first chunk.
+FileTail begun_journal(const std::filesystem::path& path, const std::string& first_chunk) {
+  AtomicFile file(path);
+  file.write(first_chunk);
+  return {path, file.move_into_place(), first_chunk.size()};
+}
+
+}  // namespace
+
 SessionJournal::SessionJournal(std::filesystem::path path, const SessionFacts& facts,
                                const std::vector<Frame>& frames, double period_s)
-    : path_(std::move(path)), period_(period_s) {
-  AtomicFile file(path_);
-  const std::string first = chunks_.next(facts, frames);
-  file.write(first);
-  file_ = file.move_into_place();
-  written_ = first.size();
-  thread_ = std::thread([this] { work(); });
-}
+    : path_(std::move(path)),
+      period_(period_s),
+      tail_(begun_journal(path_, chunks_.next(facts, frames))),
+      thread_([this] { work(); }) {}
 
 SessionJournal::~SessionJournal() {
   end();
@@ -49,7 +55,7 @@ void SessionJournal::remove() {
   end();
   struct stat mine {};
   struct stat named {};
-  const bool is_mine = ::fstat(file_.number(), &mine) == 0 && ::stat(path_.c_str(), &named) == 0 &&
+  const bool is_mine = ::fstat(tail_.file().number(), &mine) == 0 && ::stat(path_.c_str(), &named) == 0 &&
                        mine.st_dev == named.st_dev && mine.st_ino == named.st_ino;
   if (is_mine && ::unlink(path_.c_str()) != 0)
     throw SystemFailure("cannot delete " + path_.string() + ": " + std::strerror(errno));
@@ -84,9 +90,9 @@ void SessionJournal::work() {
     std::optional<std::string> failure;
     bool is_packed = false;
     try {
-      if (facts) unwritten_ += chunks_.next(*std::move(facts), frames);
+      if (facts) tail_.append(chunks_.next(*std::move(facts), frames));
       is_packed = true;
-      write_unwritten();
+      tail_.write();
     } catch (const std::exception& error) {
       failure = error.what();
     }
@@ -94,21 +100,6 @@ void SessionJournal::work() {
     failure_ = std::move(failure);
     if (!is_packed) is_last = stop_ = true;  // later chunks need this one
   }
-}
-
-/// Writes the bytes that follow those of the disk. After a failure it begins with the same byte again,
-/// because the system may have dropped bytes that it accepted before.
-void SessionJournal::write_unwritten() {
-  for (std::size_t done = 0; done < unwritten_.size();) {
-    const ssize_t count = ::pwrite(file_.number(), unwritten_.data() + done, unwritten_.size() - done,
-                                   static_cast<off_t>(written_ + done));
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) throw cannot_write(path_, count < 0 ? errno : ENOSPC);
-    done += static_cast<std::size_t>(count);
-  }
-  if (::fdatasync(file_.number()) != 0 && errno != EINVAL) throw cannot_write(path_, errno);
-  written_ += unwritten_.size();
-  unwritten_.clear();
 }
 
 }  // namespace psi_slam

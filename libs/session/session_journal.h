@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/descriptor.h"
+#include "base/file_tail.h"
 #include "session/journal_chunks.h"
 #include "session/session_recording.h"
 
@@ -56,15 +56,12 @@ class SessionJournal {
   using Clock = std::chrono::steady_clock;
 
   void work();
-  void write_unwritten();
   void end();
 
   const std::filesystem::path path_;
   const std::chrono::duration<double> period_;
-  Descriptor file_;
   JournalChunks chunks_;
-  std::size_t written_ = 0;  ///< bytes of the file that the disk has
-  std::string unwritten_;    ///< bytes that follow them
+  FileTail tail_;
 
   mutable std::mutex mutex_;  ///< protects the members below
   std::condition_variable changed_;

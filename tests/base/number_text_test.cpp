@@ -29,6 +29,13 @@ TEST(NumberText, the_shortest_text_of_a_float_reads_back_as_that_float) {
   EXPECT_EQ(std::stof(shortest_text(1.0F / 3.0F)), 1.0F / 3.0F);
 }
 
+TEST(NumberText, whole_numbers_lie_in_their_range) {
+  EXPECT_EQ(parse_whole_number("0", 232), 0U);
+  EXPECT_EQ(parse_whole_number("232", 232), 232U);
+  for (const char* const text : {"233", "-1", "1.5", "", "x", "1e30", "nan"})
+    EXPECT_FALSE(parse_whole_number(text, 232)) << text;
+}
+
 TEST(NumberText, does_not_depend_on_the_locale) {
   const char* german = std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
   if (german == nullptr) GTEST_SKIP() << "this system has no German locale";

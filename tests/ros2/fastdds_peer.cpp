@@ -349,36 +349,32 @@ class Listener {
     const std::size_t colon = type_and_quality.find(':');
     const std::string type = type_and_quality.substr(0, colon);
     const bool is_latched = colon != std::string::npos;
-    if (type == "String")
-      add<std_msgs::msg::dds_::String_, std_msgs::msg::dds_::String_PubSubType>(topic, is_latched);
-    if (type == "Clock")
-      add<rosgraph_msgs::msg::dds_::Clock_, rosgraph_msgs::msg::dds_::Clock_PubSubType>(topic, is_latched);
-    if (type == "LaserScan")
-      add<sensor_msgs::msg::dds_::LaserScan_, sensor_msgs::msg::dds_::LaserScan_PubSubType>(topic,
-                                                                                            is_latched);
-    if (type == "TFMessage")
-      add<tf2_msgs::msg::dds_::TFMessage_, tf2_msgs::msg::dds_::TFMessage_PubSubType>(topic, is_latched);
-    if (type == "Odometry")
-      add<nav_msgs::msg::dds_::Odometry_, nav_msgs::msg::dds_::Odometry_PubSubType>(topic, is_latched);
-    if (type == "OccupancyGrid")
-      add<nav_msgs::msg::dds_::OccupancyGrid_, nav_msgs::msg::dds_::OccupancyGrid_PubSubType>(topic,
-                                                                                              is_latched);
-    if (type == "MapMetaData")
-      add<nav_msgs::msg::dds_::MapMetaData_, nav_msgs::msg::dds_::MapMetaData_PubSubType>(topic, is_latched);
-    if (type == "PoseWithCovarianceStamped")
-      add<geometry_msgs::msg::dds_::PoseWithCovarianceStamped_,
-          geometry_msgs::msg::dds_::PoseWithCovarianceStamped_PubSubType>(topic, is_latched);
-    if (type == "Path")
-      add<nav_msgs::msg::dds_::Path_, nav_msgs::msg::dds_::Path_PubSubType>(topic, is_latched);
-    if (type == "MarkerArray")
-      add<visualization_msgs::msg::dds_::MarkerArray_, visualization_msgs::msg::dds_::MarkerArray_PubSubType>(
-          topic, is_latched);
-    if (type == "DiagnosticArray")
-      add<diagnostic_msgs::msg::dds_::DiagnosticArray_,
-          diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType>(topic, is_latched);
-    if (type == "ParticipantEntitiesInfo")
-      add<rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_,
-          rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_PubSubType>(topic, is_latched);
+    static const std::map<std::string, void (Listener::*)(const std::string&, bool)> add_of_type{
+        {"String", &Listener::add<std_msgs::msg::dds_::String_, std_msgs::msg::dds_::String_PubSubType>},
+        {"Clock",
+         &Listener::add<rosgraph_msgs::msg::dds_::Clock_, rosgraph_msgs::msg::dds_::Clock_PubSubType>},
+        {"LaserScan",
+         &Listener::add<sensor_msgs::msg::dds_::LaserScan_, sensor_msgs::msg::dds_::LaserScan_PubSubType>},
+        {"TFMessage",
+         &Listener::add<tf2_msgs::msg::dds_::TFMessage_, tf2_msgs::msg::dds_::TFMessage_PubSubType>},
+        {"Odometry",
+         &Listener::add<nav_msgs::msg::dds_::Odometry_, nav_msgs::msg::dds_::Odometry_PubSubType>},
+        {"OccupancyGrid",
+         &Listener::add<nav_msgs::msg::dds_::OccupancyGrid_, nav_msgs::msg::dds_::OccupancyGrid_PubSubType>},
+        {"MapMetaData",
+         &Listener::add<nav_msgs::msg::dds_::MapMetaData_, nav_msgs::msg::dds_::MapMetaData_PubSubType>},
+        {"PoseWithCovarianceStamped",
+         &Listener::add<geometry_msgs::msg::dds_::PoseWithCovarianceStamped_,
+                        geometry_msgs::msg::dds_::PoseWithCovarianceStamped_PubSubType>},
+        {"Path", &Listener::add<nav_msgs::msg::dds_::Path_, nav_msgs::msg::dds_::Path_PubSubType>},
+        {"MarkerArray", &Listener::add<visualization_msgs::msg::dds_::MarkerArray_,
+                                       visualization_msgs::msg::dds_::MarkerArray_PubSubType>},
+        {"DiagnosticArray", &Listener::add<diagnostic_msgs::msg::dds_::DiagnosticArray_,
+                                           diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType>},
+        {"ParticipantEntitiesInfo",
+         &Listener::add<rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_,
+                        rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_PubSubType>}};
+    (this->*add_of_type.at(type))(topic, is_latched);
   }
 
   void print_for(double time_s) {

@@ -18,8 +18,6 @@ class LoopbackDomain {
     unsetenv("CYCLONEDDS_URI");
   }
 
-  int number() const { return number_; }
-
  private:
   // Tests of ROS 2 do not run at the same time, but an earlier process may not have left the network yet.
   // Ports of domains above 101 are in the range that Linux gives to other sockets.

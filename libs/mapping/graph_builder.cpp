@@ -6,6 +6,7 @@
 
 #include "base/portable_math.h"
 #include "logs/frames/pose_operations.h"
+#include "mapping/loop_closure/superseded_maps.h"
 #include "mapping/unplaced_runs.h"
 #include "pose_graph/information_matrix.h"
 #include "pose_graph/placed_covariances.h"
@@ -62,6 +63,7 @@ BackEndStep GraphBuilder::add(const TrackedFrame& tracked) {
     add_node(tracked);
     for (const PlacedLocalMap& finished : tracked.step.finished) remember(finished);
     if (options_.close_loops) close_loops(*done.node, done);
+    if (!tracked.step.finished.empty()) done.superseded = drop_superseded();
     follow_graph();
     if (options_.estimates_covariance) done.covariance = newest_covariance();
   }
@@ -102,6 +104,13 @@ void GraphBuilder::close_loops(std::size_t node, BackEndStep& done) {
   const std::optional<double> ms = back_end_.optimize_if_due(graph_, solver_);
   done.pose_graph_ms = ms.value_or(0);
   if (ms || !done.joined.empty()) done.map_T_node = graph_.poses();
+}
+
+// Drops the local maps that later passes supersede. Returns the nodes whose scans are not kept.
+std::vector<std::size_t> GraphBuilder::drop_superseded() {
+  return drop_local_maps(
+      superseded_maps(keyframes_, graph_, options_.back_end.loop_closure.candidates.min_travel_m),
+      keyframes_);
 }
 
 // Places the unplaced runs that new loops join to the map.

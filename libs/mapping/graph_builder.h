@@ -48,6 +48,7 @@ struct BackEndStep {
   /// Covariance of the node, with the loops of the frame, if MapperOptions::estimates_covariance.
   std::optional<NodeCovariance> covariance;
   std::vector<std::size_t> joined;  ///< interruptions whose runs the loops of this frame joined to the map
+  std::vector<std::size_t> superseded;  ///< nodes whose scans later passes supersede, see superseded_maps.h
 };
 
 class GraphBuilder {
@@ -115,6 +116,7 @@ class GraphBuilder {
   void join_run();
   void close_loops(std::size_t node, BackEndStep& done);
   std::vector<std::size_t> place_joined_runs(std::size_t first_constraint);
+  std::vector<std::size_t> drop_superseded();
   void follow_graph();
   std::optional<NodeCovariance> newest_covariance();
 

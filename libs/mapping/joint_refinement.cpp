@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "logs/frames/pose_operations.h"
@@ -55,7 +56,7 @@ class Round {
     for (const std::size_t other : index_.within(position(here), static_cast<float>(options_.reach_m))) {
       const TPose2D& there = map_T_node_[other];
       const double turn = std::abs(mrpt::math::wrapToPi(there.phi - here.phi));
-      if (other == node || turn > options_.max_turn_rad) continue;
+      if (other == node || turn > options_.max_turn_rad || seen_[other].points.empty()) continue;
       near.emplace_back(distance_m(here, there) + turn / kRadiansPerMetre, other);
     }
     std::sort(near.begin(), near.end());
@@ -92,12 +93,14 @@ void refine_jointly(RefinedScans& scans, const JointRefinementOptions& options, 
     const Round round(poses_of(scans.map_T_frame, nodes), seen, options);
     std::vector<TPose2D> refined = scans.map_T_frame;
     const auto refine_stretch = [&](std::size_t node) {
-      const SurfaceMap surfaces = round.surfaces_near(node);
+      std::optional<SurfaceMap> surfaces;
       const std::size_t end = node + 1 < nodes.size() ? nodes[node + 1] : refined.size();
       for (std::size_t frame = node == 0 ? 0 : nodes[node]; frame < end; ++frame) {
         const SurfacePoints scan = frame == nodes[node] ? seen[node] : surface_points(scans.points(frame));
+        if (scan.points.empty()) continue;
+        if (!surfaces) surfaces = round.surfaces_near(node);
         refined[frame] =
-            align_to_surfaces(surfaces, scan, scans.map_T_frame[frame], held_at[frame], options.alignment)
+            align_to_surfaces(*surfaces, scan, scans.map_T_frame[frame], held_at[frame], options.alignment)
                 .map_T_robot;
       }
     };

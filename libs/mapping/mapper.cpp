@@ -137,6 +137,7 @@ void Mapper::Implementation::complete_record(BackEndStep&& done) {
   for (const std::size_t interruption : done.joined)
     result_.interruptions[interruption].found_frame = done.frame;
   if (!done.node) return;
+  discard_superseded(done.superseded);
   // While add() runs ahead, it applies all corrections together, so this one replaces those before.
   if (runs_ahead() && !done.map_T_node.empty()) corrections_.clear();
   corrections_.push_back({*done.node, done.map_T_local, std::move(done.map_T_node), done.covariance});
@@ -154,6 +155,16 @@ void Mapper::Implementation::complete_record(BackEndStep&& done) {
   record.loop_closing_ms = loops.milliseconds;
   for (const auto& [matcher, effort] : loops.effort_of) result_.loop_matchers[matcher].effort += effort;
   record.pose_graph_ms = done.pose_graph_ms;
+}
+
+// Discards the ranges of superseded nodes, and of the scans between each of them and the next node.
+void Mapper::Implementation::discard_superseded(const std::vector<std::size_t>& nodes) {
+  for (const std::size_t node : nodes)
+    for (std::size_t frame = result_.node_frames[node]; frame < result_.node_frames[node + 1]; ++frame) {
+      if (!has_ranges(result_.log[frame])) continue;
+      if (superseded_observer_) superseded_observer_(frame, result_.log[frame]);
+      discard_ranges(result_.log[frame]);
+    }
 }
 
 // Applies the corrections by the nodes before `end_node`. Newer nodes follow the pose of the front end's
@@ -288,16 +299,18 @@ void Mapper::Implementation::refine_poses(FinalProgress& progress) {
   scans.points = [&](std::size_t frame) {
     const std::optional<std::size_t>& node = result_.frames[frame].node;
     // Without odometry, the log may hold scans that were straightened with the motion after them.
-    return node && result_.log[frame].has_odometry
+    return node && result_.log[frame].has_odometry && !is_superseded(*node)
                ? *keyframes().nodes[*node].points
                : matching_points(result_.log[frame], options_.front_end.scan);
   };
   builder_.refine(scans, progress);
+  std::size_t node = 0;
   for (std::size_t i = 0; i < result_.frames.size(); ++i) {
     FrameRecord& frame = result_.frames[i];
+    node = frame.node.value_or(node);
     frame.map_T_robot = scans.map_T_frame[i];
-    // A scan whose ranges were discarded follows the scan before it, which was refined.
-    if (i > 0 && frame.match == ScanMatch::kMatched && !has_ranges(result_.log[i])) {
+    // A scan that repeats what the standing robot saw follows the scan before it, which was refined.
+    if (i > 0 && frame.match == ScanMatch::kMatched && !has_ranges(result_.log[i]) && !is_superseded(node)) {
       const FrameRecord& before = result_.frames[i - 1];
       frame.map_T_robot =
           compose(before.map_T_robot, between(before.front_end_T_robot, frame.front_end_T_robot));
@@ -385,6 +398,9 @@ Mapper& Mapper::operator=(Mapper&& other) noexcept = default;
 
 void Mapper::set_pose_observer(PoseObserver observer) {
   implementation_->set_pose_observer(std::move(observer));
+}
+void Mapper::set_superseded_observer(ScanObserver observer) {
+  implementation_->set_superseded_observer(std::move(observer));
 }
 const FrameRecord& Mapper::add(Frame frame) {
   return implementation_->add(std::move(frame));

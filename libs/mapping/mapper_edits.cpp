@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "mapping/loop_closure/superseded_maps.h"
 #include "mapping/mapper_implementation.h"
 #include "mapping/scan_place.h"
 
@@ -51,6 +52,10 @@ LoopEditOutcome Mapper::Implementation::judge(const LoopEdit& edit,
   const PlacedLocalMap& local_map = keyframes().local_maps[edit.local_map];
   if (*node >= local_map.first_node && *node <= local_map.last_node)
     return {State::kImpossible, scan + " is part of " + map};
+  if (edit.kind == LoopEdit::Kind::kMatch && (local_map.is_superseded || is_superseded(*node)))
+    return {State::kImpossible, (local_map.is_superseded ? map : scan) +
+                                    " is superseded: the robot passed there " + std::to_string(kLaterPasses) +
+                                    " times later"};
   return {};
 }
 

@@ -21,6 +21,7 @@ class Mapper::Implementation {
   explicit Implementation(const MapperOptions& options);
 
   void set_pose_observer(PoseObserver observer) { pose_observer_ = std::move(observer); }
+  void set_superseded_observer(ScanObserver observer) { superseded_observer_ = std::move(observer); }
   void run_ahead(std::optional<std::size_t> nodes) { run_ahead_nodes_ = nodes; }
   const FrameRecord& add(Frame frame);
   void begin_run(const RunStart& start);
@@ -66,11 +67,13 @@ class Mapper::Implementation {
   void draw(FrontEndStep& step);
   std::exception_ptr give_pose();
   void record_local_map(const PlacedLocalMap& finished);
+  bool is_superseded(std::size_t node) const { return !keyframes().nodes[node].points; }
   bool runs_ahead() const { return run_ahead_nodes_ && !pose_observer_; }
   std::size_t latency_nodes() const { return runs_ahead() ? *run_ahead_nodes_ : options_.latency_nodes; }
   void take_due_results();
   void take_results(std::size_t end);
   void complete_record(BackEndStep&& done);
+  void discard_superseded(const std::vector<std::size_t>& nodes);
   void apply_corrections(std::size_t end_node);
   void catch_up();
   void begin_run();
@@ -111,6 +114,7 @@ class Mapper::Implementation {
   std::deque<std::size_t> repeated_;  ///< scans that lose their ranges if the robot stands a little longer
   MappingResult result_;
   PoseObserver pose_observer_;
+  ScanObserver superseded_observer_;
   StageClock tracking_clock_{"match scan"};
   StageClock drawing_clock_{"draw scan"};
 };

@@ -24,7 +24,8 @@ struct Extent {
 };
 
 void include(std::size_t node, const KeyframeStore& keyframes, const PoseGraph& graph, Extent& extent) {
-  const double reach_m = std::min(keyframes.nodes[node].points->farthest_m, kFarthestPoint_m);
+  const auto& points = keyframes.nodes[node].points;
+  const double reach_m = points ? std::min(points->farthest_m, kFarthestPoint_m) : 0;
   extent.x_min = std::min(extent.x_min, graph.pose(node).x - reach_m);
   extent.x_max = std::max(extent.x_max, graph.pose(node).x + reach_m);
   extent.y_min = std::min(extent.y_min, graph.pose(node).y - reach_m);

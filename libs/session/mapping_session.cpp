@@ -76,6 +76,8 @@ MappingSession::MappingSession(const SessionInput& input, const Settings& settin
   if (m_->prior && m_->recording) m_->prior->compare_with(m_->recording->facts);
   m_->read_from(open_input(input, settings));
   m_->mapper = std::make_unique<Mapper>(options_for(input, settings));
+  m_->mapper->set_superseded_observer(
+      [members = m_.get()](std::size_t scan, const Frame& frame) { members->keep_superseded(scan, frame); });
   m_->make_due_edits({});
   if (m_->recording) m_->later_runs = m_->recording->facts.runs;
 }
@@ -158,6 +160,13 @@ void MappingSession::Members::keep_bent(const Frame& frame) {
     kept = is_discarded ? bent.erase(kept) : std::next(kept);
   }
   most_bent = 1000 + 2 * bent.size();
+}
+
+/// Keeps a scan that the mapper discards, as the log states it.
+void MappingSession::Members::keep_superseded(std::size_t scan, const Frame& frame) {
+  const auto stated = bent.find(scan);
+  superseded.add(scan, stated == bent.end() ? frame : stated->second);
+  if (stated != bent.end()) bent.erase(stated);
 }
 
 /// Checks each log of a finished map, unless the same scans were checked before.

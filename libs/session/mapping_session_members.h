@@ -21,6 +21,7 @@
 #include "session/session_prior.h"
 #include "session/session_recording.h"
 #include "session/settings.h"
+#include "session/superseded_scans.h"
 
 namespace psi_slam {
 
@@ -38,6 +39,7 @@ struct MappingSession::Members {
   void read_from(OpenedInput opened);
   std::optional<Frame> read();
   void keep_bent(const Frame& frame);
+  void keep_superseded(std::size_t scan, const Frame& frame);
   const std::vector<Frame>& recorded_frames(std::vector<Frame>& room) const;
   void check_log();
   void check_knowledge(const EditJournal& further) const;
@@ -67,6 +69,7 @@ struct MappingSession::Members {
   /// Frames without odometry as the log states them, by their numbers: the mapper deskews its own copies.
   /// Frames whose ranges the mapper has discarded are removed after a while.
   std::map<std::size_t, Frame> bent;
+  SupersededScans superseded;
   std::size_t most_bent = 1000;    ///< size of `bent` at which discarded frames are removed
   std::unique_ptr<Mapper> mapper;  ///< null after finish() without stay_open()
   Mapper::AfterFinish after_finish = Mapper::AfterFinish::kNothing;

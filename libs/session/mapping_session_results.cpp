@@ -162,8 +162,9 @@ void MappingSession::export_to(const fs::path& folder, bool force) {
 const std::vector<Frame>& MappingSession::Members::recorded_frames(std::vector<Frame>& room) const {
   const std::vector<Frame>& mapped = mapped_log();
   if (recording && mapped.size() < recording->frames.size()) return recording->frames;
-  if (bent.empty()) return mapped;
+  if (bent.empty() && superseded.empty()) return mapped;
   room = mapped;
+  superseded.put_back(room);
   for (const auto& [number, frame] : bent)
     if (has_ranges(room.at(number))) room[number] = frame;
   return room;

@@ -82,6 +82,21 @@ TEST_F(ResumedSession, resuming_the_same_log_gives_the_same_bytes_on_any_number_
   }
 }
 
+TEST_F(ResumedSession, holds_the_scans_that_later_passes_supersede) {
+  const auto path = log("rounds.log", room_log_lines(1000));
+  MappingSession session(path, settings_);
+  session.run(go_on_);
+  const std::vector<Frame>& mapped = session.result().log;
+  ASSERT_FALSE(std::all_of(mapped.begin(), mapped.end(), has_ranges)) << "the robot makes ten rounds";
+  session.save(saved_);
+  const fs::path whole = export_of(session, "whole");
+  const SessionRecording recording = read_session_file(saved_);
+  EXPECT_TRUE(std::all_of(recording.frames.begin(), recording.frames.end(), has_ranges));
+  MappingSession again(resumed(), settings_);
+  again.run(go_on_);
+  expect_same_results(export_of(again, "again"), whole);
+}
+
 TEST_F(ResumedSession, gives_the_same_map_wherever_it_was_saved) {
   const auto path = log("room.log", room_log_lines(60));
   const fs::path whole = uninterrupted(path);

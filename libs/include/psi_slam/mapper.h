@@ -80,6 +80,13 @@ class Mapper {
   /// exception on after it has mapped the frame.
   void set_pose_observer(PoseObserver observer);
 
+  /// Gets the number of a scan and the scan.
+  using ScanObserver = std::function<void(std::size_t frame, const Frame& scan)>;
+  /// Sets an observer that gets each scan before the mapper discards its ranges because later passes
+  /// supersede it. add(), wait() and the functions that call wait() call the observer, which may call no
+  /// function of the mapper and must not throw.
+  void set_superseded_observer(ScanObserver observer);
+
   /// Lets add() run up to `nodes` nodes ahead of the back end, and corrects the map as soon as results
   /// arrive. So the poses of records before finish() depend on the speed of the threads; the finished map
   /// does not. An empty value restores MapperOptions::latency_nodes. Poses no longer depend on the speed
@@ -151,7 +158,8 @@ class Mapper {
   void wait() const;
   /// Pose graph so far.
   const PoseGraph& graph() const;
-  /// All frames so far, in the order in which they were added.
+  /// All frames so far, in the order in which they were added. Scans that repeat others at a standstill, and
+  /// those that later passes of the robot supersede, lack their ranges.
   const std::vector<Frame>& log() const;
   /// Records of all frames so far, in the same order as log().
   const std::vector<FrameRecord>& frames() const;

@@ -118,7 +118,9 @@ struct KnowledgeCounts {
 
 /// A finished map: scans, poses, graph and loops, with statistics of the mapping.
 struct MappingResult {
-  std::vector<Frame> log;  ///< all scans, in the order of `frames`; most lack their ranges at a standstill
+  /// All scans, in the order of `frames`. Most lack their ranges at a standstill, and all where later passes
+  /// of the robot supersede them.
+  std::vector<Frame> log;
   std::vector<FrameRecord> frames;  ///< one record for each scan, with its pose in the map
   /// Pose graph, optimised and then refined jointly with all scans. Optimising the graph again undoes the
   /// refinement. If poses or tags are known from outside, the nodes of the scans are followed by the frame of

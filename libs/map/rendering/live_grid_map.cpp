@@ -89,11 +89,15 @@ void LiveGridMap::draw_moved(const std::vector<Frame>& log, const Poses& map_T_r
     if (next_check_ >= drawn_.size()) next_check_ = 0;
     Drawn& drawn = drawn_[next_check_];
     const TPose2D pose = map_T_robot(next_check_);
+    if (drawn.is_drawn && drawn.has_ranges && !has_ranges(as_drawn(next_check_, log))) {
+      // The scan is superseded. It cannot be taken out of the map without its ranges.
+      drawn.has_ranges = false;
+      if (++superseded_ > drawn_.size() / 2) return start_again(resolution_m_);
+    }
     if (!drawn.is_drawn || !is_same_place(pose, drawn.map_T_robot, options_.moved)) {
       if (redrawn == options_.redrawn_scans || (redrawn > 0 && hurry && hurry())) return;
       ++redrawn;
       const Frame& frame = as_drawn(next_check_, log);
-      if (drawn.is_drawn && has_ranges(frame) != drawn.has_ranges) return start_again(resolution_m_);
       take_out(frame, drawn);
       draw(frame, pose, next_check_);
       unmoved_ = 0;
@@ -143,6 +147,7 @@ void LiveGridMap::start_again(double resolution_m) {
   tiles_ = GridTiles();
   for (Drawn& drawn : drawn_) drawn.is_drawn = false;
   missing_ = drawn_.size();
+  superseded_ = 0;
   next_check_ = 0;
   unmoved_ = 0;
 }

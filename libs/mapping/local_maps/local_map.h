@@ -150,7 +150,8 @@ struct PlacedLocalMap {
   /// Covariance of the robot's pose in this map while the map is active, along the map's axes: m^2, m rad,
   /// rad^2.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  std::shared_ptr<LocalMap> map;
+  std::shared_ptr<LocalMap> map;  ///< null if the local map is superseded
+  bool is_superseded = false;     ///< whether later passes see all that it shows, see superseded_maps.h
 };
 
 }  // namespace psi_slam

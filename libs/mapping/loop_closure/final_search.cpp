@@ -86,9 +86,10 @@ std::vector<Pair> pairs_near_each_other(
   std::vector<int> maps_near(keyframes.nodes.size());
   for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
     const PlacedLocalMap& local_map = keyframes.local_maps[m];
+    if (local_map.is_superseded) continue;
     const Box box(local_map, graph);
     for (std::size_t node = 0; node < keyframes.nodes.size(); ++node) {
-      if (!box.is_near(graph.pose(node), options.reach_m)) continue;
+      if (!keyframes.nodes[node].points || !box.is_near(graph.pose(node), options.reach_m)) continue;
       if (node >= local_map.first_node && node <= local_map.last_node) continue;
       if (!are_joined(node, local_map.first_node, keyframes) ||
           !is_near(node, local_map, graph, options.reach_m))

@@ -20,11 +20,11 @@
 namespace psi_slam {
 
 struct NodeScan {
-  std::size_t frame = 0;              ///< index of the scan in MappingResult::frames
-  mrpt::math::TPose2D local_T_robot;  ///< pose of the robot in the front end's frame
-  double travelled_m = 0;             ///< path length from the first node to this one
-  std::size_t segment = 0;            ///< first node of the path segment that holds this node
-  std::shared_ptr<const ScanPoints> points;
+  std::size_t frame = 0;                     ///< index of the scan in MappingResult::frames
+  mrpt::math::TPose2D local_T_robot;         ///< pose of the robot in the front end's frame
+  double travelled_m = 0;                    ///< path length from the first node to this one
+  std::size_t segment = 0;                   ///< first node of the path segment that holds this node
+  std::shared_ptr<const ScanPoints> points;  ///< null if all local maps with this scan are superseded
 };
 
 /// A run whose place in the map is unknown: the nodes [begin, end).

@@ -16,13 +16,18 @@ void LocalMapCache::use(const std::vector<std::size_t>& maps, WorkerPool& pool) 
   ++uses_;
   std::vector<std::size_t> packed;
   for (const std::size_t index : maps) {
-    if (index >= items_.size() || items_[index].last_use == uses_) continue;
+    if (index >= items_.size() || !items_[index].map || items_[index].last_use == uses_) continue;
     items_[index].last_use = uses_;
     if (items_[index].map->packed()) packed.push_back(index);
   }
   pool.run(packed.size(), [&](std::size_t i) { items_[packed[i]].map->unpack(); });
   unpacked_.insert(unpacked_.end(), packed.begin(), packed.end());
   pack_all_but_the_last_used();
+}
+
+void LocalMapCache::remove(std::size_t map) {
+  items_.at(map).map.reset();
+  unpacked_.erase(std::remove(unpacked_.begin(), unpacked_.end(), map), unpacked_.end());
 }
 
 void LocalMapCache::pack_all_but_the_last_used() {

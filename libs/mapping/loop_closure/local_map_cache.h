@@ -25,6 +25,9 @@ class LocalMapCache {
   /// unknown numbers. Any number of threads may read the given maps until the next call of add() or use().
   void use(const std::vector<std::size_t>& maps, WorkerPool& pool);
 
+  /// Frees a local map. Its number stays taken.
+  void remove(std::size_t map);
+
   std::size_t unpacked() const { return unpacked_.size(); }
 
  private:

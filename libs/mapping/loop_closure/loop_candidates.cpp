@@ -88,7 +88,7 @@ std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore
   std::vector<std::size_t> segments;
   for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
     const PlacedLocalMap& local_map = keyframes.local_maps[m];
-    if (!are_joined(node, local_map.first_node, keyframes)) continue;
+    if (local_map.is_superseded || !are_joined(node, local_map.first_node, keyframes)) continue;
     if (travel_between_m(node, local_map, keyframes) < options.min_travel_m) continue;
     const NearestNode nearest = nearest_node(local_map, map_T_node, keyframes, graph);
     if (nearest.distance_m > reach_m) continue;
@@ -122,11 +122,11 @@ std::vector<LoopCandidate> far_candidates(std::size_t node, const KeyframeStore&
   std::vector<std::size_t> segments;
   std::vector<double> distances_m;
   for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
-    if (!are_joined(node, keyframes.local_maps[m].first_node, keyframes)) continue;
-    const double travel_m = travel_between_m(node, keyframes.local_maps[m], keyframes);
-    if (travel_m < options.min_travel_m) continue;
+    const PlacedLocalMap& local_map = keyframes.local_maps[m];
+    if (local_map.is_superseded || !are_joined(node, local_map.first_node, keyframes)) continue;
+    if (travel_between_m(node, local_map, keyframes) < options.min_travel_m) continue;
     local_maps.push_back(m);
-    const NearestNode nearest = nearest_node(keyframes.local_maps[m], map_T_node, keyframes, graph);
+    const NearestNode nearest = nearest_node(local_map, map_T_node, keyframes, graph);
     segments.push_back(nearest.segment);
     distances_m.push_back(nearest.distance_m);
   }
@@ -148,7 +148,8 @@ std::vector<LoopCandidate> whole_map_candidates(std::size_t node, const Keyframe
                                                 const PoseGraph& graph, const LoopCandidateOptions& options) {
   std::vector<LoopCandidate> candidates;
   for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
-    if (is_unplaced(keyframes.local_maps[m].first_node, keyframes)) continue;
+    const PlacedLocalMap& local_map = keyframes.local_maps[m];
+    if (local_map.is_superseded || is_unplaced(local_map.first_node, keyframes)) continue;
     candidates.push_back(whole_local_map(m, graph.pose(node), keyframes, graph, options));
     candidates.back().extent.theta_rad = M_PI;
   }

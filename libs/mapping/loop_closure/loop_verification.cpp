@@ -28,6 +28,7 @@ LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeS
   LocalMap::Agreement sum;
   const NodeScan* last = nullptr;
   const auto add = [&](const NodeScan& there) {
+    if (!there.points) return;
     if (last != nullptr && travel_and_turn_m(last->local_T_robot, there.local_T_robot) < kNeighbourSpacing_m)
       return;
     last = &there;

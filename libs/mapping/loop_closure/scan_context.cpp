@@ -55,7 +55,7 @@ ScanPoints scan_context(std::size_t node, const KeyframeStore& keyframes, const 
   for (std::size_t before = node; before-- > 0;) {
     const NodeScan& there = keyframes.nodes[before];
     if (here.travelled_m - there.travelled_m > options.travel_m) break;
-    if (last_m - there.travelled_m < options.node_spacing_m) continue;
+    if (!there.points || last_m - there.travelled_m < options.node_spacing_m) continue;
     last_m = there.travelled_m;
     add(there);
   }

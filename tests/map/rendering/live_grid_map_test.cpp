@@ -176,10 +176,16 @@ TEST_F(LiveGridMapTest, follows_scans_that_the_mapper_changes_or_discards) {
   expect_equal_to_a_full_drawing();
 }
 
-TEST_F(LiveGridMapTest, starts_again_if_an_old_scan_was_changed) {
-  for (std::size_t i = 0; i < 60; ++i) all_.push_back(all_[i]), poses_.push_back(poses_[i]);
-  drive(120);
-  discard_ranges(log_[50]);
+TEST_F(LiveGridMapTest, leaves_scans_out_once_most_are_superseded) {
+  for (std::size_t i = 0; i < 180; ++i) all_.push_back(all_[i]), poses_.push_back(poses_[i]);
+  drive(240);
+  settle();
+  for (std::size_t i = 0; i < 100; ++i) discard_ranges(log_[i]);
+  settle();
+  EXPECT_EQ(map_.work(), 240U) << "superseded scans stay in the map";
+  for (std::size_t i = 100; i <= 120; ++i) discard_ranges(log_[i]);
+  update();
+  EXPECT_FALSE(map_.is_complete()) << "now they are most of all";
   correct(0.5);
   settle();
   EXPECT_TRUE(map_.is_complete());

@@ -87,7 +87,8 @@ std::vector<std::size_t> superseded_maps(const KeyframeStore& keyframes, const P
   const TiedPasses passes(keyframes, graph, min_travel_m);
   for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
     const PlacedLocalMap& local_map = keyframes.local_maps[m];
-    if (local_map.is_superseded || is_unplaced(local_map.first_node, keyframes)) continue;
+    const bool holds_root = local_map.first_node <= graph.root() && graph.root() <= local_map.last_node;
+    if (local_map.is_superseded || holds_root || is_unplaced(local_map.first_node, keyframes)) continue;
     std::size_t node = local_map.first_node;
     while (node <= local_map.last_node && passes.after(node) >= kLaterPasses) ++node;
     if (node > local_map.last_node) superseded.push_back(m);

@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <utility>
 
 #include "localization/comparison/moved_walls.h"
 #include "logs/frames/pose_operations.h"
+#include "map/rendering/cell_masks.h"
 #include "map/rendering/map_image.h"
-#include "matching/score_grid.h"
+#include "matching/cell.h"
 
 namespace psi_slam {
 namespace {
@@ -20,20 +21,6 @@ using Grid = mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 using Kind = WallChange::Kind;
-
-// Share of the cells around a changed wall that the other map must show as free. More than half, so that free
-// space on one side of a wall is no evidence; less than one, because maps have unseen specks.
-constexpr double kLeastClear = 0.9;
-constexpr double kRounding_cells = 1e-4;  // of lengths in cells, because MRPT's resolution is a float
-
-/// The value of an expression of masks, such as `a & b`.
-cv::Mat1b mask(const cv::Mat& expression) {
-  return expression;
-}
-
-cv::Mat1b empty_mask(int rows, int columns) {
-  return cv::Mat1b(rows, columns, std::uint8_t{0});
-}
 
 /// Which cells of the compared area are walls of a map, and which are free. 255: true, 0: false.
 struct Layer {
@@ -121,19 +108,7 @@ Layer layer_of(const Grid& map, const TPose2D& a_T_map, const ComparedCells& lay
 
 /// Returns the cells of `walls` without a wall of `others` within the tolerance.
 cv::Mat1b without_counterpart(const cv::Mat1b& walls, const cv::Mat1b& others, double tolerance_cells) {
-  cv::Mat1f distance;
-  cv::distanceTransform(~others, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  return mask(walls & (distance > tolerance_cells));
-}
-
-/// Returns the free cells with free space around them: at least kLeastClear of the cells in the square that
-/// reaches as far as the tolerance, and at least to the neighbours.
-cv::Mat1b clear_cells(const cv::Mat1b& free, double tolerance_cells) {
-  const int reach = std::clamp(floor_to_int(tolerance_cells), 1, std::max(free.cols, free.rows));
-  const int side = 2 * reach + 1;
-  cv::Mat1i count;
-  cv::boxFilter(free & 1, count, CV_32S, {side, side}, {-1, -1}, false, cv::BORDER_CONSTANT);
-  return mask(free & (count >= kLeastClear * side * side));
+  return mask(walls & (distance_from(others) > tolerance_cells));
 }
 
 std::vector<ChangedWall> walls_in(const cv::Mat1b& cells, double min_length_cells) {

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "localization/comparison/wall_changes.h"
 #include "logs/frames/pose_operations.h"
 #include "logs/observations/mrpt_objects.h"
 #include "map/rendering/extended_map.h"
@@ -203,7 +204,7 @@ struct CMetricMapBuilderPsi::Implementation {
     if (!drawn_finished_) {
       drawn_grid_ = draw_grid_map(log_, final_poses(), options_.map);
       if (is_aligned_ && drawn_grid_->getResolution() == initial_->grid().getResolution())
-        drawn_grid_ = extended_map(initial_->grid(), *drawn_grid_);
+        drawn_grid_ = extended_map(initial_->grid(), *drawn_grid_, WallChangeOptions().tolerance_m);
     }
     drawn_finished_ = true;
     return drawn_grid_;

@@ -79,8 +79,8 @@ void check_prior(const Settings& settings, const FixedKnowledge& knowledge) {
   if (prior.map.empty()) return;
   if (prior.extend && is_plan_drawing(prior.map))
     throw UserError(
-        "prior.extend keeps the known cells of a grid map, but prior.map is a drawing, all of which is "
-        "known. Leave out prior.extend");
+        "prior.extend brings a grid map up to date, but prior.map is a drawing, which does not tell unseen "
+        "from free space. Leave out prior.extend");
   const MapFrameOptions& frame = settings.map_frame;
   if (frame.align != MapFrameOptions::kNone || frame.origin_x_m != 0 || frame.origin_y_m != 0)
     throw UserError(
@@ -140,13 +140,14 @@ std::optional<std::string> SessionPrior::place(const Mapper& mapper, FixedKnowle
 std::vector<std::string> SessionPrior::compare(const mrpt::maps::COccupancyGridMap2D& map) const {
   if (!fit_.is_accepted) return {};
   std::vector<std::string> sentences;
-  if (options_.extend && !has_cells_of(file_.grid, map))
+  const bool is_extended = options_.extend && has_cells_of(file_.grid, map);
+  if (options_.extend && !is_extended)
     sentences.push_back(
         options_.map +
         ": this map is not extended, because the map of the run exceeds map.max_cells and has "
         "larger cells. Increase map.max_cells");
   WallChangeOptions options;
-  options.tolerance_m = std::max(options.tolerance_m, kToleranceSigmas * options_.sigma_m);
+  options.tolerance_m = tolerance_m();
   options.min_length_m = kLeastWall_m;
   const mrpt::math::TPose2D grid_T_map(-file_.offset.x, -file_.offset.y, 0);
   std::vector<WallChange> gone;
@@ -161,15 +162,22 @@ std::vector<std::string> SessionPrior::compare(const mrpt::maps::COccupancyGridM
     text += (i == 0 ? "" : "; ") + fixed_text(gone[i].length_m, 1) + " m from " +
             place_text(gone[i].from + file_.offset) + " to " + place_text(gone[i].to + file_.offset);
   if (gone.size() > kMostWalls) text += "; and shorter ones";
-  sentences.push_back(text +
-                      ". Correct the map if these walls are gone. Doors that are drawn closed count, too");
+  sentences.push_back(
+      text + (is_extended
+                  ? ". The exported map shows free space there, too"
+                  : ". Correct the map if these walls are gone. Doors that are drawn closed count, too"));
   return sentences;
+}
+
+double SessionPrior::tolerance_m() const {
+  return std::max(WallChangeOptions().tolerance_m, kToleranceSigmas * options_.sigma_m);
 }
 
 mrpt::maps::COccupancyGridMap2D::Ptr SessionPrior::extended(
     const mrpt::maps::COccupancyGridMap2D& map) const {
   const bool is_extended = fit_.is_accepted && has_cells_of(file_.grid, map);
-  return is_extended ? extended_map(file_.grid, map) : std::make_shared<mrpt::maps::COccupancyGridMap2D>(map);
+  return is_extended ? extended_map(file_.grid, map, tolerance_m())
+                     : std::make_shared<mrpt::maps::COccupancyGridMap2D>(map);
 }
 
 }  // namespace psi_slam

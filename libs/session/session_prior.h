@@ -54,11 +54,14 @@ class SessionPrior {
   /// run is not aligned.
   std::vector<std::string> compare(const mrpt::maps::COccupancyGridMap2D& map) const;
 
-  /// Returns the prior map with the cells of `map` where the prior map is unknown; a copy of `map` if the run
-  /// is not aligned. Both maps must have equal cells.
+  /// Returns the prior map, brought up to date with `map` (extended_map.h); a copy of `map` if the run is not
+  /// aligned, or if both maps have cells of different sizes.
   mrpt::maps::COccupancyGridMap2D::Ptr extended(const mrpt::maps::COccupancyGridMap2D& map) const;
 
  private:
+  /// Walls within this distance of each other are the same wall.
+  double tolerance_m() const;
+
   PriorOptions options_;
   std::vector<std::string> layers_;  // of a drawing; before file_, whose initialiser sets it
   PlacedMapFile file_;

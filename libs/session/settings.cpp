@@ -167,8 +167,9 @@ void describe_prior(OptionTable& table, PriorOptions& prior) {
       .number("sigma_m", prior.sigma_m, between(0.001, 10), "m",
               "Standard deviation of the walls of the prior map: how well it is measured.")
       .flag("extend", prior.extend,
-            "The exported map keeps all known cells of the prior map, and the run only adds what it saw "
-            "beyond. false: the exported map shows the run alone.")
+            "The exported map is the prior map, brought up to date: new walls are added, and walls that the "
+            "run sees to be gone are removed. Walls that both maps show and places that the run does not "
+            "see stay as they are in the prior map. false: the exported map shows the run alone.")
       .optional_number("metres_per_unit", prior.metres_per_unit, between(1e-6, 1000), "m",
                        "DXF: length of a unit of the drawing, such as 0.001 for millimetres. auto: as the "
                        "drawing states.")

@@ -173,8 +173,8 @@ TEST_F(PriorMapApp, the_map_of_another_building_is_left_out) {
   expect_same_files("b", "a");
 }
 
-TEST_F(PriorMapApp, a_prior_map_is_extended_without_changing_its_cells) {
-  const std::string prior = prior_map("crop polygon=0,0;9,0;9,10;0,10\n");
+TEST_F(PriorMapApp, a_prior_map_is_extended_without_moving_its_walls) {
+  const std::string prior = prior_map("crop polygon=-1,-1;9,-1;9,11;-1,11\n");
   ASSERT_EQ(map("a", {log_.string(), "--set", prior, "--set", "prior.extend=true"}).code, 0);
   EXPECT_LT(worst_m("a"), 0.06);
   const auto before = read_map_file(path("prior") / "map.yaml");

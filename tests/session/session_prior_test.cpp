@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "localization/reference_map.h"
 #include "map/report/output_folder.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam/user_error.h"
@@ -40,19 +41,14 @@ namespace fs = std::filesystem;
 
 constexpr int kScans = 60;
 constexpr int kScansOfRound = 50;
+const std::vector<RoomWall> kWallsOfRoom = {{0, 0, 12, 0},    {12, 0, 12, 8}, {12, 8, 7, 8}, {7, 8, 7, 9.5},
+                                            {7, 9.5, 4, 9.5}, {4, 9.5, 4, 8}, {4, 8, 0, 8},  {0, 8, 0, 0}};
 
 class SessionPriorTest : public testing::Test {
  protected:
   void SetUp() override {
     write_lines(log_, room_log_lines(kScans, kScansOfRound));
-    draw_room({{0, 0, 12, 0},
-               {12, 0, 12, 8},
-               {12, 8, 7, 8},
-               {7, 8, 7, 9.5},
-               {7, 9.5, 4, 9.5},
-               {4, 9.5, 4, 8},
-               {4, 8, 0, 8},
-               {0, 8, 0, 0}});
+    draw_room(kWallsOfRoom);
     settings_.prior.map = (folder_.path() / "plan" / "map.yaml").string();
   }
 
@@ -348,6 +344,39 @@ TEST_F(SessionPriorTest, sightings_of_marks_without_a_place_are_allowed) {
   EXPECT_THAT(session.result().contradictions,
               Each(Not(AnyOf(HasSubstr("left out"), HasSubstr("my.edits")))));
   EXPECT_LT(off_m(session), 0.06);
+}
+
+TEST_F(SessionPriorTest, an_extended_map_lacks_walls_that_are_gone_and_has_new_ones) {
+  std::vector<RoomWall> walls = kWallsOfRoom;
+  walls.push_back({9, 3, 9, 5});
+  draw_room(walls);
+  settings_.prior.extend = true;
+  MappingSession session(log_, settings_);
+  session.run(go_on_);
+  const DrawnMap drawn = session.draw();
+  EXPECT_THAT(session.warnings(), Contains(AllOf(HasSubstr("the scans see free space at 1 wall of this map"),
+                                                 HasSubstr("The exported map shows free space there"),
+                                                 Not(HasSubstr("Correct the map")))));
+  for (const float y : {3.2F, 4.0F, 4.8F}) EXPECT_GT(drawn.grid->getPos(9.02F, y), 0.7F) << y;
+  const mrpt::maps::COccupancyGridMap2D prior = read_map_file(settings_.prior.map);
+  std::size_t standing = 0;
+  std::size_t pillar = 0;
+  for (int y = 0; y < static_cast<int>(drawn.grid->getSizeY()); ++y) {
+    for (int x = 0; x < static_cast<int>(drawn.grid->getSizeX()); ++x) {
+      const float x_m = drawn.grid->idx2x(x);
+      const float y_m = drawn.grid->idx2y(y);
+      const bool is_wall = drawn.grid->getCell(x, y) < 0.3F;
+      const bool is_in_room = x_m > 0.2F && x_m < 11.8F && y_m > 0.2F && y_m < 7.8F;
+      const bool was_wall = prior.getPos(x_m, y_m) < 0.3F;
+      if (!is_in_room && (was_wall || is_wall)) {
+        EXPECT_EQ(is_wall, was_wall) << x_m << ' ' << y_m;
+        ++standing;
+      }
+      if (x_m > 4.7F && x_m < 7.7F && y_m > 2.7F && y_m < 5.3F && is_wall) ++pillar;
+    }
+  }
+  EXPECT_GT(standing, 800U);
+  EXPECT_GT(pillar, 30U) << "it was not in the plan";
 }
 
 TEST_F(SessionPriorTest, larger_cells_than_those_of_the_prior_map_do_not_extend_it) {

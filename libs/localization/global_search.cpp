@@ -201,6 +201,7 @@ std::string GlobalSearch::objection(FoundPlace& place, const ScanPoints& context
   for (std::size_t i = node + 1; i-- > 0;) {
     const NodeScan& there = memory.nodes[i];
     if (here.travelled_m - there.travelled_m > options_.context.travel_m) break;
+    if (!there.points) continue;
     const TPose2D map_T_there = compose(place.map_T_robot, between(here.local_T_robot, there.local_T_robot));
     const LocalMap::Agreement one = map_.fine->agreement(*there.points, map_T_there);
     forward.observed += one.observed;

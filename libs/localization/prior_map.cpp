@@ -3,11 +3,13 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/portable_math.h"
 #include "localization/place_consensus.h"
 #include "logs/frames/pose_operations.h"
 #include "logs/frames/position_variance.h"
@@ -47,7 +49,16 @@ constexpr double kMinResponse = 0.3;
 constexpr double kMinObserved = 0.5;
 constexpr double kMinAgree = 0.4;
 constexpr double kMinClear = 0.8;
-constexpr double kMinFits = 0.7;  // least share of the places in the space of the map that fit
+
+// Two hypotheses about the run: it was made in the building of the map, which may have changed at half of the
+// places, or in another one, where a place fits by chance anywhere in its window. In the building, nine of
+// ten fitting places are where the path from the one before leads. The run is in the building if the
+// logarithm of the likelihood ratio exceeds kLeastEvidence.
+constexpr double kFitsInBuilding = 0.5;
+constexpr double kFitsByChance = 0.3;
+constexpr double kFollowsPath = 0.9;
+constexpr double kLeastEvidence = 10;
+constexpr double kDrift = 0.01;  // of the path between two places, per metre; and of its heading, per metre
 
 constexpr double kSearchResolution_m = 0.1;
 constexpr double kHeadingArm_m = 5;  // a heading is as uncertain as the wall at this distance
@@ -61,7 +72,7 @@ GlobalSearchOptions search_options() {
   return options;
 }
 
-// Numbers of the nodes that get a place, in their order.
+// Numbers of the nodes that get a place, in their order. Superseded nodes have no points to match.
 std::vector<std::size_t> spaced_nodes(const KeyframeStore& keyframes) {
   const std::vector<NodeScan>& nodes = keyframes.nodes;
   const double spacing_m = std::max(kSpacing_m, nodes.back().travelled_m / kMostPlaces);
@@ -69,9 +80,27 @@ std::vector<std::size_t> spaced_nodes(const KeyframeStore& keyframes) {
   for (std::size_t node = 0; node < nodes.size(); ++node) {
     const bool is_due = spaced.empty() || node + 1 == nodes.size() ||
                         nodes[node].travelled_m - nodes[spaced.back()].travelled_m >= spacing_m;
-    if (is_due && !is_unplaced(node, keyframes)) spaced.push_back(node);
+    if (is_due && nodes[node].points && !is_unplaced(node, keyframes)) spaced.push_back(node);
   }
   return spaced;
+}
+
+/// Returns by how much the place of a fitting scan favours that the run is in the building of the map.
+/// `way_m` is the path since the place that the prediction starts from.
+double evidence_of_fit(const MeasuredPose& place, const TPose2D& predicted, const SearchExtent& window,
+                       double way_m) {
+  const double sigma_m2 = 2 * place.sigma_m * place.sigma_m + kDrift * kDrift * way_m * way_m;
+  const double sigma_rad2 = 2 * *place.sigma_rad * *place.sigma_rad + kDrift * kDrift * way_m * way_m;
+  Eigen::Matrix3d covariance = place.further;
+  covariance.diagonal() += Eigen::Vector3d(sigma_m2, sigma_m2, sigma_rad2);
+  const Eigen::Vector3d off(place.pose.x - predicted.x, place.pose.y - predicted.y,
+                            mrpt::math::wrapToPi(place.pose.phi - predicted.phi));
+  const double chi2 = off.dot(covariance.inverse() * off);
+  const double density =
+      portable::exp(-chi2 / 2) / std::sqrt(8 * M_PI * M_PI * M_PI * covariance.determinant());
+  const double by_chance = 1 / (8 * window.x_m * window.y_m * window.theta_rad);
+  return portable::log(kFitsInBuilding / kFitsByChance *
+                       (kFollowsPath * density / by_chance + (1 - kFollowsPath)));
 }
 
 }  // namespace
@@ -109,6 +138,7 @@ struct PriorMap::Path {
   TPose2D prior_T_map;                              ///< at that node
   std::size_t fits = 0;
   std::size_t misfits = 0;
+  double evidence = 0;  ///< log-likelihood ratio of both hypotheses
 
   void begin_at(const PriorStart& start) {
     prior_T_map = compose(start.prior_T_node, inverse(map_T_node[start.node]));
@@ -186,7 +216,7 @@ std::string PriorMap::find(Path& path, Progress& progress) const {
   for (std::size_t node = 0; node < nodes.size() && searches < kMostSearches; ++node) {
     const bool is_due =
         !searched_m || nodes[node].travelled_m - *searched_m >= kSearchSpacing_m || node + 1 == nodes.size();
-    if (!is_due || is_unplaced(node, path.keyframes)) continue;
+    if (!is_due || !nodes[node].points || is_unplaced(node, path.keyframes)) continue;
     if (!progress.at(kShareOfSearches * std::min(1.0, searches / most_searches))) return {};
     searched_m = nodes[node].travelled_m;
     ++searches;
@@ -206,30 +236,36 @@ std::string PriorMap::find(Path& path, Progress& progress) const {
 // Matches the scans along the path near their predicted places, forwards and backwards from the first place.
 void PriorMap::follow(Path& path, Progress& progress) const {
   std::size_t done = 0;
-  const auto step = [&](std::size_t i, TPose2D& prior_T_map, double& firm_m) {
+  const double misfit = portable::log((1 - kFitsInBuilding) / (1 - kFitsByChance));
+  const auto step = [&](std::size_t i, TPose2D& prior_T_map, double& last_m, double& firm_m) {
     if (!progress.at(static_cast<double>(done++) / static_cast<double>(path.nodes.size()))) return;
     const std::size_t node = path.nodes[i];
     const double travelled_m = path.keyframes.nodes[node].travelled_m;
     const double half_m = std::min(kWindow_m + kWindowGrowth * std::abs(travelled_m - firm_m), kMostWindow_m);
     const TPose2D predicted = compose(prior_T_map, path.map_T_node[node]);
-    const std::optional<MeasuredPose> place =
-        place_near(node, path.keyframes, predicted, {half_m, half_m, kWindow_rad});
+    const SearchExtent window{half_m, half_m, kWindow_rad};
+    const std::optional<MeasuredPose> place = place_near(node, path.keyframes, predicted, window);
     if (!place) {
-      if (shows(node, path.keyframes, predicted)) ++path.misfits;
+      if (!shows(node, path.keyframes, predicted)) return;
+      ++path.misfits;
+      path.evidence += misfit;
       return;
     }
     ++path.fits;
+    path.evidence += evidence_of_fit(*place, predicted, window, std::abs(travelled_m - last_m));
+    last_m = travelled_m;
     path.places[i] = *place;
     prior_T_map = compose(place->pose, inverse(path.map_T_node[node]));
     if (std::sqrt(largest_position_variance_m2(place->further)) <= kFirm_m) firm_m = travelled_m;
   };
   const double start_m = path.keyframes.nodes[path.nodes[path.first]].travelled_m;
   TPose2D prior_T_map = path.prior_T_map;
+  double last_m = start_m;
   double firm_m = start_m;
-  for (std::size_t i = path.first; i < path.nodes.size(); ++i) step(i, prior_T_map, firm_m);
+  for (std::size_t i = path.first; i < path.nodes.size(); ++i) step(i, prior_T_map, last_m, firm_m);
   prior_T_map = path.prior_T_map;
-  firm_m = start_m;
-  for (std::size_t i = path.first; i-- > 0;) step(i, prior_T_map, firm_m);
+  last_m = firm_m = start_m;
+  for (std::size_t i = path.first; i-- > 0;) step(i, prior_T_map, last_m, firm_m);
 }
 
 PriorPlaces PriorMap::places(const Mapper& mapper, const std::optional<PriorStart>& start,
@@ -255,7 +291,7 @@ PriorPlaces PriorMap::places(const Mapper& mapper, const std::optional<PriorStar
   if (result.is_interrupted) return result;
   result.compared = path.fits + path.misfits;
   result.fitting = path.fits;
-  if (static_cast<double>(result.fitting) < kMinFits * static_cast<double>(result.compared)) {
+  if (path.evidence < kLeastEvidence) {
     result.objection = "only " + std::to_string(result.fitting) + " of " + std::to_string(result.compared) +
                        " places along the path fit";
     return result;

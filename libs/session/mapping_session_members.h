@@ -41,6 +41,7 @@ struct MappingSession::Members {
   void keep_bent(const Frame& frame);
   void keep_superseded(std::size_t scan, const Frame& frame);
   const std::vector<Frame>& recorded_frames(std::vector<Frame>& room) const;
+  const std::vector<Frame>& whole_log(std::vector<Frame>& room, std::vector<std::string>& complaints) const;
   void check_log();
   void check_knowledge(const EditJournal& further) const;
   void make_due_edits(EditTime now);

@@ -95,15 +95,18 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   std::vector<std::string> contradictions;
   const auto draw_map = [&] {
     grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map);
-    if (m.prior) contradictions = m.prior->compare(*grid);
+    if (m.prior)
+      for (std::string& sentence : m.prior->compare(*grid)) contradictions.push_back(std::move(sentence));
     if (m.prior && m.settings.prior.extend) grid = m.prior->extended(*grid);
     m.map_edit_complaints = apply_map_edits(placed.edits, *grid);
   };
   Tasks before_grid = {[&] { drawing_clock.time(draw_map); },
                        [&] { judging_clock.time([&] { m.verdict = judge_map(m.result); }); },
                        [&] { m.check_log(); }};
+  std::vector<Frame> room;
   if (folder) {
-    writing_clock.append(path_file_tasks(m.result, *folder, m.settings.map_files), before_grid);
+    const std::vector<Frame>& whole = m.whole_log(room, contradictions);
+    writing_clock.append(path_file_tasks(m.result, whole, *folder, m.settings.map_files), before_grid);
     if (!edits.empty())
       writing_clock.append({[&] { edits.write(folder->path() / "loops.edits"); }}, before_grid);
   }
@@ -167,6 +170,19 @@ const std::vector<Frame>& MappingSession::Members::recorded_frames(std::vector<F
   superseded.put_back(room);
   for (const auto& [number, frame] : bent)
     if (has_ranges(room.at(number))) room[number] = frame;
+  return room;
+}
+
+/// Scans of the finished map, with the ranges of superseded scans. `room` holds them if there are any.
+const std::vector<Frame>& MappingSession::Members::whole_log(std::vector<Frame>& room,
+                                                             std::vector<std::string>& complaints) const {
+  if (superseded.empty()) return result.log;
+  room = result.log;
+  try {
+    superseded.put_back(room);
+  } catch (const SystemFailure& failure) {
+    complaints.push_back(std::string("the corrected log lacks scans of earlier passes: ") + failure.what());
+  }
   return room;
 }
 

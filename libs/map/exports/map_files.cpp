@@ -11,6 +11,7 @@
 
 #include "base/atomic_file.h"
 #include "base/compression/compression.h"
+#include "logs/frames/discarded_ranges.h"
 #include "logs/observations/mrpt_objects.h"
 #include "map/exports/map_server_pair.h"
 #include "map/exports/mapped_trajectory.h"
@@ -25,6 +26,7 @@ mrpt::maps::CSimpleMap simple_map(const MappingResult& result) {
   covariance.setDiagonal(3, 1e-6);
   mrpt::maps::CSimpleMap map;
   for (const std::size_t frame : result.node_frames) {
+    if (!has_ranges(result.log.at(frame))) continue;
     auto observations = mrpt::obs::CSensoryFrame::Create();
     for (const auto& observation : range_observations(result.log.at(frame)))
       observations->insert(observation);

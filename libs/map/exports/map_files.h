@@ -47,8 +47,9 @@ Tasks map_file_tasks(const std::filesystem::path& folder, const MappingResult& r
                      const mrpt::maps::COccupancyGridMap2D& grid, const std::vector<MapEdit>& edits,
                      const MapFileOptions& options);
 
-/// Returns MRPT's simple map: the nodes of the graph with their scans. Each pose has the covariance (1 mm)^2,
-/// (1 mrad)^2 as a placeholder that MRPT can invert, because the marginals of the graph are not computed.
+/// Returns MRPT's simple map: the nodes of the graph with their scans, without superseded ones. Each pose has
+/// the covariance (1 mm)^2, (1 mrad)^2 as a placeholder that MRPT can invert, because the marginals of the
+/// graph are not computed.
 mrpt::maps::CSimpleMap simple_map(const MappingResult& result);
 
 /// Writes a simple map or a grid map, serialised and gzipped, as MRPT's programs and

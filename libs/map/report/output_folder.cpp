@@ -59,18 +59,18 @@ std::shared_ptr<const Descriptor> lock_of(const fs::path& path) {
 
 /// Writes the corrected log of a single log. For several merged logs, whose times may overlap, writes a
 /// trajectory and a corrected log of each.
-void write_runs(const fs::path& folder, const MappingResult& result) {
+void write_runs(const fs::path& folder, const MappingResult& result, const std::vector<Frame>& log) {
   const auto file = [&](std::size_t run, const char* kind) {
     return folder / ("trajectory-" + std::to_string(run) + kind);
   };
   const Trajectory whole = trajectory_of(result.frames);
   const std::vector<mrpt::math::TPose2D> poses = mapped_poses(result);
   const std::vector<FrameSpan> runs = logs_of(result);
-  if (runs.size() == 1) return write_corrected_log(folder / "trajectory.carmen", result.log, poses);
+  if (runs.size() == 1) return write_corrected_log(folder / "trajectory.carmen", log, poses);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     write_tum(file(i + 1, ".tum"), Trajectory(whole.begin() + static_cast<std::ptrdiff_t>(runs[i].begin),
                                               whole.begin() + static_cast<std::ptrdiff_t>(runs[i].end)));
-    write_corrected_log(file(i + 1, ".carmen"), result.log, poses, runs[i]);
+    write_corrected_log(file(i + 1, ".carmen"), log, poses, runs[i]);
   }
 }
 
@@ -126,11 +126,11 @@ void OutputFolder::replace_results(const std::function<void(const OutputFolder&)
       path_, [&](const fs::path& temporary) { write(OutputFolder(temporary)); }, is_optional_result);
 }
 
-Tasks path_file_tasks(const MappingResult& result, const OutputFolder& folder,
+Tasks path_file_tasks(const MappingResult& result, const std::vector<Frame>& log, const OutputFolder& folder,
                       const MapFileOptions& map_files) {
   const auto file = [&](const char* name) { return folder.path() / name; };
   Tasks tasks;
-  tasks.emplace_back([&result, path = folder.path()] { write_runs(path, result); });
+  tasks.emplace_back([&result, &log, path = folder.path()] { write_runs(path, result, log); });
   tasks.emplace_back([&result, path = file("graph.g2o")] { write_g2o(result.graph, path); });
   tasks.emplace_back(
       [&result, path = file("loops.csv")] { write_text_atomically(path, loops_csv(result.loops)); });

@@ -62,8 +62,9 @@ class OutputFolder {
 
 /// Returns tasks that write the files for which no grid map is needed, each file atomically: trajectories,
 /// the pose graph, tables, and map.simplemap.gz if `map_files` selects it. A task throws SystemFailure naming
-/// the file that cannot be written. `result` must outlive the tasks.
-Tasks path_file_tasks(const MappingResult& result, const OutputFolder& folder,
+/// the file that cannot be written. `log` holds the scans for the corrected log: those of `result`, or with
+/// the ranges of superseded scans. Both must outlive the tasks.
+Tasks path_file_tasks(const MappingResult& result, const std::vector<Frame>& log, const OutputFolder& folder,
                       const MapFileOptions& map_files);
 
 /// Writes summary.json and report.html. Call it after all other files are written, so that the times in both

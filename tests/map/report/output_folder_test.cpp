@@ -52,7 +52,7 @@ void export_room(const OutputFolder& folder) {
   MapFileOptions options;
   options.geotiff = options.gpkg = true;
   WorkerPool pool(2);
-  pool.run(path_file_tasks(result, folder, options));
+  pool.run(path_file_tasks(result, result.log, folder, options));
   pool.run(map_file_tasks(folder.path(), result, *grid, {}, options));
   export_account(result, kInfo, summarize_run(result, *grid), *grid, folder);
 }

@@ -124,6 +124,8 @@ void PathCovarianceSearch::look_around(const PoseGraph& graph, std::uint32_t her
     const std::uint32_t there = forwards ? link.to : link.from;
     Node& next = node_at(graph, there);
     if (next.settled || !graph.enabled(index)) continue;
+    // No chain leads through a node with a single constraint.
+    if (only_targets_ && !next.wanted && graph.constraints_of(there).size() == 1) continue;
     if (!forwards) rotate(next);
     const double cost =
         extended_cost(node.covariance, measured_by(link), node.pose, next.pose, forwards, lever2);
@@ -143,6 +145,7 @@ void PathCovarianceSearch::run(const PoseGraph& graph, std::size_t source,
   seen_ = 0;
   source_ = source;
   with_doubt_ = options.with_doubt;
+  only_targets_ = !options.targets.empty();
   nodes_.resize(graph.num_nodes());
   queue_ = {};
   std::size_t num_wanted = 0;

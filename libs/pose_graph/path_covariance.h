@@ -26,7 +26,7 @@ struct PathCovarianceOptions {
   double heading_lever_m = 2;
   /// The search does not visit nodes whose cost exceeds the square of this length.
   double max_sigma_m = std::numeric_limits<double>::infinity();
-  /// If not empty, the search ends when it has reached all these nodes.
+  /// If not empty, the search ends when it has reached all these nodes, and may skip others.
   std::vector<std::size_t> targets;
 };
 
@@ -83,6 +83,7 @@ class PathCovarianceSearch {
   std::uint64_t run_ = 0;
   std::size_t source_ = 0;
   bool with_doubt_ = false;
+  bool only_targets_ = false;  // whether nodes that are no targets need no result
   std::size_t seen_ = 0;
 };
 

@@ -22,6 +22,10 @@ namespace psi_slam {
 namespace {
 
 constexpr const char* kFolderHelp = "Folder for the results, new or empty";
+constexpr const char* kSiteHelp =
+    "Continue the site in this folder, or begin it: align the run with the newest map, show what has "
+    "changed, "
+    "and put the results into a folder of their own in it";
 constexpr const char* kExamples =
     "\nExamples:\n"
     "  psi-slam check my.log                    show what a log holds and what is wrong with it\n"
@@ -29,6 +33,7 @@ constexpr const char* kExamples =
     "  psi-slam my.log -o out/ --save-session my.session\n"
     "  psi-slam --resume my.session my.log -o more/   resume an interrupted run\n"
     "  psi-slam merge monday.log friday.log -o out/   make one map of several runs\n"
+    "  psi-slam --continue office/ today.log    update the map of a building, day after day\n"
     "  psi-slam localize out/map.yaml new.log   find and track a robot in a finished map\n"
     "  psi-slam diff may/ june/ -o changes/     show the walls that changed between two maps\n"
     "  psi-slam eval out/trajectory.tum my.relations   measure the errors of a path\n"
@@ -126,6 +131,7 @@ CLI::App* add_live(CLI::App& app, CommandLine& line) {
                                             "lines, a growing log or sensors, until Ctrl-C");
   add_live_options(*live, line.live);
   add_value(*live, "-o,--output", line.output, kFolderHelp, "DIR");
+  add_value(*live, "--continue", line.site, kSiteHelp, "SITE");
   add_value(*live, "--save-session", line.save_session, "Save the run to this file, for --resume", "FILE");
   add_value(*live, "--resume", line.resume, "Continue a saved or crashed run with the scans of the source",
             "FILE");
@@ -329,7 +335,13 @@ void check_together(const CommandLine& line, const std::string& log_to_map, cons
          "--markdown prints all options: leave out WORD, --common and --json");
   refuse(line.diff.aligned && !line.start.empty(), "--aligned contradicts --start: give only one of them");
   if (merges) require(line.inputs.size() >= 2, "name the runs: psi-slam merge FIRST SECOND -o DIR");
-  if (merges || is_live) require(!line.output.empty(), "name the folder for the results: -o DIR");
+  refuse(!maps && !is_live && !line.site.empty(), "--continue is only for mapping");
+  refuse(!line.site.empty() && !line.output.empty(),
+         "--continue contradicts -o: the results go into the folder of the site. Leave -o out");
+  if (merges) require(!line.output.empty(), "name the folder for the results: -o DIR");
+  if (is_live)
+    require(!line.output.empty() || !line.site.empty(),
+            "name the folder for the results, or a site to continue: -o DIR or --continue SITE");
   refuse(merges && line.inputs.size() > 2 && !line.start.empty(),
          "--start needs exactly two runs. Merge the first two, then merge their session with further runs");
   refuse(!maps && !merges && !localizes && !is_live && !compares && !line.output.empty(),
@@ -404,6 +416,7 @@ CommandLine parse_command_line(const std::vector<std::string>& given, CLI::App& 
       app, "-o,--output", line.output,
       "Folder for the results, new or empty. Default: NAME-map in the current folder for a log NAME.log",
       "DIR");
+  add_value(app, "--continue", line.site, kSiteHelp, "SITE");
   add_run_options(app, line);
   add_value(app, "--edits", line.edits, "File with edits of loops and of the drawn map, and with known poses",
             "FILE");

@@ -70,6 +70,7 @@ struct CommandLine {
   std::string start;                  ///< "X,Y,YAW_DEG" in the map, of diff in the first map; empty: unknown
   std::vector<std::string> inputs;    ///< logs and sessions for merge; both maps for diff
   std::string output;                 ///< folder for the results
+  std::string site;                   ///< folder of the site that the run continues; empty: none
   std::string edits;                  ///< file of edits of loops and of the drawn map; empty: no edits
   std::string resume;                 ///< session file to resume; empty: maps from the first scan
   std::string save_session;           ///< session file to write; empty: not written

@@ -83,10 +83,14 @@ void check_files_to_write(const CommandLine& line) {
                       input.path.string() + ". Name another output folder");
 }
 
-fs::path default_output_folder(const CommandLine& line) {
+std::string run_name(const CommandLine& line) {
   const fs::path input = fs::absolute(line.log.empty() ? line.resume : line.log).lexically_normal();
   const fs::path file = input.has_filename() ? input.filename() : input.parent_path().filename();
-  const std::string name = log_name_of(file.string()).value_or(file.stem().string()) + "-map";
+  return log_name_of(file.string()).value_or(file.stem().string());
+}
+
+fs::path default_output_folder(const CommandLine& line) {
+  const std::string name = run_name(line) + "-map";
   std::error_code ignored;
   fs::path folder = name;
   for (int number = 2; !line.force && fs::exists(folder, ignored); ++number)

@@ -12,6 +12,7 @@
 #include "ros2_run.h"
 #include "session/session_input.h"
 #include "session/session_prior.h"
+#include "site_run.h"
 
 namespace psi_slam {
 namespace {
@@ -138,6 +139,7 @@ int map_live(const CommandLine& given, const Streams& streams) {
   CommandLine line = given;
   LiveInput source = live_input(line.live).value();
   source.replaces_record = line.force;
+  continue_site(line, name_of(source));
   const std::optional<PoseFormat> poses = pose_format(line.live);
   // Only poses go to standard output if there are any.
   const Streams texts{poses ? streams.err : streams.out, streams.err, streams.err_is_terminal};

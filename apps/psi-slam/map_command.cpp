@@ -21,6 +21,7 @@
 #include "session/session_file.h"
 #include "session/session_input.h"
 #include "session/session_prior.h"
+#include "site_run.h"
 
 namespace psi_slam {
 namespace {
@@ -168,13 +169,15 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   if (session.broken_off()) warn(broken_off_text(*session.broken_off(), session.result().frames.size()));
   if (!failure.empty()) throw SystemFailure(failure);
   session.remove_journal();
-  return session.breaks_off() ? kExitWrongUsageOrInput : kExitDone;
+  const bool is_of_site = add_to_site(line, session, summary, folder, streams);
+  return session.breaks_off() || !is_of_site ? kExitWrongUsageOrInput : kExitDone;
 }
 
 int map_log(const CommandLine& given, const Streams& streams) {
-  BoundSettings bound;
-  SessionInput input = input_of(given, bound, streams);
   CommandLine line = given;
+  continue_site(line, run_name(line));
+  BoundSettings bound;
+  SessionInput input = input_of(line, bound, streams);
   if (line.output.empty()) {
     line.output = default_output_folder(line);
     streams.err << "psi-slam: the results go to the folder " << line.output << ". Name another one with -o\n";

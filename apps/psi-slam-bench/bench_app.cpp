@@ -204,6 +204,11 @@ void add_simulate_command(CLI::App& app, const Streams& streams) {
       ->delimiter(',')
       ->check(number_between(20.0, 100'000.0))
       ->capture_default_str();
+  simulate
+      .add_option("--corridors-m", options.corridors_m,
+                  "Length of the corridors in metres, to drive through one building again and again. "
+                  "Default: a third of each path")
+      ->check(number_between(20.0, 100'000.0));
   add_seed_option(simulate, options.seed, "Seed of the buildings, paths and noise");
   simulate
       .add_option("--people", options.people,

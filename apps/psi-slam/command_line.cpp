@@ -23,9 +23,8 @@ namespace {
 
 constexpr const char* kFolderHelp = "Folder for the results, new or empty";
 constexpr const char* kSiteHelp =
-    "Continue the site in this folder, or begin it: align the run with the newest map, show what has "
-    "changed, "
-    "and put the results into a folder of their own in it";
+    "Continue the site in this folder, or begin it: align the run with its newest map, bring that map up to "
+    "date, and write the results into a new folder in it";
 constexpr const char* kExamples =
     "\nExamples:\n"
     "  psi-slam check my.log                    show what a log holds and what is wrong with it\n"

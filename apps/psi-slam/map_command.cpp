@@ -168,8 +168,8 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   for (const std::string& warning : session.warnings_of_logs_before()) warn(warning);
   if (session.broken_off()) warn(broken_off_text(*session.broken_off(), session.result().frames.size()));
   if (!failure.empty()) throw SystemFailure(failure);
-  session.remove_journal();
   const bool is_of_site = add_to_site(line, session, summary, folder, streams);
+  session.remove_journal();
   return session.breaks_off() || !is_of_site ? kExitWrongUsageOrInput : kExitDone;
 }
 

@@ -1,19 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "site_run.h"
 
+#include <filesystem>
 #include <optional>
 #include <ostream>
+#include <string>
+#include <system_error>
+#include <utility>
 
 #include "session/site_folder.h"
 
 namespace psi_slam {
 namespace {
 
+/// Returns whether the prior map of the run, which may be empty, is the newest map of the site.
+bool continues_newest(const SiteFolder& site, const std::string& prior_map) {
+  const auto newest = site.newest_map();
+  std::error_code ignored;
+  return newest ? std::filesystem::equivalent(*newest, prior_map, ignored) : prior_map.empty();
+}
+
 /// Returns why a run is not part of its site, as a clause; empty if it is.
-std::string objection(const RunSummary& summary, bool is_first) {
-  if (!is_first && !(summary.prior && summary.prior->is_accepted))
-    return "it could not be aligned with the newest map of the site";
+std::string objection(const SiteFolder& site, const MappingSession& session, const RunSummary& summary) {
+  if (session.result().interrupted) return "it was interrupted";
   if (summary.verdict && summary.verdict->state == MapState::kBroken) return "its own map is broken";
+  if (!continues_newest(site, session.run_info().settings.at("prior.map")))
+    return "another run has been added to the site since this one began";
+  if (site.runs().empty()) return "";
+  if (!summary.prior || !summary.prior->is_accepted)
+    return "it could not be aligned with the newest map of the site";
+  if (!summary.prior->is_extended) return "the map exceeds map.max_cells, so it has larger cells";
   return "";
 }
 
@@ -24,7 +40,7 @@ void continue_site(CommandLine& line, const std::string& name) {
   const SiteFolder site(line.site);
   line.output = site.folder_of_next(name).string();
   const auto newest = site.newest_map();
-  if (!newest) return;
+  if (!newest || !line.resume.empty()) return;  // a session states its prior map
   line.settings.push_back("prior.map=" + newest->string());
   line.settings.emplace_back("prior.extend=true");
 }
@@ -33,11 +49,11 @@ bool add_to_site(const CommandLine& line, const MappingSession& session, const R
                  const OutputFolder& folder, const Streams& streams) {
   if (line.site.empty()) return true;
   SiteFolder site(line.site);
-  const std::string why = objection(summary, site.runs().empty());
+  const std::string why = objection(site, session, summary);
   if (!why.empty()) {
     streams.err << "psi-slam: this run is not part of the site " << line.site << ", because " << why
                 << ". Its results are in " << folder.path().string()
-                << ". The next run continues from the map before it\n";
+                << ". Map it again with --continue, or go on with the next run\n";
     return false;
   }
   SiteRun run;

@@ -16,8 +16,7 @@ namespace psi_slam {
 void continue_site(CommandLine& line, const std::string& name);
 
 /// Adds a run with --continue to its site, and prints what it changed. Returns false and prints why if the
-/// run is not part of the site: it does not fit the newest map, or its own map is broken. Returns true
-/// without
+/// run is not part of the site, for example because it does not fit the newest map. Returns true without
 /// --continue.
 bool add_to_site(const CommandLine& line, const MappingSession& session, const RunSummary& summary,
                  const OutputFolder& folder, const Streams& streams);

@@ -29,10 +29,12 @@ std::vector<mrpt::math::TPoint2D> placed(const ScanPoints& scan, const mrpt::mat
 std::vector<mrpt::math::TPoint2D> points_of(const LocalMapRecord& map, const HistoryView<NodeScan>& nodes) {
   std::vector<mrpt::math::TPoint2D> points;
   const mrpt::math::TPose2D local_T_map = nodes[map.anchor].local_T_robot;
-  for (std::size_t node = map.first_node; node <= map.last_node && node < nodes.size(); ++node)
+  for (std::size_t node = map.first_node; node <= map.last_node && node < nodes.size(); ++node) {
+    if (!nodes[node].points) continue;
     for (const mrpt::math::TPoint2D& point :
          placed(*nodes[node].points, between(local_T_map, nodes[node].local_T_robot)))
       points.push_back(point);
+  }
   return points;
 }
 
@@ -65,6 +67,7 @@ std::optional<LoopPicture> loop_picture(const ReplaySnapshot& snapshot, std::siz
   if (index >= snapshot.loops->size()) return std::nullopt;
   const LoopRecord& loop = (*snapshot.loops)[index];
   if (loop.local_map >= snapshot.local_maps.size() || loop.node >= snapshot.nodes.size()) return std::nullopt;
+  if (!snapshot.nodes[loop.node].points) return std::nullopt;  // superseded
   const ScanPoints& scan = *snapshot.nodes[loop.node].points;
   LoopPicture picture{raster_of(points_of(snapshot.local_maps[loop.local_map], snapshot.nodes)),
                       placed(scan, loop.anchor_T_predicted),

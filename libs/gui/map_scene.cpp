@@ -10,6 +10,7 @@
 #include "gui/palette.h"
 #include "gui/raster_levels.h"
 #include "logs/frames/discarded_ranges.h"
+#include "logs/frames/pose_tolerance.h"
 
 namespace psi_slam {
 namespace {
@@ -211,13 +212,18 @@ bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
   return maps_changed || covariances_changed || verdict_changed || loops_changed || chosen_changed;
 }
 
+// Frames of a robot that stands still, of which most have no ranges. Superseded scans have none either.
+constexpr PoseTolerance kStandstill{0.05, 0.05};
+
 void MapScene::show_robot(const ReplaySnapshot& snapshot, std::optional<std::size_t> frame) {
   for (const MapLayer layer : {MapLayer::kScan, MapLayer::kRobot, MapLayer::kWindows}) of(layer).clear();
   if (snapshot.frames.empty()) return;
   const std::size_t index = std::min(frame.value_or(snapshot.frames.size() - 1), snapshot.frames.size() - 1);
   const mrpt::math::TPose2D map_T_robot = map_T_frame(snapshot, index);
   std::size_t scan = index;  // of a robot that stands still, the last scan that has ranges
-  while (scan > 0 && !has_ranges(snapshot.log[scan])) --scan;
+  while (scan > 0 && !has_ranges(snapshot.log[scan]) &&
+         is_same_place(map_T_frame(snapshot, scan - 1), map_T_robot, kStandstill))
+    --scan;
   redraw(MapLayer::kScan, draw_scan, snapshot.log[scan], map_T_robot);
   redraw(MapLayer::kRobot, draw_robot, map_T_robot);
   redraw(MapLayer::kWindows, draw_windows, snapshot, index);

@@ -50,11 +50,11 @@ constexpr double kMinObserved = 0.5;
 constexpr double kMinAgree = 0.4;
 constexpr double kMinClear = 0.8;
 
-// Two hypotheses about the run: it was made in the building of the map, which may have changed at half of the
-// places, or in another one, where a place fits by chance anywhere in its window. In the building, nine of
-// ten fitting places are where the path from the one before leads. The run is in the building if the
-// logarithm of the likelihood ratio exceeds kLeastEvidence.
-constexpr double kFitsInBuilding = 0.5;
+// Two hypotheses about the run: it was made in the building of the map, where nine of ten places fit, nine of
+// ten of them where the path from the place before leads. Or it was made in another building, where a place
+// fits by chance, anywhere in its window. The run is in the building if the logarithm of the likelihood ratio
+// is at least kLeastEvidence.
+constexpr double kFitsInBuilding = 0.9;
 constexpr double kFitsByChance = 0.3;
 constexpr double kFollowsPath = 0.9;
 constexpr double kLeastEvidence = 10;
@@ -75,7 +75,10 @@ GlobalSearchOptions search_options() {
 // Numbers of the nodes that get a place, in their order. Superseded nodes have no points to match.
 std::vector<std::size_t> spaced_nodes(const KeyframeStore& keyframes) {
   const std::vector<NodeScan>& nodes = keyframes.nodes;
-  const double spacing_m = std::max(kSpacing_m, nodes.back().travelled_m / kMostPlaces);
+  double length_m = 0;
+  for (std::size_t node = 1; node < nodes.size(); ++node)
+    if (nodes[node].points) length_m += nodes[node].travelled_m - nodes[node - 1].travelled_m;
+  const double spacing_m = std::max(kSpacing_m, length_m / kMostPlaces);
   std::vector<std::size_t> spaced;
   for (std::size_t node = 0; node < nodes.size(); ++node) {
     const bool is_due = spaced.empty() || node + 1 == nodes.size() ||
@@ -96,11 +99,11 @@ double evidence_of_fit(const MeasuredPose& place, const TPose2D& predicted, cons
   const Eigen::Vector3d off(place.pose.x - predicted.x, place.pose.y - predicted.y,
                             mrpt::math::wrapToPi(place.pose.phi - predicted.phi));
   const double chi2 = off.dot(covariance.inverse() * off);
-  const double density =
-      portable::exp(-chi2 / 2) / std::sqrt(8 * M_PI * M_PI * M_PI * covariance.determinant());
-  const double by_chance = 1 / (8 * window.x_m * window.y_m * window.theta_rad);
-  return portable::log(kFitsInBuilding / kFitsByChance *
-                       (kFollowsPath * density / by_chance + (1 - kFollowsPath)));
+  // A place is found within its window only, so its density there is never below that of chance.
+  const double window_volume = 8 * window.x_m * window.y_m * window.theta_rad;
+  const double spread = std::sqrt(8 * M_PI * M_PI * M_PI * covariance.determinant());
+  const double ratio = portable::exp(-chi2 / 2) * window_volume / std::min(spread, window_volume);
+  return portable::log(kFitsInBuilding / kFitsByChance * (kFollowsPath * ratio + (1 - kFollowsPath)));
 }
 
 }  // namespace
@@ -252,7 +255,9 @@ void PriorMap::follow(Path& path, Progress& progress) const {
       return;
     }
     ++path.fits;
-    path.evidence += evidence_of_fit(*place, predicted, window, std::abs(travelled_m - last_m));
+    // The first place was found by the same match.
+    if (i != path.first)
+      path.evidence += evidence_of_fit(*place, predicted, window, std::abs(travelled_m - last_m));
     last_m = travelled_m;
     path.places[i] = *place;
     prior_T_map = compose(place->pose, inverse(path.map_T_node[node]));
@@ -291,9 +296,11 @@ PriorPlaces PriorMap::places(const Mapper& mapper, const std::optional<PriorStar
   if (result.is_interrupted) return result;
   result.compared = path.fits + path.misfits;
   result.fitting = path.fits;
-  if (path.evidence < kLeastEvidence) {
-    result.objection = "only " + std::to_string(result.fitting) + " of " + std::to_string(result.compared) +
-                       " places along the path fit";
+  if (!(path.evidence >= kLeastEvidence)) {
+    result.objection = path.misfits > 0 ? "only " + std::to_string(result.fitting) + " of " +
+                                              std::to_string(result.compared) + " places along the path fit"
+                                        : "the path is too short, with " + std::to_string(result.fitting) +
+                                              " places to compare";
     return result;
   }
   const std::vector<FrameRecord>& frames = mapper.frames();

@@ -55,7 +55,7 @@ LoopEditOutcome Mapper::Implementation::judge(const LoopEdit& edit,
   if (edit.kind == LoopEdit::Kind::kMatch && (local_map.is_superseded || is_superseded(*node)))
     return {State::kImpossible, (local_map.is_superseded ? map : scan) +
                                     " is superseded: the robot passed there " + std::to_string(kLaterPasses) +
-                                    " times later"};
+                                    " times later. Match with a newer scan and local map"};
   return {};
 }
 

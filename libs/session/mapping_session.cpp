@@ -169,12 +169,13 @@ void MappingSession::Members::keep_superseded(std::size_t scan, const Frame& fra
   if (stated != bent.end()) bent.erase(stated);
 }
 
-/// Checks each log of a finished map, unless the same scans were checked before.
-void MappingSession::Members::check_log() {
-  if (state != State::kFinished || scans_checked == result.log.size()) return;
+/// Checks each log of a finished map, unless the same scans were checked before. `log` has all scans with
+/// their ranges.
+void MappingSession::Members::check_log(const std::vector<Frame>& log) {
+  if (!is_unchecked()) return;
   std::vector<std::string> all;
   for (const FrameSpan& of_log : logs_of(result)) {
-    std::vector<std::string> found = quick_check(result.log, of_log.begin, of_log.end, log_options(settings));
+    std::vector<std::string> found = quick_check(log, of_log.begin, of_log.end, log_options(settings));
     if (auto rejected = rejected_gyroscope(result, of_log)) found.push_back(*std::move(rejected));
     for (std::string& fault : found)
       if (std::find(all.begin(), all.end(), fault) == all.end()) all.push_back(std::move(fault));

@@ -42,7 +42,8 @@ struct MappingSession::Members {
   void keep_superseded(std::size_t scan, const Frame& frame);
   const std::vector<Frame>& recorded_frames(std::vector<Frame>& room) const;
   const std::vector<Frame>& whole_log(std::vector<Frame>& room, std::vector<std::string>& complaints) const;
-  void check_log();
+  bool is_unchecked() const { return state == State::kFinished && scans_checked != result.log.size(); }
+  void check_log(const std::vector<Frame>& log);
   void check_knowledge(const EditJournal& further) const;
   void make_due_edits(EditTime now);
   void begin_recorded_run();

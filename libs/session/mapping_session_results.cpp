@@ -93,19 +93,21 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   const ExportedPoses exported(m.result, export_T_mapper);
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
   std::vector<std::string> contradictions;
+  bool is_extended = false;
   const auto draw_map = [&] {
     grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map);
     if (m.prior)
       for (std::string& sentence : m.prior->compare(*grid)) contradictions.push_back(std::move(sentence));
-    if (m.prior && m.settings.prior.extend) grid = m.prior->extended(*grid);
+    is_extended = m.prior && m.prior->extends(*grid);
+    if (is_extended) grid = m.prior->extended(*grid);
     m.map_edit_complaints = apply_map_edits(placed.edits, *grid);
   };
+  std::vector<Frame> room;
+  const std::vector<Frame>& whole = m.whole_log(room, contradictions);
   Tasks before_grid = {[&] { drawing_clock.time(draw_map); },
                        [&] { judging_clock.time([&] { m.verdict = judge_map(m.result); }); },
-                       [&] { m.check_log(); }};
-  std::vector<Frame> room;
+                       [&] { m.check_log(whole); }};
   if (folder) {
-    const std::vector<Frame>& whole = m.whole_log(room, contradictions);
     writing_clock.append(path_file_tasks(m.result, whole, *folder, m.settings.map_files), before_grid);
     if (!edits.empty())
       writing_clock.append({[&] { edits.write(folder->path() / "loops.edits"); }}, before_grid);
@@ -134,6 +136,7 @@ DrawnMap MappingSession::draw_and_write(const OutputFolder* folder) {
   summary.map.map_T_start = map_T_start;
   summary.verdict = m.verdict;
   if (m.prior) summary.prior = m.prior->fit();
+  if (summary.prior) summary.prior->is_extended = is_extended;
   summary.log.spare_scans = skipped_lines().spare_scans;
   if (folder) export_account(m.result, run_info(), summary, *grid, *folder);
   return {std::move(grid), std::move(summary)};

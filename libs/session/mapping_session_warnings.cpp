@@ -77,7 +77,9 @@ std::vector<std::string> MappingSession::assumptions() const {
 
 const std::vector<std::string>& MappingSession::faults_of_log() const {
   const WorkClock clock(m_->work_s);
-  m_->check_log();
+  std::vector<Frame> room;
+  std::vector<std::string> complaints;  // those of an export name an unreadable file
+  if (m_->is_unchecked()) m_->check_log(m_->whole_log(room, complaints));
   return m_->faults;
 }
 

@@ -73,7 +73,7 @@ std::optional<Sighting> find(FrameSource& frames, std::size_t end, Localizer& lo
     if (stop) throw SystemFailure("interrupted before a run was placed in the map. Nothing was merged");
     if (progress) progress(frames.progress());
     const TPose2D start_T_robot = way.add(*frame).local_T_robot;
-    if (!has_ranges(*frame)) continue;  // the robot stands still
+    if (!has_ranges(*frame)) continue;  // superseded, or the robot stands still
     const LocalizationStep step = localizer.add(*frame);
     if (step.search && !step.search->believed()) why_not = step.search->objection;
     if (step.state == LocalizationStep::State::kLost) {

@@ -140,7 +140,7 @@ std::optional<std::string> SessionPrior::place(const Mapper& mapper, FixedKnowle
 std::vector<std::string> SessionPrior::compare(const mrpt::maps::COccupancyGridMap2D& map) const {
   if (!fit_.is_accepted) return {};
   std::vector<std::string> sentences;
-  const bool is_extended = options_.extend && has_cells_of(file_.grid, map);
+  const bool is_extended = extends(map);
   if (options_.extend && !is_extended)
     sentences.push_back(
         options_.map +
@@ -171,6 +171,10 @@ std::vector<std::string> SessionPrior::compare(const mrpt::maps::COccupancyGridM
 
 double SessionPrior::tolerance_m() const {
   return std::max(WallChangeOptions().tolerance_m, kToleranceSigmas * options_.sigma_m);
+}
+
+bool SessionPrior::extends(const mrpt::maps::COccupancyGridMap2D& map) const {
+  return options_.extend && fit_.is_accepted && has_cells_of(file_.grid, map);
 }
 
 mrpt::maps::COccupancyGridMap2D::Ptr SessionPrior::extended(

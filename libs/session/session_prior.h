@@ -54,6 +54,9 @@ class SessionPrior {
   /// run is not aligned.
   std::vector<std::string> compare(const mrpt::maps::COccupancyGridMap2D& map) const;
 
+  /// Returns whether the exported map is the prior map, brought up to date with this map of the run.
+  bool extends(const mrpt::maps::COccupancyGridMap2D& map) const;
+
   /// Returns the prior map, brought up to date with `map` (extended_map.h); a copy of `map` if the run is not
   /// aligned, or if both maps have cells of different sizes.
   mrpt::maps::COccupancyGridMap2D::Ptr extended(const mrpt::maps::COccupancyGridMap2D& map) const;

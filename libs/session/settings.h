@@ -52,7 +52,7 @@ struct MapFrameOptions {
 struct PriorOptions {
   std::string map;                        ///< file of the prior map; empty: none
   double sigma_m = 0.05;                  ///< standard deviation of its walls
-  bool extend = false;                    ///< whether the exported map keeps the cells of the prior map
+  bool extend = false;                    ///< whether the exported map is the prior map, brought up to date
   std::optional<double> metres_per_unit;  ///< unit of a DXF drawing; empty: as the drawing states
   std::string layers;                     ///< layers of a DXF drawing with walls; empty: all
 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -96,10 +95,9 @@ std::vector<SiteRun> read_list(const fs::path& file) {
 /// Returns the number of the folder of a run; 0 for other names.
 int number_of(const fs::path& folder) {
   const std::string name = folder.filename().string();
-  const bool is_run =
-      name.size() > 4 && name[4] == '-' &&
-      std::all_of(name.begin(), name.begin() + 4, [](char c) { return c >= '0' && c <= '9'; });
-  return is_run ? std::atoi(name.c_str()) : 0;
+  const std::size_t digits = name.find_first_not_of("0123456789");
+  const bool is_run = digits != std::string::npos && digits >= 4 && digits <= 9 && name[digits] == '-';
+  return is_run ? std::stoi(name) : 0;
 }
 
 }  // namespace
@@ -116,8 +114,12 @@ SiteFolder::SiteFolder(fs::path path) : path_(std::move(path)) {
                     ", expected the folder of a site or a new one. Name another folder");
   }
   runs_ = read_list(path_ / kList);
-  const auto deleted = [&](const SiteRun& run) { return !fs::is_directory(path_ / run.folder, ignored); };
-  runs_.erase(std::find_if(runs_.begin(), runs_.end(), deleted), runs_.end());
+  const auto exists = [&](const SiteRun& run) { return fs::is_directory(path_ / run.folder, ignored); };
+  if (!runs_.empty() && std::none_of(runs_.begin(), runs_.end(), exists))
+    throw UserError((path_ / kList).string() + " lists " + std::to_string(runs_.size()) +
+                    " runs, but the folder of none of them exists. Restore the last one, or delete " + kList +
+                    " to begin the site anew");
+  while (!runs_.empty() && !exists(runs_.back())) runs_.pop_back();
 }
 
 fs::path SiteFolder::map_of(const SiteRun& run) const {
@@ -149,25 +151,26 @@ fs::path SiteFolder::folder_of_next(const std::string& name) const {
 }
 
 const SiteRun& SiteFolder::add(SiteRun run) {
+  const fs::path map = map_of(run);
   if (!runs_.empty()) {
     WallChangeOptions options;
     options.min_length_m = kLeastChange_m;
     run.changes =
-        find_wall_changes(read_map_file(map_of(runs_.back())), read_map_file(map_of(run)), {0, 0, 0}, options)
+        find_wall_changes(read_map_file(map_of(runs_.back())), read_map_file(map), {0, 0, 0}, options)
             .changes;
   }
   runs_.push_back(std::move(run));
   Json list = {{"schema", kSchema}, {"schema_version", kSchemaVersion}, {"runs", Json::array()}};
   for (const SiteRun& one : runs_) list["runs"].push_back(to_json(one));
   write_text_atomically(path_ / kList, list.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
-  // A link is replaced whole by a new one that gets its name.
+  // A link is replaced whole by a new one that gets its name. Some file systems have no links.
   const fs::path link = path_ / kNewest;
   fs::path temporary = link;
   temporary += ".new";
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  fs::create_directory_symlink(runs_.back().folder, temporary);
-  fs::rename(temporary, link);
+  fs::create_directory_symlink(runs_.back().folder, temporary, ignored);
+  fs::rename(temporary, link, ignored);
   return runs_.back();
 }
 

@@ -5,7 +5,7 @@
 //
 // Each run is aligned with the map of the run before and extends it, so the frame of the map never moves, and
 // a run costs the same whatever the history. Deleting the folders of the last runs takes the site back to the
-// runs before.
+// runs before; folders of older runs are not needed.
 #pragma once
 
 #include <cstddef>
@@ -31,10 +31,10 @@ struct SiteRun {
 class SiteFolder {
  public:
   /// Reads the folder of a site; it need not exist. Throws UserError if it is a file, is not empty and has no
-  /// site.json, or if this file is damaged.
+  /// site.json, if this file is damaged, or if none of its runs has its folder.
   explicit SiteFolder(std::filesystem::path path);
 
-  /// The runs of the site whose folders exist, in their order. Runs after one without folder are left out.
+  /// The runs of the site in their order, up to the last whose folder exists.
   const std::vector<SiteRun>& runs() const { return runs_; }
 
   /// Returns the file of the newest map; empty before the first run. Throws UserError if the newest run has
@@ -55,7 +55,7 @@ class SiteFolder {
   std::vector<SiteRun> runs_;
 };
 
-/// Returns what a run changed: "2 walls are new (3.1 m), 1 is gone (0.8 m)". Empty without changes.
+/// Returns what a run changed: "2 walls are new (3.1 m), 1 wall is gone (0.8 m)". Empty without changes.
 std::string changes_text(const std::vector<WallChange>& changes);
 
 }  // namespace psi_slam

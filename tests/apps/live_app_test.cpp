@@ -301,7 +301,8 @@ TEST_F(LiveApp, says_what_is_wrong_with_the_arguments) {
     return run.err;
   };
   EXPECT_THAT(complaint(live({})), HasSubstr("name a source: --ros2, --stdin, --tcp PORT"));
-  EXPECT_THAT(complaint({"live", "--stdin"}), HasSubstr("name the folder for the results: -o DIR"));
+  EXPECT_THAT(complaint({"live", "--stdin"}),
+              HasSubstr("name the folder for the results, or a site to continue: -o DIR or --continue SITE"));
   EXPECT_THAT(complaint(live({"--stdin", "--tcp", "5000"})), HasSubstr("name only one source"));
   EXPECT_THAT(complaint(live({"--stdin", "--bind", "0.0.0.0"})),
               HasSubstr("--bind has no effect without --tcp"));

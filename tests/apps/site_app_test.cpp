@@ -108,6 +108,20 @@ TEST_F(SiteApp, a_run_elsewhere_is_not_part_of_the_site) {
   EXPECT_EQ(site.runs()[1].folder, "0003-tuesday");
 }
 
+TEST_F(SiteApp, a_run_that_began_before_another_one_ended_is_not_part_of_the_site) {
+  ASSERT_EQ(map("monday.log", 0, {"-q"}).code, 0);
+  ASSERT_EQ(map("tuesday.log", 10, {"-q", "--save-session", path("s").string()}).code, 0);
+  // The session of Tuesday extends the map of Monday, which is no longer the newest.
+  const AppRun again = run_app({"--resume", path("s").string(), "--continue", path("site").string()});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_THAT(again.err, HasSubstr("another run has been added to the site since this one began"));
+  fs::remove_all(path("site") / "0002-tuesday");
+  const AppRun restored =
+      run_app({"--resume", path("s").string(), "--continue", path("site").string(), "-q"});
+  EXPECT_EQ(restored.code, 0) << restored.err;
+  EXPECT_EQ(SiteFolder(path("site")).runs().size(), 2U);
+}
+
 TEST_F(SiteApp, refuses_another_folder_and_other_commands) {
   write_lines(path("room.log"), room_log_lines(5));
   EXPECT_THAT(run("room.log", {"-o", path("out").string()}).err, HasSubstr("--continue contradicts -o"));

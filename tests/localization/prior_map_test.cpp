@@ -135,6 +135,46 @@ TEST(PriorMap, the_offset_of_the_file_moves_the_places) {
   EXPECT_NEAR(moved.poses[0].site_T_robot.pose.y, exact.poses[0].site_T_robot.pose.y - 0.01, 1e-9);
 }
 
+/// The map with the walls in two of five squares of 2 m moved along x and y by 0.4 m each.
+mrpt::maps::COccupancyGridMap2D with_moved_walls(const mrpt::maps::COccupancyGridMap2D& map) {
+  const auto cells_of = [&](double metres) {
+    return static_cast<int>(std::lround(metres / static_cast<double>(map.getResolution())));
+  };
+  const int square = cells_of(2);
+  const int shift = cells_of(0.4);
+  const int width = static_cast<int>(map.getSizeX());
+  const int height = static_cast<int>(map.getSizeY());
+  const auto moves = [&](int x, int y) { return (x / square * 7 + y / square * 3) % 5 < 2; };
+  mrpt::maps::COccupancyGridMap2D moved = map;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (moves(x, y) && map.getCell(x, y) < 0.4F) moved.setCell(x, y, 1);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (moves(x, y) && map.getCell(x, y) < 0.4F && x + shift < width && y + shift < height)
+        moved.setCell(x + shift, y + shift, 0);
+  return moved;
+}
+
+TEST(PriorMap, a_building_of_which_many_walls_have_moved_still_places_a_run) {
+  MappedRun run = mapped_run(kBuildingPlan, 101, 120);
+  PriorPlaces places = places_in(with_moved_walls(drawn_floor_plan(kBuildingPlan)), run);
+  EXPECT_GT(places.poses.size(), 5U) << places.objection;
+  EXPECT_LT(places.fitting, places.compared) << "otherwise the test would show nothing";
+  EXPECT_LT(mean_error_m(aligned(run, std::move(places)), run.truth), 0.1);
+}
+
+TEST(PriorMap, an_inaccurate_plan_and_a_short_run_are_no_reason_to_refuse) {
+  const auto plan = drawn_floor_plan(kBuildingPlan);
+  const MappedRun run = mapped_run(kBuildingPlan, 101, 60);
+  for (const double sigma_m : {0.3, 2.0}) {
+    PriorMapOptions options;
+    options.sigma_m = sigma_m;
+    EXPECT_THAT(places_in(plan, run, options).objection, "") << sigma_m;
+  }
+  EXPECT_THAT(places_in(plan, mapped_run(kBuildingPlan, 101, 20)).objection, "");
+}
+
 TEST(PriorMap, the_plan_of_another_building_is_refused) {
   const MappedRun run = mapped_run(kBuildingPlan, 101, 60);
   for (const std::uint64_t other : {51U, 54U}) {

@@ -67,6 +67,7 @@ TEST(ManyRounds, keep_the_scans_of_the_last_rounds_and_the_accuracy_of_all) {
       attempts += result.frames[i].loops_tried;
     return attempts;
   };
+  EXPECT_GT(attempts_of(7), 100);
   EXPECT_LE(attempts_of(kRounds - 1), attempts_of(7) * 5 / 4);
 
   double worst_m = 0;

@@ -92,9 +92,12 @@ TEST_F(ResumedSession, holds_the_scans_that_later_passes_supersede) {
   const fs::path whole = export_of(session, "whole");
   const SessionRecording recording = read_session_file(saved_);
   EXPECT_TRUE(std::all_of(recording.frames.begin(), recording.frames.end(), has_ranges));
-  MappingSession again(resumed(), settings_);
-  again.run(go_on_);
-  expect_same_results(export_of(again, "again"), whole);
+  for (const int threads : {1, 3}) {
+    settings_.run.threads = threads;
+    MappingSession again(resumed(), settings_);
+    again.run(go_on_);
+    expect_same_results(export_of(again, "again" + std::to_string(threads)), whole);
+  }
 }
 
 TEST_F(ResumedSession, gives_the_same_map_wherever_it_was_saved) {

@@ -102,7 +102,10 @@ TEST_F(SiteFolderTest, goes_back_when_folders_are_deleted) {
   EXPECT_EQ(changes_text(add(true).changes), "") << "compared with the second run, which has the wall, too";
   EXPECT_EQ(SiteFolder(path_).runs().size(), 3U);
   fs::remove_all(path_ / "0001-monday");
-  EXPECT_THAT(SiteFolder(path_).runs(), IsEmpty()) << "later runs extend the deleted one";
+  EXPECT_EQ(SiteFolder(path_).runs().size(), 3U) << "later runs do not need the first one";
+  EXPECT_EQ(SiteFolder(path_).newest_map(), path_ / "0003-monday" / "map.gridmap.gz");
+  for (const char* folder : {"0002-monday", "0003-monday"}) fs::remove_all(path_ / folder);
+  EXPECT_THAT(failure(), HasSubstr("site.json lists 3 runs, but the folder of none of them exists"));
 }
 
 TEST_F(SiteFolderTest, numbers_of_runs_that_did_not_fit_are_taken) {

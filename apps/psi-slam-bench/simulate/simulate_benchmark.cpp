@@ -81,12 +81,14 @@ TimeSummary summary_of_times(std::vector<double> values) {
 }
 
 SimulatedLogOptions simulated_run_options(const SimulateOptions& options, double path_m) {
-  SimulatedLogOptions run = simulated_log_options(path_m, options.seed);
+  const double usual_path_m = options.corridors_m > 0 ? kVisits * options.corridors_m : path_m;
+  SimulatedLogOptions run = simulated_log_options(usual_path_m, options.seed);
+  run.path.path_m = path_m;
   run.plan.glass_share = options.glass_share;
   run.scan.max_range_m = options.max_range_m;
   run.scan.noise_m = options.range_noise_m;
   run.people = static_cast<std::size_t>(
-      std::lround(std::ceil(static_cast<double>(options.people) * path_m / kPeoplePer_m)));
+      std::lround(std::ceil(static_cast<double>(options.people) * usual_path_m / kPeoplePer_m)));
   return run;
 }
 

@@ -21,7 +21,8 @@ namespace psi_slam {
 struct SimulateOptions {
   std::vector<double> path_m = {500, 1000, 2000, 5000, 10000};
   std::uint64_t seed = 1;
-  std::size_t people = 5;    ///< number of people for every 500 m of path
+  double corridors_m = 0;    ///< length of the corridors of all buildings; 0: a third of the path
+  std::size_t people = 5;    ///< number of people for every 500 m of path, or of three times corridors_m
   double glass_share = 0.1;  ///< share of glass in the front walls of rooms and in the outer walls
   double max_range_m = ScanSimulatorOptions().max_range_m;  ///< largest range of the laser
   double range_noise_m = ScanSimulatorOptions().noise_m;    ///< standard deviation of a range

@@ -17,7 +17,6 @@ constexpr double kSlowest_m_s = 0.7;
 constexpr double kFastest_m_s = 1.5;
 constexpr double kFromWall_m = 0.3;  // least gap between the wall and a person
 
-constexpr double kVisits = 3;  // length of the path divided by the least total length of the corridors
 constexpr TimeUs kStart_us = 1'000'000'000;
 
 }  // namespace

@@ -84,6 +84,9 @@ struct SimulatedLogOptions {
   std::uint64_t people_seed = 1;
 };
 
+inline constexpr double kVisits =
+    3;  ///< length of the path divided by the least total length of the corridors
+
 /// Options of a run with a path of `path_m` metres, about three times as long as the corridors of its
 /// building. All parts get the same seed.
 SimulatedLogOptions simulated_log_options(double path_m, std::uint64_t seed);

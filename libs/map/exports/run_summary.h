@@ -90,7 +90,8 @@ struct PriorFit {
   bool is_accepted = false;  ///< the map of the run is aligned with the prior map
   /// Places along the path in the space of the prior map; 0 if the run was not found there.
   std::size_t places = 0;
-  std::size_t fitting = 0;  ///< part of `places` that fit
+  std::size_t fitting = 0;   ///< part of `places` that fit
+  bool is_extended = false;  ///< the exported map is the prior map, brought up to date
 };
 
 struct RunSummary {

@@ -14,7 +14,7 @@ using mrpt::math::TBoundingBox;
 using mrpt::math::TPose2D;
 
 /// Number of last frames whose scans the mapper may still change. It straightens the last scan and discards
-/// ranges of scans up to 41 frames ago.
+/// ranges of scans up to 41 frames ago at a standstill. It also discards those of superseded scans long ago.
 constexpr std::size_t kRecentFrames = 64;
 
 /// Number of successive frames whose common bounds are computed again when one of them has moved.
@@ -89,12 +89,15 @@ void LiveGridMap::draw_moved(const std::vector<Frame>& log, const Poses& map_T_r
     if (next_check_ >= drawn_.size()) next_check_ = 0;
     Drawn& drawn = drawn_[next_check_];
     const TPose2D pose = map_T_robot(next_check_);
-    if (drawn.is_drawn && drawn.has_ranges && !has_ranges(as_drawn(next_check_, log))) {
+    const bool has_ranges_now = has_ranges(as_drawn(next_check_, log));
+    if (drawn.is_drawn && drawn.has_ranges && !has_ranges_now) {
       // The scan is superseded. It cannot be taken out of the map without its ranges.
       drawn.has_ranges = false;
-      if (++superseded_ > drawn_.size() / 2) return start_again(resolution_m_);
+      --with_ranges_;
+      if (++superseded_ > with_ranges_) return start_again(resolution_m_);
     }
-    if (!drawn.is_drawn || !is_same_place(pose, drawn.map_T_robot, options_.moved)) {
+    const bool is_wrong = !drawn.is_drawn || !is_same_place(pose, drawn.map_T_robot, options_.moved);
+    if (is_wrong && (!drawn.is_drawn || has_ranges_now)) {
       if (redrawn == options_.redrawn_scans || (redrawn > 0 && hurry && hurry())) return;
       ++redrawn;
       const Frame& frame = as_drawn(next_check_, log);
@@ -122,6 +125,7 @@ void LiveGridMap::draw(const Frame& frame, const TPose2D& map_T_robot, std::size
   bounds.may_shrink = bounds.may_shrink || touches_edge(drawn.bounds, bounds.box);
   include(found.bounds, bounds.box);
   drawn = {map_T_robot, found.bounds, has_ranges(frame), true};
+  if (drawn.has_ranges) ++with_ranges_;
   --missing_;
   ++work_;
 }
@@ -130,6 +134,7 @@ void LiveGridMap::take_out(const Frame& frame, Drawn& drawn) {
   if (!drawn.is_drawn) return;
   tiles_.remove(finder_.find(frame, drawn.map_T_robot));
   drawn.is_drawn = false;
+  if (drawn.has_ranges) --with_ranges_;
   ++missing_;
   ++work_;
 }
@@ -147,6 +152,7 @@ void LiveGridMap::start_again(double resolution_m) {
   tiles_ = GridTiles();
   for (Drawn& drawn : drawn_) drawn.is_drawn = false;
   missing_ = drawn_.size();
+  with_ranges_ = 0;
   superseded_ = 0;
   next_check_ = 0;
   unmoved_ = 0;

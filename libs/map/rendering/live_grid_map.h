@@ -46,8 +46,9 @@ class LiveGridMap {
   /// Draws the frames that `log` has more than at the last call. Then compares the poses of earlier frames in
   /// turn, from where the last call ended, and draws those again that have moved: one of them at least, and
   /// no more once `hurry` is true. The mapper may change or discard the ranges of the last frames between the
-  /// calls. Earlier frames that lose their ranges stay in the map until they are half of all frames; then the
-  /// map is drawn anew, without them. Throws as draw_grid_map() does.
+  /// calls. Earlier frames that lose their ranges stay in the map, where they were drawn last, until they
+  /// outnumber the frames with ranges; then the map is drawn anew, without them. Throws as draw_grid_map()
+  /// does.
   void update(const std::vector<Frame>& log, const Poses& map_T_robot, const Hurry& hurry = {});
 
   /// Whether all frames of the last call were drawn close to their poses in that and earlier calls.
@@ -85,12 +86,13 @@ class LiveGridMap {
   LiveGridOptions options_;
   FrameCellFinder finder_;
   GridTiles tiles_;
-  std::vector<Drawn> drawn_;    ///< one entry for each frame
-  std::deque<Frame> recent_;    ///< copies of the last frames, as they were drawn
-  std::size_t next_check_ = 0;  ///< frame whose pose is compared next
-  std::size_t unmoved_ = 0;     ///< number of frames in succession that had not moved
-  std::size_t missing_ = 0;     ///< number of frames that are not drawn
-  std::size_t superseded_ = 0;  ///< number of drawn frames that have lost their ranges since
+  std::vector<Drawn> drawn_;     ///< one entry for each frame
+  std::deque<Frame> recent_;     ///< copies of the last frames, as they were drawn
+  std::size_t next_check_ = 0;   ///< frame whose pose is compared next
+  std::size_t unmoved_ = 0;      ///< number of frames in succession that had not moved
+  std::size_t missing_ = 0;      ///< number of frames that are not drawn
+  std::size_t with_ranges_ = 0;  ///< number of drawn frames that have ranges
+  std::size_t superseded_ = 0;   ///< number of drawn frames that have lost their ranges since
   std::size_t work_ = 0;
   double resolution_m_;
   /// Bounds of some successive frames, so that a frame that moves costs the same in every map.

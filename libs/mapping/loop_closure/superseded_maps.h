@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps the work and the memory of mapping in proportion to the building, however often the robot drives
-// through it: decides which local maps later passes supersede.
+// Decides which local maps later passes of the robot supersede, so that loops are matched, scans kept and the
+// map drawn in proportion to the building, however often the robot drives through it. Poses, constraints and
+// records of loops stay and grow with the path.
 //
-// With k passes through a place that loops tie to each other, a match with one more of them adds about
-// ln(1 + 1/k) / 2 nats to what is known of each coordinate of the robot's pose: 0.35 for the second pass, but
-// 0.11 for the fifth. The same passes show a building that changes as it is now. So local maps that were
-// passed kLaterPasses times since are not matched, and their scans not kept.
+// Let k passes through a place be tied to each other by loops, each with the same error. One more pass lowers
+// the variance of the place from 1/k to 1/(k + 1) of that of one pass. The gain of information is
+// ln(1 + 1/k) / 2 for each coordinate: 0.35 nats for the second pass, but 0.11 for the fifth. So four later
+// passes supersede a scan. They also show the place as it is now.
 #pragma once
 
 #include <cstddef>

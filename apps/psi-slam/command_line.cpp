@@ -23,8 +23,10 @@ namespace {
 
 constexpr const char* kFolderHelp = "Folder for the results, new or empty";
 constexpr const char* kSiteHelp =
-    "Continue the site in this folder, or begin it: align the run with its newest map, bring that map up to "
-    "date, and write the results into a new folder in it";
+    "Folder of a site: a building that is mapped again and again. Begins the site if the folder is new or "
+    "empty. Otherwise aligns the run with the newest map in it and brings that map up to date. The results "
+    "go "
+    "into a new folder inside. Instead of -o";
 constexpr const char* kExamples =
     "\nExamples:\n"
     "  psi-slam check my.log                    show what a log holds and what is wrong with it\n"
@@ -334,7 +336,8 @@ void check_together(const CommandLine& line, const std::string& log_to_map, cons
          "--markdown prints all options: leave out WORD, --common and --json");
   refuse(line.diff.aligned && !line.start.empty(), "--aligned contradicts --start: give only one of them");
   if (merges) require(line.inputs.size() >= 2, "name the runs: psi-slam merge FIRST SECOND -o DIR");
-  refuse(!maps && !is_live && !line.site.empty(), "--continue is only for mapping");
+  refuse(!maps && !is_live && !line.site.empty(),
+         "--continue is only for mapping one log and for live. Leave it out");
   refuse(!line.site.empty() && !line.output.empty(),
          "--continue contradicts -o: the results go into the folder of the site. Leave -o out");
   if (merges) require(!line.output.empty(), "name the folder for the results: -o DIR");

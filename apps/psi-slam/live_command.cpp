@@ -2,6 +2,7 @@
 #include <memory>
 #include <ostream>
 
+#include "base/exit_code.h"
 #include "base/scope_exit.h"
 #include "commands.h"
 #include "files_to_write.h"
@@ -175,7 +176,8 @@ int map_live(const CommandLine& given, const Streams& streams) {
     if (!code) continue;
     line.map = (folder->path() / "map.yaml").string();
     line.output.clear();
-    return localize_live(line, source, bound.settings, last_pose, streams);
+    const int localized = localize_live(line, source, bound.settings, last_pose, streams);
+    return *code == kExitDone ? localized : *code;
   }
 }
 

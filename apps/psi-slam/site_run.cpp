@@ -13,11 +13,11 @@
 namespace psi_slam {
 namespace {
 
-/// Returns whether the prior map of the run, which may be empty, is the newest map of the site.
+/// Returns whether the prior map of the run is the newest map of the site. A site may begin with any run.
 bool continues_newest(const SiteFolder& site, const std::string& prior_map) {
   const auto newest = site.newest_map();
   std::error_code ignored;
-  return newest ? std::filesystem::equivalent(*newest, prior_map, ignored) : prior_map.empty();
+  return !newest || std::filesystem::equivalent(*newest, prior_map, ignored);
 }
 
 /// Returns why a run is not part of its site, as a clause; empty if it is.
@@ -25,11 +25,15 @@ std::string objection(const SiteFolder& site, const MappingSession& session, con
   if (session.result().interrupted) return "it was interrupted";
   if (summary.verdict && summary.verdict->state == MapState::kBroken) return "its own map is broken";
   if (!continues_newest(site, session.run_info().settings.at("prior.map")))
-    return "another run has been added to the site since this one began";
+    return "its prior.map is not the newest map of the site: another run has been added since this one "
+           "began, "
+           "or its session was recorded without the site";
   if (site.runs().empty()) return "";
   if (!summary.prior || !summary.prior->is_accepted)
     return "it could not be aligned with the newest map of the site";
-  if (!summary.prior->is_extended) return "the map exceeds map.max_cells, so it has larger cells";
+  if (!summary.prior->is_extended)
+    return "the newest map could not be extended: the map exceeds map.max_cells and has larger cells, or the "
+           "session says prior.extend=false";
   return "";
 }
 
@@ -53,7 +57,9 @@ bool add_to_site(const CommandLine& line, const MappingSession& session, const R
   if (!why.empty()) {
     streams.err << "psi-slam: this run is not part of the site " << line.site << ", because " << why
                 << ". Its results are in " << folder.path().string()
-                << ". Map it again with --continue, or go on with the next run\n";
+                << ". Map its log, or trajectory.carmen in that folder, again with --continue, or continue "
+                   "with the next "
+                   "run\n";
     return false;
   }
   SiteRun run;

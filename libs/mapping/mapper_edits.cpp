@@ -53,9 +53,11 @@ LoopEditOutcome Mapper::Implementation::judge(const LoopEdit& edit,
   if (*node >= local_map.first_node && *node <= local_map.last_node)
     return {State::kImpossible, scan + " is part of " + map};
   if (edit.kind == LoopEdit::Kind::kMatch && (local_map.is_superseded || is_superseded(*node)))
-    return {State::kImpossible, (local_map.is_superseded ? map : scan) +
-                                    " is superseded: the robot passed there " + std::to_string(kLaterPasses) +
-                                    " times later. Match with a newer scan and local map"};
+    return {State::kImpossible,
+            (local_map.is_superseded ? map : scan) + " is superseded: the robot passed its place at least " +
+                std::to_string(kLaterPasses) +
+                " times later, so its scans are not kept. Match a newer scan with a newer "
+                "local map"};
   return {};
 }
 

@@ -77,8 +77,9 @@ std::vector<SiteRun> read_list(const fs::path& file) {
   try {
     const Json json = Json::parse(file_bytes(file));
     if (json.at("schema") != kSchema || json.at("schema_version") != kSchemaVersion)
-      throw UserError(file.string() + " is a list of another program or version, expected \"" + kSchema +
-                      "\" of version " + std::to_string(kSchemaVersion) + ". Name another folder");
+      throw UserError(file.string() + " was written by another program or version, expected \"" + kSchema +
+                      "\" of version " + std::to_string(kSchemaVersion) +
+                      ". Use that version of psi-slam, or name another folder");
     std::vector<SiteRun> runs;
     for (const Json& run : json.at("runs")) runs.push_back(run_of(run));
     return runs;
@@ -119,6 +120,7 @@ SiteFolder::SiteFolder(fs::path path) : path_(std::move(path)) {
     throw UserError((path_ / kList).string() + " lists " + std::to_string(runs_.size()) +
                     " runs, but the folder of none of them exists. Restore the last one, or delete " + kList +
                     " to begin the site anew");
+  for (const SiteRun& run : runs_) last_listed_ = std::max(last_listed_, number_of(run.folder));
   while (!runs_.empty() && !exists(runs_.back())) runs_.pop_back();
 }
 
@@ -126,10 +128,9 @@ fs::path SiteFolder::map_of(const SiteRun& run) const {
   std::error_code ignored;
   for (const char* file : {"map.gridmap.gz", "map.yaml"})
     if (fs::exists(path_ / run.folder / file, ignored)) return path_ / run.folder / file;
-  throw UserError(
-      (path_ / run.folder).string() +
-      ": this run of the site has no map, expected map.gridmap.gz or map.yaml. Restore it, or delete "
-      "the folder to go back to the run before");
+  throw UserError((path_ / run.folder).string() +
+                  ": this run of the site has no map, expected map.gridmap.gz or map.yaml. Map it with "
+                  "map.write_mrpt=true, restore the file, or delete the folder to go back to the run before");
 }
 
 std::optional<fs::path> SiteFolder::newest_map() const {
@@ -138,8 +139,8 @@ std::optional<fs::path> SiteFolder::newest_map() const {
 }
 
 fs::path SiteFolder::folder_of_next(const std::string& name) const {
-  // Runs that did not fit the site have numbers, too.
-  int last = 0;
+  // The numbers of deleted runs, and of runs that did not fit the site, are not used again.
+  int last = last_listed_;
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(path_, ignored))
     last = std::max(last, number_of(entry.path()));

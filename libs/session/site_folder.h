@@ -5,7 +5,7 @@
 //
 // Each run is aligned with the map of the run before and extends it, so the frame of the map never moves, and
 // a run costs the same whatever the history. Deleting the folders of the last runs takes the site back to the
-// runs before; folders of older runs are not needed.
+// runs before; folders of older runs are not needed. The link is set again when the next run is added.
 #pragma once
 
 #include <cstddef>
@@ -53,6 +53,7 @@ class SiteFolder {
 
   std::filesystem::path path_;
   std::vector<SiteRun> runs_;
+  int last_listed_ = 0;  ///< largest number of a listed run, whether or not its folder exists
 };
 
 /// Returns what a run changed: "2 walls are new (3.1 m), 1 wall is gone (0.8 m)". Empty without changes.

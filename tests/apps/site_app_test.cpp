@@ -114,7 +114,7 @@ TEST_F(SiteApp, a_run_that_began_before_another_one_ended_is_not_part_of_the_sit
   // The session of Tuesday extends the map of Monday, which is no longer the newest.
   const AppRun again = run_app({"--resume", path("s").string(), "--continue", path("site").string()});
   EXPECT_EQ(again.code, 2);
-  EXPECT_THAT(again.err, HasSubstr("another run has been added to the site since this one began"));
+  EXPECT_THAT(again.err, HasSubstr("another run has been added since this one began"));
   fs::remove_all(path("site") / "0002-tuesday");
   const AppRun restored =
       run_app({"--resume", path("s").string(), "--continue", path("site").string(), "-q"});

@@ -23,7 +23,7 @@ inline constexpr std::size_t kLaterPasses = 4;
 /// Returns the local maps, in ascending order, of which every scan is superseded: at least kLaterPasses later
 /// passes of the robot have a node at the same place, which is at most one metre of distance and turn away,
 /// see travel_and_turn_m(). A pass is later if the robot travelled at least `min_travel_m` before it
-/// returned. Only nodes in local maps that an accepted loop ties to an earlier pass count. Never superseded
+/// returned. Only nodes in other local maps that an accepted loop ties to an earlier pass count. Never superseded
 /// are local maps of runs whose place is unknown, and those with the root of the graph, which is the frame of
 /// the map.
 std::vector<std::size_t> superseded_maps(const KeyframeStore& keyframes, const PoseGraph& graph,

@@ -68,8 +68,8 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   /// robot is searched near `x0`, within 1 m and 15 degrees, or in the whole initial map if `x0` is null.
   /// Until it is found there, poses begin at the current estimate. While mapping, the robot's pose follows
   /// the initial map, and grids show the run alone. After finish(), grids show the initial map, brought up to
-  /// date: walls that the run sees to be gone are removed, and new ones are added. If the run does not fit the
-  /// initial map, finish() logs a warning, and the map contains the run alone. Throws UserError if
+  /// date: walls that the run sees to be gone are removed, and new ones are added. If the run does not fit
+  /// the initial map, finish() logs a warning, and the map contains the run alone. Throws UserError if
   /// `initial_map` has frames but no 2D range scan with returns.
   void initialize(const mrpt::maps::CSimpleMap& initial_map = {},
                   const mrpt::poses::CPosePDF* x0 = nullptr) override;

@@ -25,8 +25,7 @@ constexpr const char* kFolderHelp = "Folder for the results, new or empty";
 constexpr const char* kSiteHelp =
     "Folder of a site: a building that is mapped again and again. Begins the site if the folder is new or "
     "empty. Otherwise aligns the run with the newest map in it and brings that map up to date. The results "
-    "go "
-    "into a new folder inside. Instead of -o";
+    "go into a new folder inside. Instead of -o";
 constexpr const char* kExamples =
     "\nExamples:\n"
     "  psi-slam check my.log                    show what a log holds and what is wrong with it\n"

@@ -21,13 +21,13 @@ bool continues_newest(const SiteFolder& site, const std::string& prior_map) {
 }
 
 /// Returns why a run is not part of its site, as a clause; empty if it is.
-std::string objection(const SiteFolder& site, const MappingSession& session, const RunSummary& summary) {
+std::string objection(const SiteFolder& site, const MappingSession& session, const RunInfo& info,
+                      const RunSummary& summary) {
   if (session.result().interrupted) return "it was interrupted";
   if (summary.verdict && summary.verdict->state == MapState::kBroken) return "its own map is broken";
-  if (!continues_newest(site, session.run_info().settings.at("prior.map")))
+  if (!continues_newest(site, info.settings.at("prior.map")))
     return "its prior.map is not the newest map of the site: another run has been added since this one "
-           "began, "
-           "or its session was recorded without the site";
+           "began, or its session was recorded without the site";
   if (site.runs().empty()) return "";
   if (!summary.prior || !summary.prior->is_accepted)
     return "it could not be aligned with the newest map of the site";
@@ -53,18 +53,18 @@ bool add_to_site(const CommandLine& line, const MappingSession& session, const R
                  const OutputFolder& folder, const Streams& streams) {
   if (line.site.empty()) return true;
   SiteFolder site(line.site);
-  const std::string why = objection(site, session, summary);
+  const RunInfo info = session.run_info();
+  const std::string why = objection(site, session, info, summary);
   if (!why.empty()) {
     streams.err << "psi-slam: this run is not part of the site " << line.site << ", because " << why
                 << ". Its results are in " << folder.path().string()
                 << ". Map its log, or trajectory.carmen in that folder, again with --continue, or continue "
-                   "with the next "
-                   "run\n";
+                   "with the next run\n";
     return false;
   }
   SiteRun run;
   run.folder = folder.path().filename().string();
-  run.log = session.run_info().log_name;
+  run.log = info.log_name;
   run.first_time_us = summary.log.first_time_us;
   run.path_length_m = summary.path_length_m;
   const SiteRun& added = site.add(std::move(run));

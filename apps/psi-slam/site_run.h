@@ -12,8 +12,8 @@
 namespace psi_slam {
 
 /// Chooses the folder for the results and the prior map of a run with --continue, in place of settings of the
-/// user. A resumed session keeps its own prior map. Does nothing without --continue.
-/// `name` is that of the log without extension. Throws UserError if the site is damaged.
+/// user. A resumed session keeps its own prior map. Does nothing without --continue. `name` is that of the
+/// log without extension. Throws UserError if the site is damaged.
 void continue_site(CommandLine& line, const std::string& name);
 
 /// Adds a run with --continue to its site, and prints what it changed. Returns false and prints why if the

@@ -15,6 +15,9 @@
 namespace psi_slam {
 namespace {
 
+// Frames of a robot that stands still, of which most have no ranges. Superseded scans have none either.
+constexpr PoseTolerance kStandstill{0.05, 0.05};
+
 constexpr const char* kMaps = "main";
 constexpr const char* kAboveMaps = "above maps";
 constexpr const char* kLines = "lines";
@@ -211,9 +214,6 @@ bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
     });
   return maps_changed || covariances_changed || verdict_changed || loops_changed || chosen_changed;
 }
-
-// Frames of a robot that stands still, of which most have no ranges. Superseded scans have none either.
-constexpr PoseTolerance kStandstill{0.05, 0.05};
 
 void MapScene::show_robot(const ReplaySnapshot& snapshot, std::optional<std::size_t> frame) {
   for (const MapLayer layer : {MapLayer::kScan, MapLayer::kRobot, MapLayer::kWindows}) of(layer).clear();

@@ -22,10 +22,6 @@ constexpr std::size_t kBatch = 64;
 // When the nearest nodes are chosen, a turn by this angle counts like a distance of one metre.
 constexpr double kRadiansPerMetre = 1.0;
 
-mrpt::math::TPoint2Df position(const TPose2D& pose) {
-  return {static_cast<float>(pose.x), static_cast<float>(pose.y)};
-}
-
 PointGrid positions(const std::vector<TPose2D>& poses, double cell_m) {
   std::vector<mrpt::math::TPoint2Df> points;
   for (const TPose2D& pose : poses) points.push_back(position(pose));

@@ -6,12 +6,18 @@
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
+#include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace psi_slam {
+
+/// Position of a pose, as a point of a grid.
+inline mrpt::math::TPoint2Df position(const mrpt::math::TPose2D& pose) {
+  return {static_cast<float>(pose.x), static_cast<float>(pose.y)};
+}
 
 /// Points of the plane in cells, metres. Searches are thread-safe.
 class PointGrid {

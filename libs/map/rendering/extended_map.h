@@ -12,7 +12,7 @@
 // - Beside vanished cells, half the tolerance suffices, so that an opened door leaves no stubs at its jambs.
 //   The other half is for errors: an object that was drawn beside a wall leaves nothing when it is taken
 //   away.
-// - A wall of the run that goes on in space that the prior map does not show is drawn without a gap.
+// - A wall of the run that continues into space that the prior map does not show is drawn without a gap.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapping/loop_closure/superseded_maps.h"
 
-#include <mrpt/math/TPoint2D.h>
-
 #include <algorithm>
 #include <cstdint>
 
@@ -12,10 +10,6 @@ namespace psi_slam {
 namespace {
 
 constexpr double kSamePlace_m = 1.0;
-
-mrpt::math::TPoint2Df position(const mrpt::math::TPose2D& pose) {
-  return {static_cast<float>(pose.x), static_cast<float>(pose.y)};
-}
 
 /// Nodes of the passes that loops tie to earlier passes.
 class TiedPasses {
